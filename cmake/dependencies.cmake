@@ -1,0 +1,27 @@
+# Everything comes from Debian 12 packages; packages.txt lists them.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(OpenSSL REQUIRED)
+find_package(absl REQUIRED CONFIG)
+find_package(spdlog REQUIRED CONFIG)
+find_package(CLI11 REQUIRED CONFIG)
+find_package(tomlplusplus REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED CONFIG)
+find_package(Eigen3 REQUIRED CONFIG)
+find_package(TBB REQUIRED CONFIG)
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+
+# The serial C library and its high-level part (dimension scales).
+set(HDF5_PREFER_PARALLEL OFF)
+find_package(HDF5 REQUIRED COMPONENTS C HL)
+
+# FFTW has no CMake configuration file in Debian.
+pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
+
+# gRPC's configuration file finds Protobuf by module mode, Protobuf's own does not work.
+find_package(Protobuf REQUIRED MODULE)
+find_package(gRPC REQUIRED CONFIG)
+
+if(ALBTPU_BUILD_TESTS)
+  find_package(GTest REQUIRED CONFIG)
+endif()

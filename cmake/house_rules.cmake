@@ -1,0 +1,20 @@
+# What all of our own code is compiled with: albtpu_target(NAME) is called once for each target.
+function(albtpu_target target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  if(ALBTPU_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${ALBTPU_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${ALBTPU_SANITIZE})
+  endif()
+endfunction()
+
+# A GoogleTest program of one source file or more, registered with CTest under one label.
+#   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
+function(albtpu_test name label)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  albtpu_target(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
+  include(GoogleTest)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_TIMEOUT 60)
+endfunction()
