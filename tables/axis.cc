@@ -1,0 +1,98 @@
+#include "tables/axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kLargestAzimuth = 90;  // degree; all others fold below it.
+
+double Scaled(double coordinate, Scale scale) {
+  return scale == Scale::kLog ? std::log(coordinate) : coordinate;
+}
+
+// "12 m", "3 m s-1": a coordinate as a message prints it; nine digits tell any two floats apart.
+std::string WithUnits(double value, const AxisSchema& schema) {
+  return absl::StrFormat("%.9g %s", value, std::string(schema.units));
+}
+
+// Why the node at `index` may not stand on the axis; empty if it may.
+std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, std::size_t index) {
+  const AxisSchema& schema = Describe(id);
+  const double node = nodes[index];
+  if (!std::isfinite(node)) return absl::StrCat(WithUnits(node, schema), ": nodes must be finite");
+  if (static_cast<double>(static_cast<float>(node)) != node) {
+    return absl::StrFormat("%.17g %s, not representable in single precision: the nearest node is %.17g", node,
+                           std::string(schema.units), static_cast<float>(node));
+  }
+  if (node < 0) return absl::StrCat(WithUnits(node, schema), ": nodes must not be negative");
+  if (scale == Scale::kLog && node == 0) {
+    return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
+  }
+  if (id == AxisId::kAzimuth && node > kLargestAzimuth) {
+    return absl::StrCat(WithUnits(node, schema), ": azimuths are folded into 0 to 90 degree");
+  }
+  if (index > 0 && !(node > nodes[index - 1])) {
+    return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
+                           index - 1, WithUnits(nodes[index - 1], schema));
+  }
+  return "";
+}
+
+}  // namespace
+
+absl::StatusOr<Axis> Axis::Create(AxisId id, std::vector<double> nodes) {
+  return Create(id, std::move(nodes), Describe(id).scale);
+}
+
+absl::StatusOr<Axis> Axis::Create(AxisId id, std::vector<double> nodes, Scale scale) {
+  const std::string name(Describe(id).name);
+  if (nodes.empty()) {
+    return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has no nodes: it needs at least one", name));
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::string problem = Problem(id, scale, nodes, i);
+    if (!problem.empty()) {
+      return absl::InvalidArgumentError(absl::StrFormat("axis '%s' node %d is %s", name, i, problem));
+    }
+  }
+  return Axis(id, std::move(nodes), scale);
+}
+
+Axis::Axis(AxisId id, std::vector<double> nodes, Scale scale)
+    : id_(id), scale_(scale), nodes_(std::move(nodes)) {
+  scaled_nodes_.reserve(nodes_.size());
+  for (double node : nodes_) scaled_nodes_.push_back(Scaled(node, scale_));
+}
+
+std::optional<Bracket> Axis::Locate(double coordinate) const {
+  if (id_ == AxisId::kAzimuth) coordinate = FoldAzimuth(coordinate);
+  if (id_ == AxisId::kFetch) {
+    if (size() == 1 && coordinate > 0) return Bracket{};
+    coordinate = std::min(coordinate, nodes_.back());
+  }
+  // Written so that a NaN fails it.
+  if (!(coordinate >= nodes_.front() && coordinate <= nodes_.back())) return std::nullopt;
+  if (size() == 1) return Bracket{};
+
+  const auto above = std::upper_bound(nodes_.begin(), nodes_.end(), coordinate);
+  if (above == nodes_.end()) return Bracket{size() - 2, 1.0};
+  const auto lower = static_cast<std::size_t>(std::distance(nodes_.begin(), above)) - 1;
+  const double from = scaled_nodes_[lower], to = scaled_nodes_[lower + 1];
+  return Bracket{lower, (Scaled(coordinate, scale_) - from) / (to - from)};
+}
+
+double FoldAzimuth(double azimuth) {
+  const double half_turn = std::fmod(std::abs(azimuth), 180.0);
+  return std::min(half_turn, 180.0 - half_turn);
+}
+
+}  // namespace albtpu

@@ -1,0 +1,91 @@
+#include "tables/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace albtpu {
+namespace {
+
+constexpr double kOutside = 0.05;  // What a 95 % interval or radius leaves out.
+
+// The 97.5 % quantile of the standard normal distribution, over 2: from 2 sigma to 95 % in one dimension.
+constexpr double kFactor95 = 1.959963984540054 / 2;
+
+// The probability that a centred normal point with standard deviations 1 and `axis_ratio` lies farther out
+// than `radius`, and its derivative by the radius. With x = rho cos t, y = axis_ratio rho sin t the point has
+// a Rayleigh distributed rho and a uniform t, so the probability is the mean over t of exp(-radius^2 / (2
+// w)), w = cos^2 t + axis_ratio^2 sin^2 t. The integrand is smooth and periodic: equal steps converge
+// exponentially.
+struct Tail {
+  double probability;
+  double slope;
+};
+
+Tail TailBeyond(double radius, double axis_ratio) {
+  constexpr int kSteps = 64;  // Over a quarter turn, at midpoints: w is never 0.
+  Tail tail{0, 0};
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = (i + 0.5) * std::numbers::pi / (2 * kSteps);
+    const double w = std::pow(std::cos(t), 2) + std::pow(axis_ratio * std::sin(t), 2);
+    const double p = std::exp(-radius * radius / (2 * w));
+    tail.probability += p / kSteps;
+    tail.slope -= p * radius / w / kSteps;
+  }
+  return tail;
+}
+
+double SolveRadiusFactor95(double axis_ratio) {
+  double radius = 2;
+  for (int i = 0; i < 8; ++i) {  // Newton; from 2, four steps reach 1e-12 for every axis ratio.
+    const Tail tail = TailBeyond(radius, axis_ratio);
+    radius -= (tail.probability - kOutside) / tail.slope;
+  }
+  return radius / (2 * std::hypot(1.0, axis_ratio));
+}
+
+// The factor at equal steps of the axis ratio. Its second derivative stays below 0.7, so that lines between
+// the nodes err by less than 0.7 / 8 / kIntervals^2 = 9e-8.
+constexpr int kIntervals = 1024;
+using RadiusFactors = std::array<double, kIntervals + 1>;
+
+const RadiusFactors& PrecomputedRadiusFactors() {
+  static const RadiusFactors factors = [] {
+    RadiusFactors f;
+    for (int i = 0; i <= kIntervals; ++i) f[i] = SolveRadiusFactor95(static_cast<double>(i) / kIntervals);
+    return f;
+  }();
+  return factors;
+}
+
+double AxisRatio(double a, double b) {
+  const double larger = std::max(a, b);
+  return larger > 0 ? std::min(a, b) / larger : 0;
+}
+
+}  // namespace
+
+double RadiusFactor95(double axis_ratio) {
+  const RadiusFactors& factors = PrecomputedRadiusFactors();
+  const double position = std::clamp(axis_ratio, 0.0, 1.0) * kIntervals;
+  const int lower = std::min(static_cast<int>(position), kIntervals - 1);
+  return std::lerp(factors[lower], factors[lower + 1], position - lower);
+}
+
+PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage) {
+  if (coverage == Coverage::kTwoSigma || uncertainty.outcome != Outcome::kInterpolated) return uncertainty;
+  const double thu_factor = RadiusFactor95(
+      AxisRatio(uncertainty[Quantity::kRefractionAlongWind], uncertainty[Quantity::kRefractionCrossWind]));
+  for (Quantity quantity : kQuantities) {
+    if (Describe(quantity).is_bias) continue;
+    const double factor = quantity == Quantity::kThu ? thu_factor : kFactor95;
+    float& value = uncertainty.values[Index(quantity)];
+    float& standard_error = uncertainty.standard_errors[Index(quantity)];
+    value = static_cast<float>(value * factor);
+    standard_error = static_cast<float>(standard_error * factor);
+  }
+  return uncertainty;
+}
+
+}  // namespace albtpu

@@ -1,0 +1,45 @@
+// The names and limits of the written form; the code twin of FORMAT.md, which specifies them. The user block
+// before them is in seal.h; the names of axes and variables are in schema.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace albtpu::format {
+
+// Attributes of the file that we write from the members of a table; no other attribute may take their names.
+inline constexpr std::string_view kConventions = "Conventions";
+inline constexpr std::string_view kId = "id";
+inline constexpr std::string_view kVersion = "version";
+inline constexpr std::string_view kTitle = "title";
+inline constexpr std::string_view kCampaign = "campaign";
+inline constexpr std::string_view kContentDigest = "content_digest";
+inline constexpr std::string_view kCoverage = "coverage";
+inline constexpr std::array<std::string_view, 7> kReservedAttributes = {
+    kConventions, kId, kVersion, kTitle, kCampaign, kContentDigest, kCoverage};
+
+inline constexpr std::string_view kConventionsValue = "CF-1.10";
+inline constexpr std::string_view kCoverageValue = "2 sigma";
+
+// Attributes of datasets.
+inline constexpr std::string_view kUnits = "units";
+inline constexpr std::string_view kLongName = "long_name";
+inline constexpr std::string_view kInterpolation = "interpolation";
+inline constexpr std::string_view kAncillaryVariables = "ancillary_variables";
+inline constexpr std::string_view kFillValue = "_FillValue";
+
+// The most nodes of an axis, and the most values of a variable (1 GiB): a wrong file cannot ask for any
+// amount of memory.
+inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
+inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
+
+// A chunk holds at most this many values (256 KiB).
+inline constexpr std::size_t kMaxChunkValues = std::size_t{1} << 16;
+
+inline constexpr unsigned kDeflateLevel = 6;
+
+// The first bytes of what the content digest is taken over.
+inline constexpr std::string_view kContentDigestPrefix = "albtpu table content 1\n";
+
+}  // namespace albtpu::format

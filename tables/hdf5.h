@@ -1,0 +1,61 @@
+// What we need around the C library of HDF5: one caller at a time, silence, and handles that close
+// themselves.
+#pragma once
+
+#include <hdf5.h>
+
+#include <mutex>
+#include <utility>
+
+#include "absl/strings/string_view.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu::hdf5 {
+
+// While one lives, no other thread of the process is in HDF5 through us, and HDF5 prints nothing to standard
+// error.
+class Session {
+ public:
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t printer_ = nullptr;
+  void* printer_data_ = nullptr;
+};
+
+// An HDF5 object with the function that closes it. What failed to open is false, and HDF5 refuses it wherever
+// it is used, so that a sequence of calls may be checked at its end.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+
+  explicit operator bool() const { return id_ >= 0; }
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it is one, to the C library.
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+// Writes an attribute: text as a fixed-length UTF-8 string, numbers as 64 bits, a vector as one dimension;
+// what is empty as a null dataspace, as netCDF does. False if HDF5 refuses.
+bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value);
+
+// An attribute by its name, or the `index`th in the order of names. Text may be of fixed or variable length,
+// numbers of any size. NotFound: there is none of that name. InvalidArgument: it is of a kind that
+// AttributeValue does not have.
+absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& name);
+
+// The names of all attributes of an object, sorted; fails only if HDF5 cannot read them.
+absl::StatusOr<std::vector<std::string>> AttributeNames(hid_t object);
+
+}  // namespace albtpu::hdf5
