@@ -1,0 +1,33 @@
+#include "service/client/exit_status.h"
+
+#include <cstdio>
+#include <string>
+
+#include "absl/strings/cord.h"
+
+namespace albtpu::client {
+namespace {
+
+constexpr char kUsagePayload[] = "albtpu/usage";
+
+}  // namespace
+
+absl::Status UsageError(std::string_view message) {
+  absl::Status status = absl::InvalidArgumentError(absl::string_view(message.data(), message.size()));
+  status.SetPayload(kUsagePayload, absl::Cord());
+  return status;
+}
+
+bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsagePayload).has_value(); }
+
+int Report(const absl::Status& status) {
+  if (status.ok()) return 0;
+  Note(std::string(status.message()));
+  return IsUsageError(status) ? kExitUsage : kExitFailure;
+}
+
+void Note(std::string_view message) {
+  std::fprintf(stderr, "albtpu-query: %.*s\n", static_cast<int>(message.size()), message.data());
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,23 @@
+// From a status to what the shell sees: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.
+#pragma once
+
+#include <string_view>
+
+#include "absl/status/status.h"
+
+namespace albtpu::client {
+
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+
+// An InvalidArgument that the caller of the program made with its flags, not a file or a server.
+absl::Status UsageError(std::string_view message);
+bool IsUsageError(const absl::Status& status);
+
+// Prints `albtpu-query: message` on standard error unless the status is OK; returns the exit code.
+int Report(const absl::Status& status);
+
+// `albtpu-query: message` on standard error.
+void Note(std::string_view message);
+
+}  // namespace albtpu::client

@@ -1,0 +1,64 @@
+// The public header block of LAS 1.2 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the layout of
+// its points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+
+namespace albtpu::client {
+
+// Offsets of the fields in the header, in bytes.
+namespace las_field {
+inline constexpr std::size_t kGlobalEncoding = 6;           // u16
+inline constexpr std::size_t kVersionMajor = 24;            // u8
+inline constexpr std::size_t kVersionMinor = 25;            // u8
+inline constexpr std::size_t kHeaderSize = 94;              // u16
+inline constexpr std::size_t kOffsetToPoints = 96;          // u32
+inline constexpr std::size_t kVlrCount = 100;               // u32
+inline constexpr std::size_t kPointFormat = 104;            // u8
+inline constexpr std::size_t kRecordLength = 105;           // u16
+inline constexpr std::size_t kLegacyPointCount = 107;       // u32
+inline constexpr std::size_t kScaleZ = 147;                 // f64
+inline constexpr std::size_t kOffsetZ = 171;                // f64
+inline constexpr std::size_t kStartOfWaveformPacket = 227;  // u64, from 1.3
+inline constexpr std::size_t kStartOfEvlrs = 235;           // u64, from 1.4
+inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
+inline constexpr std::size_t kPointCount = 247;             // u64, from 1.4
+}  // namespace las_field
+
+inline constexpr std::size_t kLargestLasHeader = 375;  // Of 1.4; 227 of 1.2, 235 of 1.3.
+inline constexpr int kLargestPointFormat = 10;
+
+struct LasHeader {
+  int version_minor = 4;
+  std::uint16_t header_size = 0;  // May be larger than the version asks; what is behind is kept.
+  std::uint32_t offset_to_points = 0;
+  std::uint32_t vlr_count = 0;
+  int point_format = 0;
+  std::uint16_t record_length = 0;
+  std::uint64_t point_count = 0;
+  double scale_z = 0;
+  double offset_z = 0;
+  std::uint64_t start_of_waveform_packet = 0;  // 0: none inside this file.
+  std::uint64_t start_of_evlrs = 0;            // 0: none.
+  std::uint32_t evlr_count = 0;
+
+  std::size_t extra_bytes() const;  // Of a record, behind the fields of its format.
+  std::uint64_t end_of_points() const { return offset_to_points + point_count * record_length; }
+};
+
+// Bytes of a record of a format, 0 to 10, without extra bytes.
+std::size_t MinimumRecordLength(int point_format);
+
+// Reads and checks the header against itself and the size of the file, so that whoever follows its offsets
+// stays inside the file. `bytes` is the beginning of the file, at least kLargestLasHeader bytes or all there
+// is. `name` begins the messages. InvalidArgument: not LAS, not LAS 1.2-1.4, compressed, or a header that
+// contradicts itself. DataLoss: truncated.
+absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
+                                         std::uint64_t file_size);
+
+}  // namespace albtpu::client

@@ -1,0 +1,49 @@
+#include "service/client/local_source.h"
+
+#include <cassert>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "tables/interpolation.h"
+
+namespace albtpu::client {
+namespace {
+
+struct AsText {
+  std::string operator()(const std::string& text) const { return text; }
+  std::string operator()(const std::vector<double>& numbers) const { return absl::StrJoin(numbers, ", "); }
+  template <typename Number>
+  std::string operator()(Number number) const {
+    return absl::StrCat(number);
+  }
+};
+
+}  // namespace
+
+TableSummary Summarize(std::string name, const UncertaintyTable& table) {
+  const Provenance& provenance = table.provenance();
+  TableSummary summary;
+  summary.name = std::move(name);
+  summary.id = provenance.id;
+  summary.version = provenance.version;
+  summary.title = provenance.title;
+  summary.digest = table.digest();
+  for (const Axis& axis : table.axes()) {
+    summary.axes[Index(axis.id())] = {axis.nodes().front(), axis.nodes().back(), axis.size()};
+  }
+  for (const auto& [key, value] : provenance.attributes)
+    summary.attributes[key] = std::visit(AsText(), value);
+  return summary;
+}
+
+LocalSource::LocalSource(std::string name, UncertaintyTable table)
+    : table_(std::move(table)), summary_(Summarize(std::move(name), table_)) {}
+
+absl::Status LocalSource::Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
+  assert(pulses.size() == answers.size());
+  for (std::size_t i = 0; i < pulses.size(); ++i) answers[i] = Interpolate(table_, pulses[i]);
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu::client

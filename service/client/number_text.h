@@ -1,0 +1,21 @@
+// Numbers as text, without a locale: what a file says is read once into single precision, and what is written
+// reads back to the same value.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace albtpu::client {
+
+// The float32 nearest to a decimal number, `nan`, `inf` or `infinity` (any case), with spaces around it
+// allowed; nothing when the text is anything else. Beyond the range of float32 it is an infinity or zero, as
+// rounding says.
+std::optional<float> ParseFloat(std::string_view text);
+std::optional<double> ParseDouble(std::string_view text);
+
+// Nine significant digits, enough to read back to the same float32: 0.3 is "0.300000012". Requires a finite
+// value.
+std::string FormatFloat(float value);
+
+}  // namespace albtpu::client

@@ -1,0 +1,23 @@
+#include "service/client/outcome_counts.h"
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::client {
+
+void OutcomeCounts::Add(const PulseUncertainty& uncertainty) {
+  ++total_;
+  if (uncertainty.outcome == Outcome::kInterpolated) {
+    ++interpolated_;
+  } else {
+    ++others_[OutcomeText(uncertainty)];
+  }
+}
+
+std::string OutcomeCounts::Text() const {
+  std::string text =
+      absl::StrCat(total_, total_ == 1 ? " pulse: " : " pulses: ", interpolated_, " interpolated");
+  for (const auto& [outcome, count] : others_) absl::StrAppend(&text, ", ", count, " ", outcome);
+  return text;
+}
+
+}  // namespace albtpu::client

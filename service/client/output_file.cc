@@ -1,0 +1,135 @@
+#include "service/client/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "service/client/temporary_files.h"
+
+namespace albtpu::client {
+namespace {
+
+constexpr std::size_t kBufferSize = 1 << 20;
+
+// What the system said of `path`, and what would be right.
+absl::Status SystemError(const std::filesystem::path& path, std::string_view remedy) {
+  const int error = errno;
+  return absl::Status(absl::ErrnoToStatusCode(error),
+                      absl::StrCat(path.string(), ": ", std::strerror(error), ": ", std::string(remedy)));
+}
+
+constexpr std::string_view kWritingFailed = "nothing was kept; make room, or write elsewhere";
+
+absl::Status CheckTarget(const std::filesystem::path& path, Existing existing) {
+  struct stat target;
+  if (stat(path.c_str(), &target) != 0) return absl::OkStatus();
+  if (!S_ISREG(target.st_mode)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": is not a regular file: name a file to write"));
+  }
+  if (existing == Existing::kKeep) {
+    return absl::AlreadyExistsError(
+        absl::StrCat(path.string(), ": exists already: choose another name, or --overwrite it"));
+  }
+  return absl::OkStatus();
+}
+
+// Renames without replacing. File systems that cannot do this in one step get a check and a rename.
+int RenameToFreeName(const char* from, const char* to) {
+  const int result = renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE);
+  if (result == 0 || (errno != EINVAL && errno != ENOSYS)) return result;
+  if (access(to, F_OK) == 0) {
+    errno = EEXIST;
+    return -1;
+  }
+  return std::rename(from, to);
+}
+
+std::filesystem::path FolderOf(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
+
+struct OutputFile::Temporary {
+  std::filesystem::path path;  // Where the whole file will be.
+  std::string temporary_path;  // Empty once there is nothing to remove.
+  Existing existing;
+  std::FILE* file;
+  RemovedOnSignal removed_on_signal;
+};
+
+void OutputFile::Discard::operator()(Temporary* temporary) const {
+  if (temporary->file != nullptr) std::fclose(temporary->file);
+  if (!temporary->temporary_path.empty()) unlink(temporary->temporary_path.c_str());
+  delete temporary;
+}
+
+OutputFile::OutputFile(std::unique_ptr<Temporary> temporary) : temporary_(temporary.release()) {}
+
+absl::StatusOr<OutputFile> OutputFile::Create(const std::filesystem::path& path, Existing existing) {
+  if (absl::Status status = CheckTarget(path, existing); !status.ok()) return status;
+  std::string temporary_path;
+  int descriptor = -1;
+  for (int attempt = 0; descriptor < 0; ++attempt) {
+    temporary_path = FolderOf(path) / absl::StrCat(".albtpu-", getpid(), "-", attempt, ".part");
+    descriptor = open(temporary_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno != EEXIST) {
+      return SystemError(path, "name a folder that exists and can be written");
+    }
+  }
+  std::unique_ptr<Temporary> temporary(new Temporary{path, temporary_path, existing, fdopen(descriptor, "wb"),
+                                                     RemovedOnSignal(temporary_path)});
+  std::setvbuf(temporary->file, nullptr, _IOFBF, kBufferSize);
+  return OutputFile(std::move(temporary));
+}
+
+absl::Status OutputFile::Write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), temporary_->file) != bytes.size()) {
+    return SystemError(temporary_->path, kWritingFailed);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status OutputFile::Commit() {
+  Temporary& temporary = *temporary_;
+  if (std::fflush(temporary.file) != 0 || fsync(fileno(temporary.file)) != 0) {
+    return SystemError(temporary.path, kWritingFailed);
+  }
+  if (std::fclose(std::exchange(temporary.file, nullptr)) != 0) {
+    return SystemError(temporary.path, kWritingFailed);
+  }
+  // Again: somebody may have put a file there while we worked.
+  if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;
+  const char* from = temporary.temporary_path.c_str();
+  const char* to = temporary.path.c_str();
+  const int renamed =
+      temporary.existing == Existing::kReplace ? std::rename(from, to) : RenameToFreeName(from, to);
+  if (renamed != 0) return SystemError(temporary.path, "nothing was kept; choose another name");
+  temporary.temporary_path.clear();
+  // The rename lasts only when the folder is on disk too; a file system that cannot sync folders is no
+  // failure.
+  const int folder = open(FolderOf(temporary.path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    fsync(folder);
+    close(folder);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(input, output, ignored)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(output.string(), ": is the input itself: write to another file"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,43 @@
+// A file that appears under its name only when it is whole.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "tables/table_io.h"
+
+namespace albtpu::client {
+
+// Writes to a temporary name in the same folder. Commit() syncs and renames; without it the temporary file is
+// removed, by the destructor or when a signal (HUP, INT, TERM) ends the program.
+class OutputFile {
+ public:
+  // AlreadyExists when `path` exists and is to be kept. FailedPrecondition when it is something other than a
+  // regular file, which a rename would replace (a device, a folder).
+  static absl::StatusOr<OutputFile> Create(const std::filesystem::path& path, Existing existing);
+
+  OutputFile(OutputFile&&) = default;
+  OutputFile& operator=(OutputFile&&) = default;
+
+  absl::Status Write(std::string_view bytes);
+  absl::Status Commit();
+
+ private:
+  struct Temporary;
+  explicit OutputFile(std::unique_ptr<Temporary> temporary);
+
+  struct Discard {
+    void operator()(Temporary* temporary) const;
+  };
+  std::unique_ptr<Temporary, Discard> temporary_;
+};
+
+// FailedPrecondition when `output` is the file `input`, by whatever name: it would be replaced while it is
+// read.
+absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output);
+
+}  // namespace albtpu::client
