@@ -1,0 +1,15 @@
+#include "tables/default_tables.h"
+
+#include <cstdlib>
+#include <system_error>
+
+namespace albtpu {
+
+std::filesystem::path DefaultTablesDirectory() {
+  if (const char* folder = std::getenv("ALBTPU_TABLES"); folder != nullptr && *folder != '\0') return folder;
+  std::error_code error;  // Without /proc, relative to the current folder.
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return program.parent_path().parent_path() / "share" / "albtpu" / "tables";
+}
+
+}  // namespace albtpu
