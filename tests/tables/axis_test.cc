@@ -1,0 +1,139 @@
+#include "tables/axis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/tables/synthetic_table.h"
+
+namespace albtpu {
+namespace {
+
+using ::albtpu::testing::MakeAxis;
+using ::testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string Problem(AxisId id, std::vector<double> nodes) {
+  const absl::StatusOr<Axis> axis = Axis::Create(id, std::move(nodes));
+  EXPECT_EQ(axis.status().code(), absl::StatusCode::kInvalidArgument);
+  return std::string(axis.status().message());
+}
+
+// lower + fraction, so that one number says where a coordinate lies; negative when it lies nowhere.
+double Place(const Axis& axis, double coordinate) {
+  const std::optional<Bracket> bracket = axis.Locate(coordinate);
+  return bracket.has_value() ? static_cast<double>(bracket->lower) + bracket->fraction : -1;
+}
+
+TEST(Axis, RefusesNodesThatDoNotIncrease) {
+  EXPECT_EQ(Problem(AxisId::kDepth, {0, 3, 2}),
+            "axis 'depth' node 2 is 2 m, not above node 1 (3 m): nodes must increase");
+  EXPECT_THAT(Problem(AxisId::kDepth, {0, 3, 3}), HasSubstr("nodes must increase"));
+}
+
+TEST(Axis, RefusesNoNodes) { EXPECT_THAT(Problem(AxisId::kFetch, {}), HasSubstr("'fetch' has no nodes")); }
+
+TEST(Axis, RefusesNodesThatAreNotFinite) {
+  EXPECT_THAT(Problem(AxisId::kFetch, {100, kInfinity}),
+              HasSubstr("'fetch' node 1 is inf m: nodes must be finite"));
+  EXPECT_THAT(Problem(AxisId::kWindSpeed, {kNaN}), HasSubstr("'wind_speed' node 0 is nan m s-1"));
+}
+
+TEST(Axis, RefusesNodesThatSinglePrecisionDoesNotHold) {
+  EXPECT_THAT(Problem(AxisId::kFootprint, {0.1}), HasSubstr("not representable in single precision"));
+  EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {static_cast<double>(0.1f)}).ok());
+  EXPECT_THAT(Problem(AxisId::kFetch, {1, 1e300}), HasSubstr("not representable"));
+}
+
+TEST(Axis, RefusesNegativeNodes) {
+  EXPECT_THAT(Problem(AxisId::kDepth, {-1, 0}),
+              HasSubstr("'depth' node 0 is -1 m: nodes must not be negative"));
+}
+
+TEST(Axis, RefusesZeroOnALogScale) {
+  EXPECT_THAT(Problem(AxisId::kFootprint, {0, 1}), HasSubstr("nodes on a log scale must be positive"));
+  EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {0, 1}, Scale::kLinear).ok());
+}
+
+TEST(Axis, RefusesAzimuthsAboveAQuarterTurn) {
+  EXPECT_THAT(Problem(AxisId::kAzimuth, {0, 91}),
+              HasSubstr("'azimuth' node 1 is 91 degree: azimuths are folded"));
+}
+
+TEST(Axis, LocatesItsNodesExactly) {
+  const UncertaintyTable table = testing::SyntheticTable();
+  for (const Axis& axis : table.axes()) {
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+      EXPECT_EQ(Place(axis, axis.nodes()[i]), static_cast<double>(i)) << Describe(axis.id()).name;
+    }
+  }
+}
+
+TEST(Axis, LocatesLinearlyBetweenNodes) {
+  const Axis depth = MakeAxis(AxisId::kDepth, {0, 1, 5});
+  EXPECT_DOUBLE_EQ(Place(depth, 0.25), 0.25);
+  EXPECT_DOUBLE_EQ(Place(depth, 4), 1.75);
+}
+
+TEST(Axis, LocatesInTheLogarithmOnALogScale) {
+  const Axis footprint = MakeAxis(AxisId::kFootprint, {0.25, 1, 16});
+  EXPECT_DOUBLE_EQ(Place(footprint, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(Place(footprint, 2), 1.25);
+}
+
+TEST(Axis, TakesTheScaleThatItIsGiven) {
+  EXPECT_EQ(MakeAxis(AxisId::kFetch, {1, 2}).scale(), Scale::kLog);
+  EXPECT_DOUBLE_EQ(Place(*Axis::Create(AxisId::kFetch, {1, 3}, Scale::kLinear), 2), 0.5);
+}
+
+TEST(Axis, HoldsNothingOutsideItsNodes) {
+  const Axis depth = MakeAxis(AxisId::kDepth, {1, 2});
+  for (double outside :
+       {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfinity, -kInfinity, kNaN}) {
+    EXPECT_EQ(depth.Locate(outside), std::nullopt) << outside;
+  }
+}
+
+TEST(Axis, HoldsFetchAboveItsLastNode) {
+  const Axis fetch = MakeAxis(AxisId::kFetch, {100, 1000});
+  EXPECT_EQ(Place(fetch, 1001), 1);
+  EXPECT_EQ(Place(fetch, kInfinity), 1);
+  EXPECT_EQ(fetch.Locate(99), std::nullopt);
+  EXPECT_EQ(fetch.Locate(kNaN), std::nullopt);
+  EXPECT_EQ(fetch.Locate(-kInfinity), std::nullopt);
+}
+
+TEST(Axis, OfOneFetchAnswersAtAnyFetchAboveZero) {
+  const Axis fetch = MakeAxis(AxisId::kFetch, {1000});
+  for (double inside : {1e-3, 1000.0, 1e9, kInfinity}) EXPECT_EQ(Place(fetch, inside), 0) << inside;
+  for (double outside : {0.0, -1.0, kNaN}) EXPECT_EQ(fetch.Locate(outside), std::nullopt) << outside;
+}
+
+TEST(Axis, OfOneNodeAnswersThereOnly) {
+  const Axis depth = MakeAxis(AxisId::kDepth, {2});
+  EXPECT_EQ(Place(depth, 2), 0);
+  EXPECT_EQ(depth.Locate(2.1), std::nullopt);
+}
+
+TEST(Axis, FoldsAzimuth) {
+  const Axis azimuth = MakeAxis(AxisId::kAzimuth, {0, 90});
+  for (double same : {30.0, -30.0, 150.0, 210.0, 330.0, 390.0, -3570.0}) {
+    EXPECT_DOUBLE_EQ(FoldAzimuth(same), 30) << same;
+    EXPECT_NEAR(Place(azimuth, same), 1.0 / 3, 1e-15) << same;
+  }
+  EXPECT_EQ(azimuth.Locate(kInfinity), std::nullopt);
+}
+
+TEST(Axis, KeepsFoldedAzimuthsWithinAQuarterTurn) {
+  for (double azimuth : {90.0, -90.0, 270.0, std::nextafter(90.0, 91.0), 180.0, 1e300, -1e-300}) {
+    EXPECT_GE(FoldAzimuth(azimuth), 0);
+    EXPECT_LE(FoldAzimuth(azimuth), 90);
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,44 @@
+#include "tables/schema.h"
+
+#include <gtest/gtest.h>
+
+namespace albtpu {
+namespace {
+
+TEST(Schema, DescribesAxesInTheOrderOfTheDesign) {
+  EXPECT_EQ(Describe(AxisId::kWindSpeed).name, "wind_speed");
+  EXPECT_EQ(Describe(AxisId::kFetch).name, "fetch");
+  EXPECT_EQ(Describe(AxisId::kIncidence).name, "incidence");
+  EXPECT_EQ(Describe(AxisId::kAzimuth).name, "azimuth");
+  EXPECT_EQ(Describe(AxisId::kFootprint).name, "footprint");
+  EXPECT_EQ(Describe(AxisId::kDepth).name, "depth");
+}
+
+TEST(Schema, TakesFetchAndFootprintInTheirLogarithm) {
+  for (AxisId axis : kAxes) {
+    const bool is_log = axis == AxisId::kFetch || axis == AxisId::kFootprint;
+    EXPECT_EQ(Describe(axis).scale, is_log ? Scale::kLog : Scale::kLinear) << Describe(axis).name;
+  }
+}
+
+TEST(Schema, GivesDepthToAllButRefraction) {
+  for (Quantity quantity : kQuantities) {
+    const bool is_angle = Describe(quantity).units == "degree";
+    EXPECT_EQ(Describe(quantity).over_depth, !is_angle) << Describe(quantity).name;
+  }
+}
+
+TEST(Schema, FindsEveryNameItGives) {
+  for (AxisId axis : kAxes) EXPECT_EQ(FindAxis(Describe(axis).name), axis);
+  for (Quantity quantity : kQuantities) EXPECT_EQ(FindQuantity(Describe(quantity).name), quantity);
+}
+
+TEST(Schema, FindsNothingUnderAnotherName) {
+  EXPECT_EQ(FindAxis("thu"), std::nullopt);
+  EXPECT_EQ(FindAxis(""), std::nullopt);
+  EXPECT_EQ(FindQuantity("depth"), std::nullopt);
+  EXPECT_EQ(FindQuantity("THU"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace albtpu
