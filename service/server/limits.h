@@ -1,0 +1,37 @@
+// Every limit of the server, with its reason.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace albtpu::server {
+
+// The default limit of gRPC on the messages that a client takes: no answer may pass it, nor need a request.
+inline constexpr std::size_t kMaxMessageBytes = std::size_t{4} << 20;
+
+// Pulses in one message. The largest answer in columns has 59 bytes a pulse: outcome and axis (2), six
+// quantities and their standard errors (48), S-44 (9).
+inline constexpr std::size_t kMaxPulses = 65536;
+static_assert(kMaxPulses * 59 < kMaxMessageBytes);
+
+// Pulses in one message of `QueryPulses` that asks for standard errors. In rows an answer has at most 52
+// bytes a pulse (message 2, outcome 2, absent azimuth 2, six quantities 32, S-44 14), and 84 with standard
+// errors.
+inline constexpr std::size_t kMaxPulsesWithStandardErrors = 32768;
+static_assert(kMaxPulses * 52 < kMaxMessageBytes);
+static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
+
+// Pulses between two looks at whether the caller still waits: some 10 ms.
+inline constexpr std::size_t kPulsesBetweenCancellationChecks = 4096;
+
+// Threads that answer, all connections together: beyond them calls fail with RESOURCE_EXHAUSTED. Each holds a
+// request and an answer, so that they take less than 1 GiB.
+inline constexpr int kMaxThreads = 128;
+
+// Calls under way on one connection; further ones wait in the client.
+inline constexpr int kMaxCallsPerConnection = 64;
+
+// How long calls under way may go on after SIGTERM, within the 30 s of grace that Kubernetes gives.
+inline constexpr std::chrono::seconds kDrainTime{10};
+
+}  // namespace albtpu::server
