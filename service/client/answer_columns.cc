@@ -42,7 +42,7 @@ AnswerColumns::AnswerColumns(AnswerStyle style) : style_(style) {
     }
   }
   if (style_.s44_order.has_value()) {
-    names_.insert(names_.end(), {"s44_best_order", "s44_thu_remaining", "s44_tvu_remaining"});
+    names_.insert(names_.end(), {"s44_best_order", "s44_remaining_thu", "s44_remaining_tvu"});
   }
 }
 

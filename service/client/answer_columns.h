@@ -30,8 +30,8 @@ using AnswerCell = std::variant<std::monostate, float, std::string>;
 //   with standard errors:  <each of the six>_standard_error, in its unit
 //   with an S-44 order:    s44_best_order         the strictest order that the surface alone leaves open;
 //   nothing if none
-//                          s44_thu_remaining      m at 95 %, what the order's limit leaves for all other
-//                          sources; nothing s44_tvu_remaining      if the surface alone exceeds it
+//                          s44_remaining_thu      m at 95 %, what the order's limit leaves for all other
+//                          sources; nothing s44_remaining_tvu      if the surface alone exceeds it
 class AnswerColumns {
  public:
   explicit AnswerColumns(AnswerStyle style);

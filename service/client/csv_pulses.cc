@@ -22,13 +22,6 @@ std::vector<std::string> ColumnNames(const CsvRecord& header) {
   return names;
 }
 
-// `wind_speed` is given by the flag `--wind-speed`.
-std::string FlagName(AxisId axis) {
-  std::string flag = "--";
-  for (const char letter : Describe(axis).name) flag += letter == '_' ? '-' : letter;
-  return flag;
-}
-
 absl::Status CheckUnique(const std::string& file, const std::vector<std::string>& names,
                          const std::vector<std::string>& appended) {
   std::set<std::string> seen;
@@ -89,6 +82,12 @@ Pulse PulseAt(const FixedCoordinates& fixed) {
     if (fixed[Index(axis)].has_value()) SetCoordinate(axis, *fixed[Index(axis)], pulse);
   }
   return pulse;
+}
+
+std::string FlagName(AxisId axis) {
+  std::string flag = "--";
+  for (const char letter : Describe(axis).name) flag += letter == '_' ? '-' : letter;
+  return flag;
 }
 
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvRecord& header,

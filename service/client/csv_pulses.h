@@ -43,6 +43,9 @@ void SetCoordinate(AxisId axis, float value, Pulse& pulse);
 // The pulse of fixed coordinates alone, those that are absent left as `Pulse` has them.
 Pulse PulseAt(const FixedCoordinates& fixed);
 
+// The flag that gives a coordinate once for all: `--wind-speed`.
+std::string FlagName(AxisId axis);
+
 // True for fetch and azimuth, whose absence has a meaning.
 constexpr bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId::kAzimuth; }
 

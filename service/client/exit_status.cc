@@ -1,6 +1,7 @@
 #include "service/client/exit_status.h"
 
 #include <cstdio>
+#include <iostream>
 #include <string>
 
 #include "absl/strings/cord.h"
@@ -24,6 +25,11 @@ int Report(const absl::Status& status) {
   if (status.ok()) return 0;
   Note(std::string(status.message()));
   return IsUsageError(status) ? kExitUsage : kExitFailure;
+}
+
+absl::Status FlushAnswers() {
+  if (std::cout.flush()) return absl::OkStatus();
+  return absl::DataLossError("standard output: cannot be written: send it where there is room");
 }
 
 void Note(std::string_view message) {

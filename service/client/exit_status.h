@@ -17,6 +17,9 @@ bool IsUsageError(const absl::Status& status);
 // Prints `albtpu-query: message` on standard error unless the status is OK; returns the exit code.
 int Report(const absl::Status& status);
 
+// Flushes standard output; fails when what was printed did not get through (a full disk, say).
+absl::Status FlushAnswers();
+
 // `albtpu-query: message` on standard error.
 void Note(std::string_view message);
 

@@ -119,7 +119,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
     progress.Reach(done);
   }
   if (absl::Status status = CopyTail(*reader, *file); !status.ok()) return status;
-  return AnnotatedLas{annotator.summary(), *std::move(file)};
+  return AnnotatedLas{header.point_format, annotator.summary(), *std::move(file)};
 }
 
 }  // namespace albtpu::client

@@ -23,6 +23,7 @@ struct LasAnnotation {
 };
 
 struct AnnotatedLas {
+  int point_format = 0;
   LasSummary summary;
   OutputFile file;  // Whole, but not under its name before Commit().
 };

@@ -63,23 +63,23 @@ std::string LasSummary::BandText(std::size_t index) const {
     absl::StrAppend(&text,
                     absl::StrFormat(" %9.2g %9.2g", band.thu_error_sum / count, band.tvu_error_sum / count));
   }
-  return text + "\n";
+  return text;
 }
 
 std::string LasSummary::Text() const {
-  std::string text = absl::StrCat("  ", points(), " points; bathymetric: ", outcomes_.Text(), "\n");
+  std::string text = absl::StrCat("  ", points(), " points; bathymetric: ", outcomes_.Text());
   if (outcomes_.interpolated() == 0) return text;
   absl::StrAppend(
-      &text, absl::StrFormat("  depth %.3f m to %.3f m; sea surface only\n", least_depth_, greatest_depth_));
+      &text, absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only", least_depth_, greatest_depth_));
   const std::string coverage = CoverageText(style_.coverage);
   const std::string order_name = std::string(Name(order()));
-  absl::StrAppend(&text, absl::StrFormat("  %11s %9s %17s %17s %27s\n", "depth", "points", "THU, " + coverage,
+  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %17s %17s %27s", "depth", "points", "THU, " + coverage,
                                          "TVU, " + coverage, "S-44 " + order_name + ", 95 %, limits"));
-  absl::StrAppend(&text, absl::StrFormat("  %11s %9s %8s %8s %8s %8s %8s %8s %9s%s\n", "m", "", "mean m",
+  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %9s%s", "m", "", "mean m",
                                          "max m", "mean m", "max m", "THU m", "TVU m", "within",
                                          style_.standard_errors ? "  s.e. THU  s.e. TVU" : ""));
   for (std::size_t i = 0; i < bands_.size(); ++i) {
-    if (bands_[i].count > 0) text += BandText(i);
+    if (bands_[i].count > 0) absl::StrAppend(&text, "\n", BandText(i));
   }
   return text;
 }

@@ -28,7 +28,7 @@ class LasSummary {
   // "class 1: 12345 points, class 26: 4321": what --classes can be given.
   std::string ClassesText() const;
 
-  // Several lines, each ended.
+  // Several lines.
   std::string Text() const;
 
  private:

@@ -27,6 +27,7 @@ struct TableSummary {
   std::string digest;  // 64 hexadecimal digits
   std::array<AxisRange, kAxisCount> axes;
   std::map<std::string, std::string> attributes;  // Further provenance, as text.
+  bool is_default = false;                        // Answers when no table is named.
 };
 
 class UncertaintySource {

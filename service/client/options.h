@@ -1,0 +1,35 @@
+// The flags that the commands of albtpu-query share. A wrong value throws CLI::ValidationError while flags
+// are parsed: bad usage, exit 2.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "service/client/answer_columns.h"
+#include "service/client/csv_pulses.h"
+#include "service/client/source_options.h"
+#include "tables/table_io.h"
+
+namespace albtpu::client {
+
+// What every command takes. Those that write no file ignore --overwrite; `tables` ignores how answers are
+// given.
+struct SharedOptions {
+  SourceOptions source;                 // --server, --table, --table-name
+  AnswerStyle style;                    // --coverage, --s44-order, --standard-errors
+  Existing existing = Existing::kKeep;  // --overwrite
+};
+void AddSharedOptions(CLI::App& command, SharedOptions& options);
+
+// `--wind-speed` and the like, one value for all pulses.
+void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);
+
+// Whether numbers below zero make sense.
+enum class Sign { kAny, kNotNegative };
+
+// A finite number; `inf` counts as one only for --fetch, by AddCoordinate.
+CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,
+                       std::optional<double>& value);
+
+}  // namespace albtpu::client

@@ -1,0 +1,50 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "service/client/commands.h"
+#include "service/client/exit_status.h"
+#include "service/client/options.h"
+#include "service/client/pulse_text.h"
+
+namespace albtpu::client {
+namespace {
+
+struct PulseOptions {
+  FixedCoordinates coordinates;
+  SharedOptions shared;
+  bool json = false;
+};
+
+absl::Status RunPulse(const PulseOptions& options) {
+  for (const AxisId axis : kAxes) {
+    if (options.coordinates[Index(axis)].has_value() || MayBeAbsent(axis)) continue;
+    return UsageError(
+        absl::StrCat("pulse: no ", FlagName(axis), ": give it in ", std::string(Describe(axis).units)));
+  }
+  const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
+  if (!source.ok()) return source.status();
+  const Pulse pulse = PulseAt(options.coordinates);
+  PulseUncertainty answer;
+  absl::Status status = (*source)->Answer({&pulse, 1}, {&answer, 1});
+  if (!status.ok()) return status;
+  const TableSummary& table = (*source)->table();
+  std::cout << (options.json ? PulseJson(pulse, answer, options.shared.style, table)
+                             : PulseText(pulse, answer, options.shared.style, table));
+  return FlushAnswers();
+}
+
+}  // namespace
+
+void AddPulseCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<PulseOptions>();
+  CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
+  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->coordinates);
+  command->add_flag("--json", options->json, "Print one flat JSON object, null where there is no number");
+  AddSharedOptions(*command, options->shared);
+  command->callback([options, &run] { run = [options] { return RunPulse(*options); }; });
+}
+
+}  // namespace albtpu::client
