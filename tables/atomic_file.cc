@@ -107,7 +107,7 @@ absl::Status CheckTarget(const fs::path& path, Existing existing) {
 }  // namespace
 
 absl::Status WriteFileAtomically(const fs::path& path, absl::string_view bytes, Existing existing) {
-  const absl::Status target = CheckTarget(path, existing);
+  absl::Status target = CheckTarget(path, existing);
   if (!target.ok()) return target;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   TemporaryFile file(folder);

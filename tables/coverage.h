@@ -10,13 +10,13 @@ enum class Coverage {
   kP95,       // 1.95996 sigma in one dimension; in two, the radius that holds 95 % of a normal distribution.
 };
 
-// The 95 % radius of a centred two-dimensional normal distribution, over twice the root of its summed variances.
-// `axis_ratio` is the smaller over the larger standard deviation, 0 to 1; the result falls from 0.980 at 0 (one
-// dimension) to 0.865 at 1 (isotropic). Correct to 1e-6.
+// The 95 % radius of a centred two-dimensional normal distribution, over twice the root of its summed
+// variances. `axis_ratio` is the smaller over the larger standard deviation, 0 to 1; the result falls from
+// 0.980 at 0 (one dimension) to 0.865 at 1 (isotropic). Correct to 1e-6.
 double RadiusFactor95(double axis_ratio);
 
-// The values and standard errors of `uncertainty`, given at 2 sigma, restated. THU takes the axis ratio of the along and
-// cross refraction, their correlation neglected. Biases are means and stay.
+// The values and standard errors of `uncertainty`, given at 2 sigma, restated. THU takes the axis ratio of
+// the along and cross refraction, their correlation neglected. Biases are means and stay.
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage);
 
 }  // namespace albtpu

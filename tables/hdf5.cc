@@ -97,6 +97,27 @@ Session::Session() : lock_(ProcessLock()) {
 
 Session::~Session() { H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_); }
 
+// The in-memory driver wants to own its image. These callbacks lend it ours: what it allocates, copies and
+// frees is the one buffer, which is their user data.
+Handle OpenImage(absl::string_view bytes) {
+  const auto lend = [](size_t, H5FD_file_image_op_t, void* buffer) -> void* { return buffer; };
+  const auto copy = [](void* to, const void*, size_t, H5FD_file_image_op_t, void*) -> void* { return to; };
+  const auto grow = [](void*, size_t, H5FD_file_image_op_t, void*) -> void* { return nullptr; };
+  const auto take_back = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  const auto same = [](void* buffer) -> void* { return buffer; };
+  const auto keep = [](void*) -> herr_t { return 0; };
+  void* const buffer = const_cast<char*>(bytes.data());  // Nothing writes through a file opened to be read.
+  H5FD_file_image_callbacks_t callbacks = {lend, copy, grow, take_back, same, keep, buffer};
+
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t kIncrement = std::size_t{1} << 20;
+  constexpr hbool_t kOnDisk = false;
+  H5Pset_fapl_core(access, kIncrement, kOnDisk);
+  H5Pset_file_image_callbacks(access, &callbacks);
+  H5Pset_file_image(access, buffer, bytes.size());
+  return Handle(H5Fopen("table", H5F_ACC_RDONLY, access), H5Fclose);
+}
+
 bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value) {
   return std::visit(AttributeWriter{object, name}, value);
 }

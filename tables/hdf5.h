@@ -46,6 +46,9 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
+// Opens the bytes of a file in memory, without a copy, to be read only. They must outlive what is returned.
+Handle OpenImage(absl::string_view bytes);
+
 // Writes an attribute: text as a fixed-length UTF-8 string, numbers as 64 bits, a vector as one dimension;
 // what is empty as a null dataspace, as netCDF does. False if HDF5 refuses.
 bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value);

@@ -10,15 +10,15 @@
 
 namespace albtpu {
 
-// One laser pulse, in the units of the axes. Single precision, as on the wire and on the nodes: 0.1 m asked for is the
-// node 0.1 m, on every path.
+// One laser pulse, in the units of the axes. Single precision, as on the wire and on the nodes: 0.1 m asked
+// for is the node 0.1 m, on every path.
 struct Pulse {
-  float wind_speed = 0;                                    // m/s at 10 m
-  float fetch = std::numeric_limits<float>::infinity();    // m; infinity: fully developed
-  float incidence = 0;                                     // degree from the vertical, in air
-  std::optional<float> azimuth;                            // degree from downwind; absent: the worse of 0 and 90
-  float footprint = 0;                                     // m
-  float depth = 0;                                         // m below the located surface
+  float wind_speed = 0;                                  // m/s at 10 m
+  float fetch = std::numeric_limits<float>::infinity();  // m; infinity: fully developed
+  float incidence = 0;                                   // degree from the vertical, in air
+  std::optional<float> azimuth;  // degree from downwind; absent: the worse of 0 and 90
+  float footprint = 0;           // m
+  float depth = 0;               // m below the located surface
 };
 
 enum class Outcome {
@@ -30,7 +30,8 @@ enum class Outcome {
 // 2 sigma, as the table holds it; see coverage.h for 95 %. Not-a-number wherever there is no number.
 struct PulseUncertainty {
   Outcome outcome = Outcome::kInvalid;
-  std::optional<AxisId> axis;   // The first axis, in the order of kAxes, that made the outcome; none if interpolated.
+  std::optional<AxisId>
+      axis;  // The first axis, in the order of kAxes, that made the outcome; none if interpolated.
   bool azimuth_absent = false;  // True: each value is the larger in magnitude of those at 0 and 90 degrees.
   std::array<float, kQuantityCount> values;
   std::array<float, kQuantityCount> standard_errors;  // Interpolated linearly.
@@ -40,8 +41,8 @@ struct PulseUncertainty {
 
 // Example:
 //   auto table = ReadTable("quick.h5");
-//   PulseUncertainty u = Interpolate(*table, {.wind_speed = 5, .incidence = 20, .footprint = 0.5f, .depth = 8});
-//   if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
+//   PulseUncertainty u = Interpolate(*table, {.wind_speed = 5, .incidence = 20, .footprint = 0.5f, .depth =
+//   8}); if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
 PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse);
 
 // "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID": the text of CSV files and of people.

@@ -1,4 +1,5 @@
-// What a table holds: its six axes, its six quantities, their names, units and order. The written form is FORMAT.md.
+// What a table holds: its six axes, its six quantities, their names, units and order. The written form is
+// FORMAT.md.
 #pragma once
 
 #include <array>

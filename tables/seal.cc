@@ -82,7 +82,7 @@ absl::Status CheckHeader(absl::string_view head, std::uint64_t file_length) {
 }
 
 absl::Status Check(absl::string_view file) {
-  const absl::Status status = CheckHeader(file.substr(0, kSize), file.size());
+  absl::Status status = CheckHeader(file.substr(0, kSize), file.size());
   if (!status.ok()) return status;
   const Sha256Digest digest = DigestOf(file);
   if (std::memcmp(file.data() + kDigestOffset, digest.data(), kDigestSize) != 0) {

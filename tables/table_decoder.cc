@@ -1,5 +1,3 @@
-#include <hdf5_hl.h>
-
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -216,14 +214,12 @@ absl::StatusOr<UncertaintyTable> ReadContents(hid_t file) {
 
 }  // namespace
 
-absl::StatusOr<UncertaintyTable> DecodeTable(std::string& file) {
+absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
   const absl::Status sealed = seal::Check(file);
   if (!sealed.ok()) return sealed;
   const hdf5::Session session;
   // HDF5 reads the very bytes that were checked, not the file again.
-  const Handle image(
-      H5LTopen_file_image(file.data(), file.size(), H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE),
-      H5Fclose);
+  const Handle image = hdf5::OpenImage(file);
   if (!image) return absl::InvalidArgumentError("is sealed, but what it holds is not HDF5");
   return ReadContents(image);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
@@ -11,8 +12,7 @@ namespace albtpu {
 // The sealed file. The same table gives the same bytes.
 absl::StatusOr<std::string> EncodeTable(const UncertaintyTable& table);
 
-// Checks the seal, then the schema, the values and the content digest. `file` is not changed, but HDF5 wants
-// it not const.
-absl::StatusOr<UncertaintyTable> DecodeTable(std::string& file);
+// Checks the seal, then the schema, the values and the content digest.
+absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file);
 
 }  // namespace albtpu

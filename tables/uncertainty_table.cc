@@ -63,7 +63,7 @@ absl::Status CheckValues(const UncertaintyTable::Axes& axes, Quantity quantity, 
 absl::Status CheckVariable(const UncertaintyTable::Axes& axes, Quantity quantity, const Variable& variable) {
   const QuantitySchema& schema = Describe(quantity);
   const std::string name(schema.name);
-  const absl::Status status =
+  absl::Status status =
       CheckValues(axes, quantity, name, variable.values,
                   {.may_be_negative = schema.is_bias, .must_be_positive = variable.scale == Scale::kLog});
   if (!status.ok() || variable.standard_errors.empty()) return status;

@@ -15,17 +15,19 @@
 
 namespace albtpu {
 
-// A quantity at every node, row-major in the order of kAxes (depth fastest; without depth where the quantity has none).
+// A quantity at every node, row-major in the order of kAxes (depth fastest; without depth where the quantity
+// has none).
 struct Variable {
   std::vector<float> values;           // Finite; not negative unless a bias.
   std::vector<float> standard_errors;  // The same shape; finite, not negative. Empty: not known.
-  Scale scale = Scale::kLinear;        // kLog only where all values are positive. Standard errors are always linear.
+  Scale scale =
+      Scale::kLinear;  // kLog only where all values are positive. Standard errors are always linear.
 };
 
 using AttributeValue = std::variant<std::string, std::int64_t, double, std::vector<double>>;
 
-// What is needed to trust a table and to make it again. `id` names what the table is, `version` which making of it;
-// neither is the name of its file.
+// What is needed to trust a table and to make it again. `id` names what the table is, `version` which making
+// of it; neither is the name of its file.
 struct Provenance {
   std::string id;        // [a-z0-9][a-z0-9_-]*
   std::string version;   // not empty
@@ -41,8 +43,9 @@ class UncertaintyTable {
   using Axes = std::array<Axis, kAxisCount>;
   using Variables = std::array<std::optional<Variable>, kQuantityCount>;
 
-  // Fails with InvalidArgument when an axis stands in the wrong place, a required variable is missing, a shape does not
-  // fit the axes, or a value breaks the rules of `Variable`; the message names axis or variable and the index.
+  // Fails with InvalidArgument when an axis stands in the wrong place, a required variable is missing, a
+  // shape does not fit the axes, or a value breaks the rules of `Variable`; the message names axis or
+  // variable and the index.
   static absl::StatusOr<UncertaintyTable> Create(Axes axes, Variables variables, Provenance provenance);
 
   const Axis& axis(AxisId id) const { return axes_[Index(id)]; }
@@ -51,8 +54,8 @@ class UncertaintyTable {
   const Variable* variable(Quantity quantity) const;
   const Provenance& provenance() const { return provenance_; }
 
-  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not over date,
-  // version, commit or other attributes. Two tables with one digest answer alike.
+  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not
+  // over date, version, commit or other attributes. Two tables with one digest answer alike.
   const std::string& digest() const { return digest_; }
 
  private:

@@ -17,7 +17,8 @@ import numpy as np
 SYNTHETIC_TABLE = sys.argv[1]
 
 AXES = ("wind_speed", "fetch", "incidence", "azimuth", "footprint", "depth")
-VARIABLES = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu", "bias_along_beam", "bias_vertical")
+VARIABLES = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu", "bias_along_beam",
+             "bias_vertical")
 
 
 def text(attribute):

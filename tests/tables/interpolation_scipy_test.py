@@ -27,8 +27,8 @@ class Interpolation(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "table.h5")
             subprocess.run([SYNTHETIC_TABLE, path], check=True)
-            ours = subprocess.run([INTERPOLATE, path, str(PULSES)], check=True, stdout=subprocess.PIPE, text=True)
-            ours = np.genfromtxt(io.StringIO(ours.stdout), delimiter=",", names=True)
+            csv = subprocess.check_output([INTERPOLATE, path, str(PULSES)], text=True)
+            ours = np.genfromtxt(io.StringIO(csv), delimiter=",", names=True)
             self.assertEqual(len(ours), PULSES)
             with xarray.open_dataset(path, engine="netcdf4") as table:
                 self.assertEqual(len(table.data_vars), 12)
