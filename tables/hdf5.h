@@ -53,7 +53,7 @@ Handle OpenImage(absl::string_view bytes);
 // what is empty as a null dataspace, as netCDF does. False if HDF5 refuses.
 bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value);
 
-// An attribute by its name, or the `index`th in the order of names. Text may be of fixed or variable length,
+// An attribute by its name. Text may be of fixed or variable length,
 // numbers of any size. NotFound: there is none of that name. InvalidArgument: it is of a kind that
 // AttributeValue does not have.
 absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& name);

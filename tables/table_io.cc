@@ -21,7 +21,10 @@ absl::Status WithPath(const fs::path& path, const absl::Status& status) {
   return absl::Status(status.code(), absl::StrCat(path.string(), ": ", status.message()));
 }
 
-absl::Status SystemError(int error) { return absl::ErrnoToStatus(error, "cannot be read"); }
+// A file that became shorter while it was read leaves no error number.
+absl::Status SystemError(int error) {
+  return absl::ErrnoToStatus(error == 0 ? EIO : error, "cannot be read");
+}
 
 // Reads the whole file, or only as much as shows that it is no table.
 absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
