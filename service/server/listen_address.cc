@@ -26,7 +26,7 @@ absl::StatusOr<ListenAddress> ListenAddress::Parse(std::string_view text) {
   if (colon == std::string_view::npos) return NotAnAddress(text);
   std::string_view host = text.substr(0, colon);
   const std::string port_text(text.substr(colon + 1));
-  const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  const bool bracketed = host.size() >= 2 && host.front() == '[' && host.back() == ']';
   if (bracketed) host = host.substr(1, host.size() - 2);
   const bool has_colon =
       host.find(':') != std::string_view::npos;  // IPv6 stands in brackets, and nothing else.

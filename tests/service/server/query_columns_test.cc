@@ -1,0 +1,280 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "service/server/limits.h"
+#include "tests/service/server/served_tables.h"
+
+namespace albtpu::server {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+class QueryColumns : public ServedTables {
+ protected:
+  v1::QueryColumnsResponse Ask(const v1::QueryColumnsRequest& request) {
+    v1::QueryColumnsResponse response;
+    const grpc::Status status = ServedTables::QueryColumns(request, response);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return response;
+  }
+
+  v1::QueryColumnsResponse Ask(const v1::PulseColumns& pulses, const v1::QueryOptions& options = {}) {
+    v1::QueryColumnsRequest request;
+    *request.mutable_options() = options;
+    *request.mutable_pulses() = pulses;
+    return Ask(request);
+  }
+
+  void ExpectRefused(const v1::PulseColumns& pulses, const std::string& message) {
+    v1::QueryColumnsRequest request;
+    *request.mutable_pulses() = pulses;
+    v1::QueryColumnsResponse response;
+    const grpc::Status status = ServedTables::QueryColumns(request, response);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_THAT(status.error_message(), HasSubstr(message));
+  }
+};
+
+std::vector<int> Bytes(const std::string& column) { return {column.begin(), column.end()}; }
+
+// A number of a row and of a column: the same bits, or no number in both.
+void ExpectSame(bool present, float row, float column) {
+  if (present) {
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(row), std::bit_cast<std::uint32_t>(column));
+  } else {
+    EXPECT_TRUE(std::isnan(column));
+  }
+}
+
+void ExpectSame(const v1::SeaSurface& row, const v1::SeaSurfaceColumns& columns, int i) {
+  ExpectSame(row.has_refraction_along_wind(), row.refraction_along_wind(),
+             Floats(columns.refraction_along_wind())[i]);
+  ExpectSame(row.has_refraction_cross_wind(), row.refraction_cross_wind(),
+             Floats(columns.refraction_cross_wind())[i]);
+  ExpectSame(row.has_thu(), row.thu(), Floats(columns.thu())[i]);
+  ExpectSame(row.has_tvu(), row.tvu(), Floats(columns.tvu())[i]);
+  ExpectSame(row.has_bias_along_beam(), row.bias_along_beam(), Floats(columns.bias_along_beam())[i]);
+  ExpectSame(row.has_bias_vertical(), row.bias_vertical(), Floats(columns.bias_vertical())[i]);
+}
+
+void ExpectSame(const v1::QueryPulsesResponse& rows, const v1::QueryColumnsResponse& columns) {
+  EXPECT_EQ(rows.table().SerializeAsString(), columns.table().SerializeAsString());
+  EXPECT_EQ(rows.coverage(), columns.coverage());
+  ASSERT_EQ(rows.uncertainties_size(), columns.pulse_count());
+  for (int i = 0; i < rows.uncertainties_size(); ++i) {
+    const v1::PulseUncertainty& row = rows.uncertainties(i);
+    EXPECT_EQ(row.outcome(), Bytes(columns.outcomes())[i]);
+    EXPECT_EQ(row.axis(), Bytes(columns.outcome_axes())[i]);
+    EXPECT_EQ(row.azimuth_absent(), columns.azimuth_absent());
+    ExpectSame(row.sea_surface(), columns.sea_surface(), i);
+    ExpectSame(row.sea_surface_standard_error(), columns.sea_surface_standard_error(), i);
+    EXPECT_EQ(row.s44().best_order(), Bytes(columns.s44().best_orders())[i]);
+    ExpectSame(row.s44().has_remaining_thu(), row.s44().remaining_thu(),
+               Floats(columns.s44().remaining_thu())[i]);
+    ExpectSame(row.s44().has_remaining_tvu(), row.s44().remaining_tvu(),
+               Floats(columns.s44().remaining_tvu())[i]);
+  }
+}
+
+// Pulses in and around the domain, some of them not finite.
+std::vector<v1::Pulse> RandomPulses(std::size_t count, bool with_azimuth) {
+  std::mt19937 random(1);
+  const auto draw = [&](float from, float to) {
+    const unsigned special = random() % 40;
+    return special == 0   ? kNaN
+           : special == 1 ? kInfinity
+                          : std::uniform_real_distribution<float>(from, to)(random);
+  };
+  std::vector<v1::Pulse> pulses(count);
+  for (v1::Pulse& pulse : pulses) {
+    pulse.set_wind_speed(draw(2.8f, 10.2f));
+    pulse.set_fetch(draw(900, 2e5));
+    pulse.set_incidence(draw(-0.5f, 25.5f));
+    if (with_azimuth) pulse.set_azimuth(draw(-360, 720));
+    pulse.set_footprint(draw(0.24f, 2.1f));
+    pulse.set_depth(draw(-0.3f, 20.3f));
+  }
+  return pulses;
+}
+
+v1::PulseColumns InColumns(const std::vector<v1::Pulse>& pulses) {
+  std::array<std::vector<float>, kAxisCount> columns;
+  for (const v1::Pulse& pulse : pulses) {
+    columns[0].push_back(pulse.wind_speed());
+    columns[1].push_back(pulse.fetch());
+    columns[2].push_back(pulse.incidence());
+    if (pulse.has_azimuth()) columns[3].push_back(pulse.azimuth());
+    columns[4].push_back(pulse.footprint());
+    columns[5].push_back(pulse.depth());
+  }
+  v1::PulseColumns message;
+  message.set_wind_speed(Column(columns[0]));
+  message.set_fetch(Column(columns[1]));
+  message.set_incidence(Column(columns[2]));
+  message.set_azimuth(Column(columns[3]));
+  message.set_footprint(Column(columns[4]));
+  message.set_depth(Column(columns[5]));
+  return message;
+}
+
+TEST_F(QueryColumns, GivesTheBitsOfQueryPulses) {
+  for (const char* table : {"survey", "published"}) {
+    for (v1::Coverage coverage : {v1::COVERAGE_UNSPECIFIED, v1::COVERAGE_TWO_SIGMA, v1::COVERAGE_P95}) {
+      for (bool with_azimuth : {true, false}) {
+        v1::QueryOptions options;
+        options.set_table(table);
+        options.set_coverage(coverage);
+        options.set_standard_errors(true);
+        options.set_best_s44_order(true);
+        options.set_s44_order(v1::S44_ORDER_EXCLUSIVE);
+        const std::vector<v1::Pulse> pulses = RandomPulses(500, with_azimuth);
+        v1::QueryPulsesRequest request;
+        *request.mutable_options() = options;
+        request.mutable_pulses()->Add(pulses.begin(), pulses.end());
+        v1::QueryPulsesResponse rows;
+        ASSERT_TRUE(QueryPulses(request, rows).ok());
+        ExpectSame(rows, Ask(InColumns(pulses), options));
+      }
+    }
+  }
+}
+
+TEST_F(QueryColumns, AnswersWhatWasAskedAndNothingElse) {
+  v1::QueryColumnsRequest request;
+  *request.mutable_pulses() = WireColumns(3);
+  request.add_quantities(v1::QUANTITY_TVU);
+  request.add_quantities(v1::QUANTITY_THU);
+  request.add_quantities(v1::QUANTITY_TVU);
+  const v1::QueryColumnsResponse answer = Ask(request);
+  EXPECT_THAT(Floats(answer.sea_surface().thu()), SizeIs(3));
+  EXPECT_THAT(Floats(answer.sea_surface().tvu()), SizeIs(3));
+  EXPECT_THAT(answer.sea_surface().refraction_along_wind(), IsEmpty());
+  EXPECT_THAT(answer.sea_surface().bias_vertical(), IsEmpty());
+  EXPECT_FALSE(answer.has_sea_surface_standard_error());
+  EXPECT_FALSE(answer.has_s44());
+
+  request.mutable_options()->set_standard_errors(true);
+  request.mutable_options()->set_best_s44_order(true);
+  const v1::QueryColumnsResponse more = Ask(request);
+  EXPECT_THAT(Floats(more.sea_surface_standard_error().tvu()), SizeIs(3));
+  EXPECT_THAT(more.sea_surface_standard_error().refraction_cross_wind(), IsEmpty());
+  EXPECT_THAT(more.s44().best_orders(), SizeIs(3));
+  EXPECT_THAT(more.s44().remaining_thu(), IsEmpty());
+}
+
+TEST_F(QueryColumns, TakesOneNumberForAllPulses) {
+  v1::PulseColumns columns = WireColumns(5);
+  const std::string expected = Ask(columns).SerializeAsString();
+  columns.set_wind_speed(Column({4.5f}));
+  columns.set_fetch(Column({5000}));
+  columns.set_azimuth(Column({40}));
+  EXPECT_EQ(Ask(columns).SerializeAsString(), expected);
+  EXPECT_EQ(Ask(WireColumns(1)).pulse_count(), 1);
+}
+
+TEST_F(QueryColumns, TakesAnEmptyFetchAsFullyDeveloped) {
+  v1::PulseColumns columns = WireColumns(2);
+  columns.set_fetch(Column({kInfinity}));
+  const std::string expected = Ask(columns).SerializeAsString();
+  columns.clear_fetch();
+  EXPECT_EQ(Ask(columns).SerializeAsString(), expected);
+}
+
+TEST_F(QueryColumns, SaysThatThereWasNoAzimuth) {
+  v1::PulseColumns columns = WireColumns(2);
+  EXPECT_FALSE(Ask(columns).azimuth_absent());
+  columns.clear_azimuth();
+  EXPECT_TRUE(Ask(columns).azimuth_absent());
+}
+
+TEST_F(QueryColumns, GivesEachPulseItsOutcome) {
+  v1::PulseColumns columns = WireColumns(4);
+  columns.set_depth(Column({3, -1, kNaN, kInfinity}));
+  columns.set_footprint(Column({1, 1, 1, 100}));
+  const v1::QueryColumnsResponse answer = Ask(columns);
+  EXPECT_THAT(Bytes(answer.outcomes()), ElementsAre(v1::OUTCOME_INTERPOLATED, v1::OUTCOME_OUT_OF_DOMAIN,
+                                                    v1::OUTCOME_INVALID, v1::OUTCOME_INVALID));
+  EXPECT_THAT(Bytes(answer.outcome_axes()),
+              ElementsAre(v1::AXIS_UNSPECIFIED, v1::AXIS_DEPTH, v1::AXIS_DEPTH, v1::AXIS_DEPTH));
+  const std::vector<float> thu = Floats(answer.sea_surface().thu());
+  EXPECT_TRUE(std::isfinite(thu[0]));
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(thu[i])) << i;
+}
+
+TEST_F(QueryColumns, RefusesAnEmptyBatch) {
+  ExpectRefused({}, "send at least one");
+  v1::QueryColumnsResponse response;
+  EXPECT_THAT(ServedTables::QueryColumns({}, response).error_message(), HasSubstr("send at least one"));
+}
+
+TEST_F(QueryColumns, RefusesColumnsOfDifferentLengths) {
+  v1::PulseColumns columns = WireColumns(5);
+  columns.set_incidence(Column({1, 2, 3}));
+  ExpectRefused(columns, "column 'incidence' has 3 numbers, column 'wind_speed' has 5");
+}
+
+TEST_F(QueryColumns, RefusesPartsOfNumbers) {
+  v1::PulseColumns columns = WireColumns(2);
+  columns.mutable_azimuth()->append("x");
+  ExpectRefused(columns, "column 'azimuth' has 9 bytes");
+  columns = WireColumns(2);
+  columns.set_depth("xyz");
+  ExpectRefused(columns, "column 'depth' has 3 bytes");
+}
+
+TEST_F(QueryColumns, RefusesAMissingColumn) {
+  v1::PulseColumns columns = WireColumns(2);
+  columns.clear_depth();
+  ExpectRefused(columns, "column 'depth' is empty");
+}
+
+TEST_F(QueryColumns, RefusesMorePulsesThanAMessageTakes) {
+  ExpectRefused(WireColumns(kMaxPulses + 1), "column 'wind_speed' has 65537 numbers: a message takes 65536");
+}
+
+TEST_F(QueryColumns, RefusesNumbersThatNoQuantityHas) {
+  for (int number : {0, 7, -1}) {
+    v1::QueryColumnsRequest request;
+    *request.mutable_pulses() = WireColumns(1);
+    request.add_quantities(static_cast<v1::Quantity>(number));
+    v1::QueryColumnsResponse response;
+    const grpc::Status status = ServedTables::QueryColumns(request, response);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_THAT(status.error_message(), HasSubstr("quantities"));
+  }
+}
+
+TEST_F(QueryColumns, KeepsTheLargestAnswerWithinTheDefaultLimitOfClients) {
+  v1::QueryOptions options;
+  options.set_standard_errors(true);
+  options.set_best_s44_order(true);
+  options.set_s44_order(v1::S44_ORDER_2);
+  v1::PulseColumns columns = WireColumns(kMaxPulses);
+  const v1::QueryColumnsResponse answer = Ask(columns, options);
+  EXPECT_EQ(answer.pulse_count(), static_cast<int>(kMaxPulses));
+  EXPECT_THAT(Bytes(answer.outcomes()), Each(static_cast<int>(v1::OUTCOME_INTERPOLATED)));
+  EXPECT_LT(answer.ByteSizeLong(), kMaxMessageBytes);
+}
+
+TEST_F(QueryColumns, RefusesAMessageLongerThanTheLimit) {
+  v1::QueryColumnsRequest request;
+  *request.mutable_pulses() = WireColumns(400000);
+  v1::QueryColumnsResponse response;
+  EXPECT_EQ(ServedTables::QueryColumns(request, response).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+}
+
+}  // namespace
+}  // namespace albtpu::server

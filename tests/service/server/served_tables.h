@@ -1,0 +1,137 @@
+// A server on a free port that answers from synthetic tables, and a client of it.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/server/server.h"
+#include "service/server/table_catalog.h"
+#include "tables/interpolation.h"
+#include "tables/table_io.h"
+#include "tests/tables/synthetic_table.h"
+#include "tests/tables/temporary_directory.h"
+
+namespace albtpu::server {
+
+template <typename Value>
+Value OrDie(absl::StatusOr<Value> value) {
+  if (!value.ok()) {
+    ADD_FAILURE() << value.status();
+    std::abort();
+  }
+  return *std::move(value);
+}
+
+inline void WriteOrDie(const UncertaintyTable& table, const std::filesystem::path& path) {
+  std::filesystem::create_directories(path.parent_path());
+  const absl::Status status = WriteTable(table, path, Existing::kKeep);
+  if (!status.ok()) {
+    ADD_FAILURE() << status;
+    std::abort();
+  }
+}
+
+inline std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // A proxy in the environment does not know our loopback.
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+// Tables `survey` (synthetic), `published` (without biases and standard errors) and `twice/1`, `twice/2` (all
+// values times 2 and 3).
+class ServedTables : public ::testing::Test {
+ protected:
+  ServedTables()
+      : survey_(testing::SyntheticTable()), published_(testing::SyntheticTable({.published = true})) {
+    WriteOrDie(survey_, folder_ / "survey.h5");
+    WriteOrDie(published_, folder_ / "published.h5");
+    WriteOrDie(testing::SyntheticTable({.version = "first", .factor = 2}), folder_.path() / "twice" / "1.h5");
+    WriteOrDie(testing::SyntheticTable({.version = "second", .factor = 3}),
+               folder_.path() / "twice" / "2.h5");
+    catalog_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
+    server_ = OrDie(Server::Start(*catalog_, OrDie(ListenAddress::Parse("127.0.0.1:0"))));
+    channel_ = ChannelTo(server_->address());
+    stub_ = v1::UncertaintyService::NewStub(channel_);
+  }
+
+  template <typename Method, typename Request, typename Response>
+  grpc::Status Call(Method method, const Request& request, Response& response) {
+    grpc::ClientContext context;
+    context.set_wait_for_ready(true);
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+    return (*stub_.*method)(&context, request, &response);
+  }
+
+  grpc::Status QueryPulses(const v1::QueryPulsesRequest& request, v1::QueryPulsesResponse& response) {
+    return Call(&v1::UncertaintyService::Stub::QueryPulses, request, response);
+  }
+  grpc::Status QueryColumns(const v1::QueryColumnsRequest& request, v1::QueryColumnsResponse& response) {
+    return Call(&v1::UncertaintyService::Stub::QueryColumns, request, response);
+  }
+  grpc::Status ListTables(v1::ListTablesResponse& response) {
+    return Call(&v1::UncertaintyService::Stub::ListTables, v1::ListTablesRequest(), response);
+  }
+  grpc::Status GetTable(const std::string& name, v1::GetTableResponse& response) {
+    v1::GetTableRequest request;
+    request.set_table(name);
+    return Call(&v1::UncertaintyService::Stub::GetTable, request, response);
+  }
+
+  testing::TemporaryDirectory folder_;
+  UncertaintyTable survey_;
+  UncertaintyTable published_;
+  std::optional<TableCatalog> catalog_;
+  std::unique_ptr<Server> server_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::UncertaintyService::Stub> stub_;
+};
+
+// A pulse inside the domain of the synthetic tables, between their nodes.
+inline v1::Pulse WirePulse() {
+  v1::Pulse pulse;
+  pulse.set_wind_speed(4.5f);
+  pulse.set_fetch(5000);
+  pulse.set_incidence(12);
+  pulse.set_azimuth(40);
+  pulse.set_footprint(0.7f);
+  pulse.set_depth(3);
+  return pulse;
+}
+
+inline Pulse TablesPulse() {
+  return {.wind_speed = 4.5f, .fetch = 5000, .incidence = 12, .azimuth = 40, .footprint = 0.7f, .depth = 3};
+}
+
+inline std::string Column(const std::vector<float>& values) {
+  std::string bytes(values.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+inline std::vector<float> Floats(const std::string& column) {
+  std::vector<float> values(column.size() / sizeof(float));
+  std::memcpy(values.data(), column.data(), column.size());
+  return values;
+}
+
+// The same pulse as WirePulse(), `count` times.
+inline v1::PulseColumns WireColumns(std::size_t count) {
+  const v1::Pulse pulse = WirePulse();
+  v1::PulseColumns columns;
+  columns.set_wind_speed(Column(std::vector<float>(count, pulse.wind_speed())));
+  columns.set_fetch(Column(std::vector<float>(count, pulse.fetch())));
+  columns.set_incidence(Column(std::vector<float>(count, pulse.incidence())));
+  columns.set_azimuth(Column(std::vector<float>(count, pulse.azimuth())));
+  columns.set_footprint(Column(std::vector<float>(count, pulse.footprint())));
+  columns.set_depth(Column(std::vector<float>(count, pulse.depth())));
+  return columns;
+}
+
+}  // namespace albtpu::server

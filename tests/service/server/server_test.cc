@@ -1,0 +1,43 @@
+#include "service/server/server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "service/server/limits.h"
+#include "tests/service/server/served_tables.h"
+
+namespace albtpu::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+using RunningServer = ServedTables;
+
+TEST_F(RunningServer, SaysWhyItCannotListen) {
+  const ListenAddress taken = OrDie(ListenAddress::Parse(server_->address()));
+  const absl::Status status = Server::Start(*catalog_, taken).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("Address already in use"));
+  // 192.0.2.0/24 is documentation's: no machine has it (RFC 5737).
+  const absl::Status foreign = Server::Start(*catalog_, OrDie(ListenAddress::Parse("192.0.2.1:0"))).status();
+  EXPECT_THAT(std::string(foreign.message()), HasSubstr("192.0.2.1:0"));
+}
+
+TEST_F(RunningServer, LeavesItsPortWhenDrained) {
+  const ListenAddress address = OrDie(ListenAddress::Parse(server_->address()));
+  server_->Drain();
+  EXPECT_TRUE(Server::Start(*catalog_, address).ok());
+}
+
+TEST_F(RunningServer, DrainsAtOnceWhenNoCallIsUnderWay) {
+  v1::ListTablesResponse response;
+  ASSERT_TRUE(ListTables(response).ok());
+  const auto begin = std::chrono::steady_clock::now();
+  server_->Drain();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kDrainTime / 2);
+}
+
+}  // namespace
+}  // namespace albtpu::server

@@ -1,0 +1,26 @@
+#include "tables/default_tables.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+
+namespace albtpu {
+namespace {
+
+TEST(DefaultTables, LieBesideTheProgram) {
+  unsetenv("ALBTPU_TABLES");
+  const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe");
+  EXPECT_EQ(DefaultTablesDirectory(), program.parent_path().parent_path() / "share/albtpu/tables");
+}
+
+TEST(DefaultTables, AreWhereTheEnvironmentSays) {
+  setenv("ALBTPU_TABLES", "/somewhere/else", 1);
+  EXPECT_EQ(DefaultTablesDirectory(), "/somewhere/else");
+  setenv("ALBTPU_TABLES", "", 1);
+  EXPECT_EQ(DefaultTablesDirectory().filename(), "tables");
+  unsetenv("ALBTPU_TABLES");
+}
+
+}  // namespace
+}  // namespace albtpu
