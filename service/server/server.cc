@@ -2,14 +2,12 @@
 
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
 
 #include "absl/strings/str_cat.h"
-#include "grpc/health/v1/health.pb.h"
 #include "service/server/limits.h"
 
 namespace albtpu::server {
@@ -28,25 +26,23 @@ void Configure(grpc::ServerBuilder& builder) {
   builder.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
   builder.SetResourceQuota(grpc::ResourceQuota("albtpu").SetMaxThreads(kMaxThreads));
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxCallsPerConnection);
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT,
-                             0);  // Else two servers share a port and nobody notices.
+  // Else two servers share a port and nobody notices.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
-
-// gRPC's own health service does not bring its description, which reflection looks up among those linked.
-void LinkHealthDescription() { grpc::health::v1::HealthCheckRequest::descriptor(); }
 
 }  // namespace
 
+Server::Server(const TableCatalog& catalog)
+    : service_(catalog), health_(v1::UncertaintyService::service_full_name()) {}
+
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const TableCatalog& catalog,
                                                       const ListenAddress& address) {
-  grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  LinkHealthDescription();
-
   std::unique_ptr<Server> server(new Server(catalog));
   grpc::ServerBuilder builder;
   Configure(builder);
   builder.RegisterService(&server->service_);
+  builder.RegisterService(&server->health_);
   int port = 0;
   builder.AddListeningPort(address.ToString(), grpc::InsecureServerCredentials(), &port);
   gpr_set_log_function(Discard);
@@ -57,14 +53,12 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const TableCatalog& catalo
     return absl::UnavailableError(absl::StrCat(
         "cannot listen on ", reason.ok() ? absl::string_view(address.ToString()) : reason.message()));
   }
-  server->server_->GetHealthCheckService()->SetServingStatus(v1::UncertaintyService::service_full_name(),
-                                                             true);
   server->address_ = address.WithPort(port);
   return server;
 }
 
 void Server::Drain() {
-  server_->GetHealthCheckService()->SetServingStatus(false);
+  health_.StopServing();
   server_->Shutdown(std::chrono::system_clock::now() + kDrainTime);
   server_->Wait();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "service/server/health_service.h"
 #include "service/server/listen_address.h"
 #include "service/server/table_catalog.h"
 #include "service/server/uncertainty_service.h"
@@ -28,9 +29,10 @@ class Server {
   void Drain();
 
  private:
-  explicit Server(const TableCatalog& catalog) : service_(catalog) {}
+  explicit Server(const TableCatalog& catalog);
 
   UncertaintyService service_;
+  HealthService health_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;
 };

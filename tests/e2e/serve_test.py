@@ -1,0 +1,194 @@
+"""albtpu-serve as a program: flags, exit codes, signals, health and reflection.
+
+Usage: serve_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+"""
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import grpc
+from google.protobuf import descriptor_pb2
+
+from serving import PATIENCE, Server, connect, make_stubs
+
+SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
+STUBS = make_stubs((PROTO_FOLDER, "grpc/health/v1/health.proto"),
+                   (os.path.dirname(os.path.abspath(__file__)), "reflection.proto"))
+# gRPC's Python package has the name of the package of the health protocol, and hides it.
+grpc.__path__.append(os.path.join(STUBS, "grpc"))
+from grpc.health.v1 import health_pb2, health_pb2_grpc  # noqa: E402
+import reflection_pb2  # noqa: E402
+import reflection_pb2_grpc  # noqa: E402
+
+SERVICE = "albtpu.v1.UncertaintyService"
+SERVING = health_pb2.HealthCheckResponse.SERVING
+NOT_SERVING = health_pb2.HealthCheckResponse.NOT_SERVING
+
+
+class ServeTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.tables = os.path.join(self.folder, "tables")
+        self.make_table("quick.h5")
+
+    def make_table(self, name):
+        path = os.path.join(self.tables, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        subprocess.run([SYNTHETIC_TABLE, path], check=True)
+
+    def serve(self, *flags, **options):
+        server = Server(SERVE, "--tables", self.tables, *flags, **options)
+        self.addCleanup(server.__exit__)
+        return server
+
+    def assert_fails(self, exit_code, problem, *flags, program=SERVE, environment=None):
+        result = subprocess.run([program, *flags], capture_output=True, text=True, timeout=PATIENCE,
+                                env={**os.environ, **(environment or {})})
+        self.assertEqual(result.returncode, exit_code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertRegex(result.stderr, r"\Aalbtpu-serve: [^\n]+\n\Z")
+        self.assertIn(problem, result.stderr)
+
+
+class Flags(ServeTest):
+    def test_bad_ones_are_bad_usage(self):
+        self.assert_fails(2, "--nonsense", "--nonsense")
+        self.assert_fails(2, "--listen", "--listen")
+        self.assert_fails(2, "HOST:PORT", "--tables", self.tables, "--listen", "50051")
+        self.assert_fails(2, "word", "--tables", self.tables, "word")
+
+    def test_plain_text_stays_on_this_machine_unless_insecure(self):
+        self.assert_fails(2, "--insecure", "--tables", self.tables, "--listen", "0.0.0.0:0")
+        server = self.serve("--insecure", listen="0.0.0.0:0")
+        self.assertTrue(server.address.startswith("0.0.0.0:"))
+
+    def test_localhost_and_ipv6_are_addresses(self):
+        for host in ["localhost"] + (["[::1]"] if socket.has_ipv6 and self.has_ipv6_loopback() else []):
+            server = self.serve(listen=host + ":0")
+            with connect(server.address) as channel:
+                self.assertEqual(check_health(channel, ""), SERVING)
+
+    @staticmethod
+    def has_ipv6_loopback():
+        try:
+            with socket.socket(socket.AF_INET6) as probe:
+                probe.bind(("::1", 0))
+            return True
+        except OSError:
+            return False
+
+    def test_version_and_help_go_to_standard_output(self):
+        version = subprocess.run([SERVE, "--version"], capture_output=True, text=True, check=True)
+        self.assertRegex(version.stdout, r"\Aalbtpu-serve \d+\.\d+\.\d+ \(\S+\)\n\Z")
+        help_text = subprocess.run([SERVE, "--help"], capture_output=True, text=True, check=True)
+        self.assertIn("--default-table", help_text.stdout)
+
+
+class Tables(ServeTest):
+    def test_are_counted_and_the_default_is_named(self):
+        self.assertIn("1 table, default 'quick'", self.serve().lines[0])
+        self.make_table("survey/1.h5")
+        self.make_table("survey/2.h5")
+        self.assertIn("3 tables, default 'survey/2'", self.serve().lines[0])
+        self.assertIn("3 tables, default 'quick'", self.serve("--default-table", "quick").lines[0])
+
+    def test_need_no_default(self):
+        self.make_table("slow.h5")
+        self.assertIn("2 tables, no default", self.serve().lines[0])
+
+    def test_must_be_there_and_whole(self):
+        self.assert_fails(1, "nowhere", "--tables", os.path.join(self.folder, "nowhere"))
+        os.mkdir(os.path.join(self.folder, "empty"))
+        self.assert_fails(1, "there is no table in", "--tables", os.path.join(self.folder, "empty"))
+        self.assert_fails(1, "'slow'", "--tables", self.tables, "--default-table", "slow")
+        path = os.path.join(self.tables, "quick.h5")
+        os.truncate(path, os.path.getsize(path) - 1)
+        self.assert_fails(1, "quick.h5", "--tables", self.tables)
+
+    def test_are_found_by_the_environment(self):
+        server = Server(SERVE, environment={"ALBTPU_TABLES": self.tables})
+        self.addCleanup(server.__exit__)
+        self.assertIn("default 'quick'", server.lines[0])
+
+    def test_are_found_beside_the_installed_program(self):
+        prefix = os.path.join(self.folder, "prefix")
+        program = os.path.join(prefix, "bin", "albtpu-serve")
+        os.makedirs(os.path.dirname(program))
+        shutil.copy(SERVE, program)
+        tables = os.path.join(prefix, "share", "albtpu", "tables")
+        self.assert_fails(1, tables, program=program, environment={"ALBTPU_TABLES": ""})
+        shutil.copytree(self.tables, tables)
+        server = Server(program, environment={"ALBTPU_TABLES": ""})
+        self.addCleanup(server.__exit__)
+        self.assertIn("default 'quick'", server.lines[0])
+
+
+class Port(ServeTest):
+    def test_in_use_is_one_clear_error(self):
+        address = self.serve().address
+        self.assert_fails(1, "Address already in use", "--tables", self.tables, "--listen", address)
+
+
+class Signals(ServeTest):
+    def test_stop_the_server_with_success(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            server = self.serve()
+            self.assertEqual(server.stop(number), 0)
+
+    def test_are_told_to_those_that_watch_its_health(self):
+        server = self.serve()
+        with connect(server.address) as channel:
+            watch = health_pb2_grpc.HealthStub(channel).Watch(health_pb2.HealthCheckRequest(service=SERVICE),
+                                                              timeout=PATIENCE)
+            self.assertEqual(next(watch).status, SERVING)
+            self.assertEqual(server.stop(signal.SIGTERM), 0)
+            self.assertEqual([answer.status for answer in watch], [NOT_SERVING])
+
+
+def check_health(channel, service):
+    request = health_pb2.HealthCheckRequest(service=service)
+    return health_pb2_grpc.HealthStub(channel).Check(request, timeout=PATIENCE, wait_for_ready=True).status
+
+
+class Health(ServeTest):
+    def test_is_served_for_the_server_and_the_service(self):
+        with connect(self.serve().address) as channel:
+            self.assertEqual(check_health(channel, ""), SERVING)
+            self.assertEqual(check_health(channel, SERVICE), SERVING)
+            with self.assertRaises(grpc.RpcError) as failure:
+                check_health(channel, "nonsense")
+            self.assertEqual(failure.exception.code(), grpc.StatusCode.NOT_FOUND)
+
+
+class Reflection(ServeTest):
+    def ask(self, channel, **request):
+        stub = reflection_pb2_grpc.ServerReflectionStub(channel)
+        requests = iter([reflection_pb2.ServerReflectionRequest(**request)])
+        return next(stub.ServerReflectionInfo(requests, timeout=PATIENCE, wait_for_ready=True))
+
+    def test_lists_and_describes_the_services(self):
+        with connect(self.serve().address) as channel:
+            listed = self.ask(channel, list_services="").list_services_response.service
+            self.assertLessEqual({SERVICE, "grpc.health.v1.Health"}, {service.name for service in listed})
+            for name in (SERVICE, "grpc.health.v1.Health"):
+                answer = self.ask(channel, file_containing_symbol=name).file_descriptor_response
+                self.assertIn(name, set(self.services_of(answer.file_descriptor_proto)))
+
+    @staticmethod
+    def services_of(serialized_files):
+        for serialized in serialized_files:
+            file = descriptor_pb2.FileDescriptorProto.FromString(serialized)
+            for service in file.service:
+                yield f"{file.package}.{service.name}"
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,72 @@
+"""Runs albtpu-serve for a test, and makes clients of it from the .proto files alone."""
+
+import atexit
+import os
+import queue
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+
+import grpc
+
+READY = re.compile(r"albtpu-serve: ready on (\S+), \d+ tables?, (default '.+'|no default)")
+PATIENCE = 60  # Seconds that a loaded machine may need for what takes milliseconds.
+
+
+def make_stubs(*protos):
+    """Makes modules of `protos`, pairs of an import folder and a path in it, and makes them importable.
+
+    Returns the folder of the modules.
+    """
+    output = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, output)
+    for folder, path in protos:
+        subprocess.run(["protoc", "-I", folder, f"--python_out={output}", f"--grpc_out={output}",
+                        "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin", path], check=True)
+    sys.path.insert(0, output)
+    return output
+
+
+def connect(address):
+    # A proxy in the environment does not know our loopback.
+    return grpc.insecure_channel(address, options=[("grpc.enable_http_proxy", 0)])
+
+
+class Server:
+    """A running albtpu-serve on a free port."""
+
+    def __init__(self, program, *flags, listen="127.0.0.1:0", environment=None):
+        self.process = subprocess.Popen([program, "--listen", listen, *flags], stderr=subprocess.PIPE,
+                                        text=True, env={**os.environ, **(environment or {})})
+        self.lines = []
+        first_line = queue.Queue()
+        threading.Thread(target=self._read, args=(first_line,), daemon=True).start()
+        line = first_line.get(timeout=PATIENCE)
+        ready = READY.fullmatch(line)
+        if not ready:
+            self.process.wait(PATIENCE)
+            raise RuntimeError(line)
+        self.address = ready[1]
+
+    def _read(self, first_line):
+        for line in self.process.stderr:
+            self.lines.append(line.rstrip("\n"))
+            if len(self.lines) == 1:
+                first_line.put(self.lines[0])
+        first_line.put("albtpu-serve said nothing")
+
+    def stop(self, signal):
+        """Sends `signal`; returns the exit code."""
+        self.process.send_signal(signal)
+        return self.process.wait(PATIENCE)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.process.stderr.close()
