@@ -33,8 +33,10 @@ int Main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     program.exit(help, std::cout, std::cerr);
     return Report(FlushAnswers());
+  } catch (const CLI::ValidationError& error) {  // Ours: they say what would be right.
+    return Report(UsageError(error.what()));
   } catch (const CLI::ParseError& error) {
-    return Report(UsageError(absl::StrCat(error.what(), " (albtpu-query --help says more)")));
+    return Report(UsageError(absl::StrCat(error.what(), ": see albtpu-query --help, or COMMAND --help")));
   }
   return Report(run());
 }

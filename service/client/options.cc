@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "service/client/number_text.h"
 
@@ -20,6 +21,18 @@ void CheckNumber(const std::string& flag, const std::string& text, std::optional
   if (sign == Sign::kNotNegative && *value < 0) {
     throw CLI::ValidationError(flag, absl::StrCat(text, " is negative: ", right));
   }
+}
+
+// Validators of CLI11 answer with what is wrong, or with nothing.
+std::string CheckNotEmpty(const std::string& text) { return text.empty() ? "is empty: a name is right" : ""; }
+
+std::string CheckHostAndPort(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  int port = 0;
+  const bool number = colon != std::string::npos && colon > 0 &&
+                      absl::SimpleAtoi(absl::string_view(text).substr(colon + 1), &port);
+  if (number && port > 0 && port <= 65535) return "";
+  return absl::StrCat("'", text, "': HOST:PORT is right, such as 127.0.0.1:50051");
 }
 
 const char* DescribeFlag(AxisId axis) {
@@ -42,15 +55,18 @@ const char* DescribeFlag(AxisId axis) {
 }
 
 void AddSourceOptions(CLI::App& command, SourceOptions& options) {
-  CLI::Option* server =
-      command.add_option("--server", options.server, "Ask the service at HOST:PORT")->type_name("HOST:PORT");
+  CLI::Option* server = command.add_option("--server", options.server, "Ask the service at HOST:PORT")
+                            ->type_name("HOST:PORT")
+                            ->check(CheckHostAndPort);
   command.add_option("--table", options.file, "Answer from this table file, without a server")
       ->type_name("FILE.h5")
+      ->check(CheckNotEmpty)
       ->excludes(server);
   command
       .add_option("--table-name", options.name,
                   "Which of the tables, by name or NAME/VERSION; left out: the default")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->check(CheckNotEmpty);
 }
 
 void AddStyleOptions(CLI::App& command, AnswerStyle& style) {

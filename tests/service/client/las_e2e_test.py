@@ -1,0 +1,138 @@
+"""albtpu-query las, checked by a reader that shares nothing with it: the same points in the same order, the same bytes
+in the old fields, and the values that `albtpu-query csv` gives for the same pulses."""
+
+import csv
+import pathlib
+import struct
+
+import numpy as np
+
+import programs
+from las_file import LasFile
+from programs import make_flight, make_table, query
+
+ALTITUDE, DIVERGENCE = 400.0, 1.5  # m, mrad
+WIND_FROM, FLIGHT = 100.0, 30.0  # degree
+
+
+class LasTest(programs.Test):
+    def annotate(self, source, target, classes, water_level, *flags):
+        return query("las", source, target, "--table", self.table, "--water-level", water_level, "--classes", classes,
+                     "--wind-speed", 6.5, "--fetch", 30000, "--altitude", ALTITUDE, "--divergence", DIVERGENCE,
+                     "--wind-from", WIND_FROM, "--flight-direction", FLIGHT, *flags, check=0)
+
+    def values_by_csv(self, las, point_class, water_level):
+        """THU and TVU of the bathymetric points by `albtpu-query csv`; NaN where there is no number."""
+        chosen = las.classes == point_class
+        angles, depths = las.scan_angles[chosen], water_level - las.z[chosen]
+        incidences = np.abs(angles)
+        footprints = ALTITUDE / np.cos(np.radians(incidences)) * (DIVERGENCE * 1e-3)
+        azimuths = np.where(angles < 0, FLIGHT - 90, FLIGHT + 90) - (WIND_FROM + 180)
+        pulses, answers = self.folder / "pulses.csv", self.folder / "answers.csv"
+        with open(pulses, "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["depth", "incidence", "footprint", "azimuth"])
+            writer.writerows(zip(*(map(repr, column.tolist()) for column in (depths, incidences, footprints, azimuths))))
+        query("csv", pulses, answers, "--table", self.table, "--wind-speed", 6.5, "--fetch", 30000, "--overwrite",
+              check=0)
+        with open(answers, newline="") as file:
+            rows = list(csv.DictReader(file))
+        return [np.array([float(row[name] or "nan") for row in rows], np.float32) for name in ("thu", "tvu")]
+
+    def check(self, source, target, point_class, water_level):
+        old, new = LasFile(source), LasFile(target)
+        # The same points in the same order with the same bytes, 8 more behind them.
+        self.assertEqual(new.point_count, old.point_count)
+        self.assertEqual(new.record_length, old.record_length + 8)
+        np.testing.assert_array_equal(new.records[:, :-8], old.records)
+        # What is behind the points.
+        self.assertEqual(new.bytes[new.end_of_points:], old.bytes[old.end_of_points:])
+        # The header but for what must move; the VLRs but for ours; the gap.
+        header = bytearray(new.bytes[:old.header_size])
+        struct.pack_into("<I", header, 96, old.offset_to_points)
+        struct.pack_into("<I", header, 100, old.vlr_count)
+        struct.pack_into("<H", header, 105, old.record_length)
+        if old.evlr_count:
+            self.assertEqual(new.evlr_start - new.end_of_points, old.evlr_start - old.end_of_points)
+            struct.pack_into("<Q", header, 235, old.evlr_start)
+        self.assertEqual(bytes(header), old.bytes[:old.header_size])
+        self.assertEqual(new.vlrs[:old.vlr_count], old.vlrs)
+        self.assertEqual(new.bytes[new.end_of_vlrs:new.offset_to_points],
+                         old.bytes[old.end_of_vlrs:old.offset_to_points])
+        # The new values.
+        dimensions = new.extra_dimensions()
+        for name, expected in zip(("total_thu", "total_tvu"), self.values_by_csv(old, point_class, water_level)):
+            offset, kind, no_data, description = dimensions[name]
+            self.assertEqual((kind, no_data, description), (9, -1.0, "sea surface only, 2 sigma, m"))
+            values = new.field(offset, "<f4")
+            chosen = new.classes == point_class
+            np.testing.assert_array_equal(values[~chosen], np.float32(-1))
+            np.testing.assert_array_equal(values[chosen], np.where(np.isnan(expected), np.float32(-1), expected))
+            self.assertGreater(np.mean(values[chosen] > 0), 0.9)
+        return new
+
+    def test_sample_of_a_real_survey(self):
+        source = pathlib.Path(programs.PATHS["sample"])
+        if not source.exists():
+            self.skipTest(f"{source} is not here")
+        target = self.folder / "out.las"
+        result = self.annotate(source, target, 26, -23.09)
+        self.assertEqual(result.stdout, "")
+        self.assertIn("56382 points", result.stderr)
+        new = self.check(source, target, 26, -23.09)
+        offset, kind, _, _ = new.extra_dimensions()["undocumented"]
+        self.assertEqual((offset, kind), (30, 0))
+
+    def test_simulated_flights_of_many_formats(self):
+        for version, point_format, extra_bytes in ((2, 0, 0), (2, 1, 3), (2, 3, 300), (3, 4, 0), (3, 5, 2), (4, 1, 0),
+                                                   (4, 6, 6), (4, 7, 0), (4, 8, 1), (4, 10, 9)):
+            with self.subTest(version=version, point_format=point_format, extra_bytes=extra_bytes):
+                source = make_flight(self.folder / "in.las", version, point_format, extra_bytes)
+                target = self.folder / "out.las"
+                result = self.annotate(source, target, 26 if point_format < 6 else 40, 0, "--overwrite")
+                self.check(source, target, 26 if point_format < 6 else 40, 0)
+                self.assertEqual("whole degrees" in result.stderr, point_format < 6)
+
+    def test_server_writes_the_same_bytes(self):
+        source = make_flight(self.folder / "in.las")
+        tables = self.folder / "tables"
+        tables.mkdir()
+        make_table(tables / "quick.h5")
+        flags = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
+        with programs.server(tables) as address:
+            for coverage in ("2sigma", "p95"):
+                local, remote = (self.folder / f"{kind}_{coverage}.las" for kind in ("local", "remote"))
+                query("las", source, local, "--table", self.table, "--coverage", coverage, *flags, check=0)
+                query("las", source, remote, "--server", address, "--coverage", coverage, *flags, check=0)
+                self.assertEqual(local.read_bytes(), remote.read_bytes())
+            self.assertNotEqual(local.read_bytes(), (self.folder / "local_2sigma.las").read_bytes())
+
+    def test_many_files_into_a_folder(self):
+        make_flight(self.folder / "a.las")
+        make_flight(self.folder / "b.las", 4, 7)
+        land = make_flight(self.folder / "land.las", 2, 1)  # Has no class 40.
+        out = self.folder / "out"
+        out.mkdir()
+        (self.folder / "bad.las").write_bytes(b"LASF")
+        flags = ("--output-dir", out, "--table", self.table, "--water-level", 0, "--wind-speed", 6, "--footprint", 1)
+        result = query("las", self.folder / "a.las", self.folder / "bad.las", land, self.folder / "b.las", *flags)
+        self.assert_fails(result, 1, "1 of 4 files failed")
+        self.assertIn("bad.las", result.stderr)
+        self.assertEqual(sorted(path.name for path in out.iterdir()), ["a.las", "b.las", "land.las"])
+        values = LasFile(out / "land.las")
+        self.assertTrue(np.all(values.field(values.record_length - 8, "<f4") == -1))
+        self.assertIn("no point of class 40", result.stderr)
+        self.assert_fails(query("las", land, *flags, "--overwrite"), 1, "no file has a point of class 40")
+        self.assert_fails(query("las", self.folder / "a.las", land.parent / "out" / ".." / "a.las", *flags), 2,
+                          "two inputs are called a.las")
+
+    def test_hint_names_the_classes_there_are(self):
+        source = make_flight(self.folder / "in.las")
+        result = query("las", source, self.folder / "out.las", "--table", self.table, "--water-level", 0,
+                       "--wind-speed", 6, "--footprint", 1, "--classes", "26,27")
+        self.assert_fails(result, 1, "no point of class 26 or 27", "--classes", "class 40: 20200 points")
+        self.assertNotIn("out.las", self.names())
+
+
+if __name__ == "__main__":
+    programs.main()

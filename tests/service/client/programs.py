@@ -1,0 +1,74 @@
+"""The real programs, for tests: albtpu-query and what it needs. Their paths are this script's arguments, NAME=PATH."""
+
+import contextlib
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
+
+
+def query(*arguments, check=None, **keywords):
+    """Runs albtpu-query; with `check`, its exit code must be that."""
+    result = subprocess.run([PATHS["query"], *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                            **keywords)
+    if check is not None and result.returncode != check:
+        raise AssertionError(f"albtpu-query {arguments} exited {result.returncode}: {result.stderr}")
+    return result
+
+
+def make_table(path, *options):
+    subprocess.run([PATHS["synthetic_table"], str(path), *options], check=True)
+    return path
+
+
+def make_flight(path, *options):
+    subprocess.run([PATHS["simulated_flight"], str(path), *map(str, options)], check=True)
+    return path
+
+
+@contextlib.contextmanager
+def server(folder):
+    """A server of the tables in `folder`, on a free port; gives HOST:PORT."""
+    with subprocess.Popen([PATHS["serve"], "--tables", str(folder), "--listen", "127.0.0.1:0"],
+                          stderr=subprocess.PIPE, text=True) as process:
+        try:
+            for line in process.stderr:
+                if ready := re.search(r"ready on (\S+:\d+)", line):
+                    break
+            else:
+                raise AssertionError("albtpu-serve did not start")
+            yield ready.group(1)
+        finally:
+            process.terminate()
+            process.communicate(timeout=60)
+
+
+class Test(unittest.TestCase):
+    """A test with a folder of its own and a table in it, `table`."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.table = make_table(self.folder / "quick.h5")
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_fails(self, result, code, *parts):
+        """One clear message on standard error, nothing on standard output."""
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        last = result.stderr.rstrip("\n").split("\n")[-1]
+        self.assertTrue(last.startswith("albtpu-query: "), result.stderr)
+        self.assertGreaterEqual(last.count(": "), 2, last)
+        for part in parts:
+            self.assertIn(part, last)
+
+
+def main():
+    unittest.main(argv=sys.argv[:1], verbosity=2)
