@@ -24,8 +24,8 @@ static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
 // Pulses between two looks at whether the caller still waits: some 10 ms.
 inline constexpr std::size_t kPulsesBetweenCancellationChecks = 4096;
 
-// Threads that answer, all connections together: beyond them calls fail with RESOURCE_EXHAUSTED. Each holds a
-// request and an answer, so that they take less than 1 GiB.
+// Threads that answer, all connections together: beyond them calls fail with RESOURCE_EXHAUSTED. A call takes
+// up to 12 MiB (request and answer, each as a message and as bytes), all of them 1.5 GiB.
 inline constexpr int kMaxThreads = 128;
 
 // Calls under way on one connection; further ones wait in the client.

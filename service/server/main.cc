@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -24,7 +25,7 @@ constexpr int kExitFailure = 1;
 constexpr int kExitUsage = 2;
 
 struct Options {
-  std::filesystem::path tables;
+  std::optional<std::filesystem::path> tables;
   std::string default_table;
   std::string listen = "127.0.0.1:50051";
   bool insecure = false;
@@ -77,10 +78,11 @@ int Run(const Options& options) {
         address->ToString());
     return kExitUsage;
   }
-  const std::filesystem::path folder = options.tables.empty() ? DefaultTablesDirectory() : options.tables;
+  const std::filesystem::path folder =
+      options.tables.has_value() ? *options.tables : DefaultTablesDirectory();
   const absl::StatusOr<TableCatalog> catalog = TableCatalog::Load(folder, options.default_table);
   if (!catalog.ok()) {
-    spdlog::error("{}: {}", options.tables.empty() ? "no --tables is given" : "--tables",
+    spdlog::error("{}: {}", options.tables.has_value() ? "--tables" : "no --tables is given",
                   std::string(catalog.status().message()));
     return kExitFailure;
   }
@@ -121,6 +123,7 @@ int ParseAndRun(int argc, char** argv) {
 int main(int argc, char** argv) try {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("albtpu-serve"));
   spdlog::set_pattern("%n: %v");
+  std::signal(SIGPIPE, SIG_IGN);  // A log that nobody reads any more does not end the server.
   return albtpu::server::ParseAndRun(argc, argv);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "albtpu-serve: %s\n", error.what());

@@ -10,19 +10,24 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 import grpc
+import numpy as np
 from google.protobuf import descriptor_pb2
 
 from serving import PATIENCE, Server, connect, make_stubs
 
 SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
-STUBS = make_stubs((PROTO_FOLDER, "grpc/health/v1/health.proto"),
+STUBS = make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
+                     for name in ("pulse", "table", "uncertainty", "uncertainty_service")),
+                   (PROTO_FOLDER, "grpc/health/v1/health.proto"),
                    (os.path.dirname(os.path.abspath(__file__)), "reflection.proto"))
 # gRPC's Python package has the name of the package of the health protocol, and hides it.
 grpc.__path__.append(os.path.join(STUBS, "grpc"))
 from grpc.health.v1 import health_pb2, health_pb2_grpc  # noqa: E402
+from albtpu.v1 import uncertainty_service_pb2, uncertainty_service_pb2_grpc  # noqa: E402
 import reflection_pb2  # noqa: E402
 import reflection_pb2_grpc  # noqa: E402
 
@@ -143,6 +148,26 @@ class Signals(ServeTest):
             server = self.serve()
             self.assertEqual(server.stop(number), 0)
 
+    def test_let_calls_under_way_end(self):
+        server = self.serve()
+        clients = [BusyClient(server.address) for _ in range(3)]
+        for client in clients:
+            self.assertTrue(client.answered.wait(PATIENCE))
+        self.assertEqual(server.stop(signal.SIGTERM), 0)
+        for client in clients:
+            client.thread.join(PATIENCE)
+            # Cancelled: a call that reached the server in the very moment of the signal.
+            self.assertIn(client.failure.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED))
+
+    def test_are_heeded_when_nobody_reads_the_log(self):
+        reader, writer = os.pipe()
+        process = subprocess.Popen([SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0"], stderr=writer)
+        os.close(writer)
+        with os.fdopen(reader) as log:
+            self.assertIn("ready on", log.readline())
+        process.terminate()
+        self.assertEqual(process.wait(PATIENCE), 0)
+
     def test_are_told_to_those_that_watch_its_health(self):
         server = self.serve()
         with connect(server.address) as channel:
@@ -151,6 +176,33 @@ class Signals(ServeTest):
             self.assertEqual(next(watch).status, SERVING)
             self.assertEqual(server.stop(signal.SIGTERM), 0)
             self.assertEqual([answer.status for answer in watch], [NOT_SERVING])
+
+
+class BusyClient:
+    """Asks for large batches, one after the other, until a call fails."""
+
+    PULSES = 65536
+
+    def __init__(self, address):
+        column = np.full(self.PULSES, 5, "<f4").tobytes()
+        self.request = uncertainty_service_pb2.QueryColumnsRequest(pulses={
+            "wind_speed": column, "incidence": column, "depth": column,
+            "footprint": np.float32(1).tobytes()})
+        self.address = address
+        self.answered = threading.Event()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def run(self):
+        with connect(self.address) as channel:
+            stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+            try:
+                while True:
+                    answer = stub.QueryColumns(self.request, timeout=PATIENCE, wait_for_ready=False)
+                    assert answer.pulse_count == self.PULSES
+                    self.answered.set()
+            except grpc.RpcError as failure:
+                self.failure = failure
 
 
 def check_health(channel, service):
