@@ -1,0 +1,58 @@
+// The Monte Carlo: beams through many realizations of one sea, and the uncertainty that comes out.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "generator/beam.h"
+#include "generator/discretization.h"
+#include "generator/statistics.h"
+
+namespace albtpu {
+
+// How long to go on. Realizations are counted in whole batches of `kBatch`.
+struct Effort {
+  int realizations = 1000;       // at least so many, 2 or more
+  int most_realizations = 1000;  // and no more
+  double relative_error =
+      0;  // go on until refraction, THU and TVU have this standard error over value; 0: don't
+};
+inline constexpr int kBatch = 250;
+
+// Seas and beams that share their surfaces: one footprint and profile.
+struct Encounter {
+  double wind_speed_10m = 0;                               // m/s
+  double fetch = std::numeric_limits<double>::infinity();  // m
+  double spreading = 2;                                    // s of cosine-2S
+  double refractive_index = 1.33;
+  std::vector<BeamOptions> beams;                // not empty; the same footprint, profile and source
+  std::vector<double> depths;                    // m, not negative
+  std::optional<Discretization> discretization;  // chosen from sea and beams where absent
+};
+
+// What one beam of an encounter comes to. Refraction in rad, the others in m, one for each depth; see DESIGN
+// of the table in tables/FORMAT.md for the definitions.
+struct BeamUncertainty {
+  Estimate refraction_along_wind, refraction_cross_wind;
+  std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
+};
+
+struct EncounterResult {
+  std::vector<BeamUncertainty> beams;
+  int realizations = 0;
+  bool converged = true;  // false: `most_realizations` came before `relative_error`
+  // What the surface was.
+  int rays = 0;
+  double patch_length = 0, spacing = 0;  // m
+  double footprint_slope_fraction =
+      0;  // least over the beams: slope variance seen by the footprint, over closed form's
+  double resolved_slope_fraction = 0;  // mean square slope of the facets, over the sea's
+};
+
+// Runs on all threads of the current TBB arena. The result is a function of its arguments alone.
+EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::uint64_t seed,
+                         std::uint32_t cell);
+
+}  // namespace albtpu

@@ -1,0 +1,27 @@
+// Standard normal numbers that depend on nothing but (seed, cell, realization): the same on any thread, in
+// any order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace albtpu {
+
+// The counter-based generator Philox4x32-10 (Salmon et al. (2011), doi:10.1145/2063384.2063405) and Box and
+// Muller.
+class NormalStream {
+ public:
+  NormalStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization)
+      : seed_(seed), cell_(cell), realization_(realization) {}
+
+  // Fills `normals` with independent numbers of mean 0 and variance 1. Each call goes on where the last one
+  // ended, rounded up to four numbers.
+  void Fill(std::span<double> normals);
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t cell_, realization_;
+  std::uint32_t block_ = 0;
+};
+
+}  // namespace albtpu

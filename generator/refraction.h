@@ -1,0 +1,38 @@
+// Refraction at the air-water interface: Snell's law for one ray, and what it does to small slopes.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace albtpu {
+
+// The refractive index of water at laser bathymetry's 532 nm, and the one of Birkebak et al. (2018), Eq. 17.
+inline constexpr double kRefractiveIndex = 1.33;
+
+// The direction of `incident` after it entered water of index `n` (air is 1) through a surface with the
+// upward normal `normal`. Both are unit vectors, with incident . normal < 0; the result is a unit vector.
+// Birkebak et al. (2018), Eq. 17, with the ratio of the indices on both terms, squared under the root.
+inline Eigen::Vector3d Refract(const Eigen::Vector3d& incident, const Eigen::Vector3d& normal, double n) {
+  const double ratio = 1 / n;
+  const Eigen::Vector3d tangential = normal.cross(incident);  // |tangential| = sin(incidence)
+  return -ratio * normal.cross(tangential) - normal * std::sqrt(1 - ratio * ratio * tangential.squaredNorm());
+}
+
+// The upward unit normal of a surface with the slopes (dz/dx, dz/dy).
+inline Eigen::Vector3d NormalOfSlope(const Eigen::Vector2d& slope) {
+  return Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
+}
+
+// The angle from the vertical, rad, of a ray refracted by still water: sin(incidence) = n sin(refracted).
+double StillWaterRefraction(double incidence, double n);
+
+// How the tangent of the refracted direction answers to a small slope of the surface: by `in_plane` times the
+// slope along the beam's azimuth, by `out_of_plane` times the slope across it. With g = 1 - cos(theta) / (n
+// cos(theta_r)), in_plane = g / cos^2(theta_r), out_of_plane = g; at nadir both are 1 - 1/n.
+struct SlopeGain {
+  double in_plane, out_of_plane;
+};
+SlopeGain SmallSlopeGain(double incidence, double n);
+
+}  // namespace albtpu

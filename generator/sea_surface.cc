@@ -1,0 +1,139 @@
+#include "generator/sea_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace albtpu {
+namespace {
+
+// Waves that fit into the side of the patch this often are all plane waves, and all patch. In between,
+// sampling the spectrum on the patch's lattice of wavenumbers becomes as good as the rings and sectors of the
+// plane waves.
+constexpr double kAllLong = 3, kAllPatch = 6;
+constexpr double kNodesPerLongWave =
+    11;  // cubic interpolation is then right to 0.3 % of the shortest wave's height
+
+CrossFade PatchShare(double patch_length) {
+  const double dk = 2 * std::numbers::pi / patch_length;
+  return CrossFade(kAllLong * dk, kAllPatch * dk);
+}
+
+// The width on the water of the longer axis of a beam's footprint, m. All but 1e-4 of a gaussian beam is
+// within twice its diameter.
+double WidthOnWater(const BeamOptions& beam) {
+  const double width = beam.profile == BeamProfile::kGaussian ? 2 * beam.footprint : beam.footprint;
+  return width / std::cos(beam.incidence);
+}
+
+// The least even size with no prime factor above 5, which FFTW transforms fastest.
+int FastSize(double at_least) {
+  for (int size = 2 * static_cast<int>(std::ceil(at_least / 2));; size += 2) {
+    int rest = size;
+    for (int factor : {2, 3, 5}) {
+      while (rest % factor == 0) rest /= factor;
+    }
+    if (rest == 1) return size;
+  }
+}
+
+WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,
+                         const Discretization& discretization) {
+  const double length = discretization.patch_per_beam * WidthOnWater(widest);
+  const int size = FastSize(length / widest.footprint * discretization.points_per_footprint);
+  return WavePatchModel(sea, length, size, PatchShare(length));
+}
+
+// How far from its axis the rays of a beam meet the water, m: half the footprint, and the shift of rays that
+// meet waves as much as six standard deviations above or below the point on the axis.
+double Reach(const SeaState& sea, const BeamOptions& widest) {
+  const double half_width = 0.5 * WidthOnWater(widest);
+  const double tilt = 6 * std::sqrt(SlopeCovariance(sea, [&](double k, double) {
+                                      const double across =
+                                          k * half_width;  // structure function, 2 (1 - cos)
+                                      return std::min(1.0, 2 / (across * across));
+                                    }).trace());
+  return half_width * (1 + tilt * std::tan(widest.incidence));
+}
+
+Eigen::MatrixXcd Phases(const LongWaveModel& long_waves, int half_nodes, double node_spacing, int axis) {
+  const int nodes = 2 * half_nodes + 1;
+  Eigen::MatrixXcd phases(nodes, static_cast<Eigen::Index>(long_waves.waves().size()));
+  for (int n = 0; n < nodes; ++n) {
+    for (Eigen::Index m = 0; m < phases.cols(); ++m) {
+      phases(n, m) =
+          std::polar(1.0, long_waves.waves()[m].wavenumber[axis] * (n - half_nodes) * node_spacing);
+    }
+  }
+  return phases;
+}
+
+// Lagrange's cubic through four equidistant nodes at -1, 0, 1, 2.
+std::array<double, 4> CubicWeights(double t) {
+  return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+          (t + 1) * t * (t - 1) / 6};
+}
+
+}  // namespace
+
+SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
+                           const Discretization& discretization)
+    : patch_(MakePatch(sea, widest, discretization)), long_waves_(sea, PatchShare(patch_.length())) {
+  stride_ = std::max(1, static_cast<int>(patch_.size() / (kAllPatch * kNodesPerLongWave)));
+  const double node_spacing = stride_ * patch_.spacing();
+  half_nodes_ = static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;  // one for the cubic
+  phase_x_ = Phases(long_waves_, half_nodes_, node_spacing, 0);
+  phase_y_ = Phases(long_waves_, half_nodes_, node_spacing, 1);
+}
+
+Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
+    const std::function<double(double k, double psi)>& weight) const {
+  return patch_.FacetSlopeCovariance(weight) + long_waves_.SlopeCovariance(weight);
+}
+
+Eigen::MatrixXd SurfaceModel::RefineLongWaves(const Eigen::MatrixXd& at_nodes) const {
+  const int points = 2 * (half_nodes_ - 1) * stride_ + 1;
+  const auto refine_rows = [&](const Eigen::MatrixXd& coarse) {
+    Eigen::MatrixXd fine(points, coarse.cols());
+    for (int i = 0; i < points; ++i) {
+      const int node = std::min(i / stride_, 2 * (half_nodes_ - 1) - 1);
+      const auto w = CubicWeights(static_cast<double>(i - node * stride_) / stride_);
+      fine.row(i) = w[0] * coarse.row(node) + w[1] * coarse.row(node + 1) + w[2] * coarse.row(node + 2) +
+                    w[3] * coarse.row(node + 3);
+    }
+    return fine;
+  };
+  return refine_rows(refine_rows(at_nodes).transpose()).transpose();
+}
+
+SeaSurface::SeaSurface(const SurfaceModel& model, NormalStream stream)
+    : model_(model), long_amplitudes_(model.long_waves_.Draw(stream)), patch_(model.patch_.Draw(stream)) {}
+
+SeaSurface::Window SeaSurface::WindowUnder(const Beam& beam) const {
+  const Eigen::Vector2d per_height = beam.per_height();
+  const double elevation =
+      HeightOfMeeting(model_.long_waves_, long_amplitudes_, Eigen::Vector2d::Zero(), per_height);
+  const Eigen::VectorXcd amplitudes = model_.long_waves_.Shifted(long_amplitudes_, elevation * per_height);
+
+  // The real part of phase_x diag(A) phase_y^T, as two products of real matrices.
+  const Eigen::MatrixXcd weighted = model_.phase_x_ * amplitudes.asDiagonal();
+  Eigen::MatrixXd at_nodes = weighted.real() * model_.phase_y_.real().transpose() -
+                             weighted.imag() * model_.phase_y_.imag().transpose();
+  at_nodes.array() -= elevation;
+
+  const Eigen::MatrixXd long_waves = model_.RefineLongWaves(at_nodes);
+  const int points = static_cast<int>(long_waves.rows());
+  const int size = model_.patch_.size();
+  const int first = ((-(points - 1) / 2) % size + size) % size;  // the patch repeats
+  std::vector<double> heights(static_cast<std::size_t>(points) * points);
+  for (int i = 0; i < points; ++i) {
+    const double* patch_row = &patch_[static_cast<std::size_t>((first + i) % size) * size];
+    for (int j = 0; j < points; ++j) {
+      heights[static_cast<std::size_t>(i) * points + j] = long_waves(i, j) + patch_row[(first + j) % size];
+    }
+  }
+  return {HeightField(std::move(heights), points, model_.patch_.spacing()), elevation};
+}
+
+}  // namespace albtpu

@@ -1,0 +1,29 @@
+// What waves shorter than the grid do to the mean direction of a beam.
+//
+// They average out over the footprint, but refraction is not linear in slope: they shift the mean tangent and
+// the mean secant of the refracted rays (the biases; at nadir the path lengthens by 1/2 g^2 times their mean
+// square slope), and change, by a few per cent in strong wind, how much a ray answers to the waves that are
+// resolved.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "generator/beam.h"
+
+namespace albtpu {
+
+// The change of the mean of (tangent x, tangent y, secant) of the refracted rays as `offset + gain * slope`,
+// where `slope` is the mean of the resolved slopes over the rays.
+struct UnresolvedWaves {
+  Eigen::Vector3d offset;
+  Eigen::Matrix<double, 3, 2> gain;
+};
+
+// A facet of slope m stands for a patch of water with the slopes m + delta, delta normal with
+// `slope_covariance` (diagonal: the sea is symmetric about the wind). Rays see the slopes with the weight of
+// the facing area, 1 + tan(theta) (m + delta) . phi. The mean over delta is taken by quadrature, its
+// departure from delta = 0 expanded to first order in m.
+UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refractive_index,
+                                        const Eigen::Matrix2d& slope_covariance);
+
+}  // namespace albtpu

@@ -1,0 +1,50 @@
+// The short waves under a beam: a periodic square patch of sea on a regular grid, by inverse FFT of random
+// amplitudes.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "generator/cross_fade.h"
+#include "generator/random_stream.h"
+#include "generator/sea_state.h"
+
+namespace albtpu {
+
+// The spectrum of the patch on its lattice of wavenumbers. Immutable; draws from one model may run on many
+// threads.
+//
+// Mode (i, j) has the wavenumber (2 pi / length) (i, j) and the expected power share(k) Psi dkx dky: what is
+// not the patch's share is left to the long waves. Modes at half the sampling wavenumber are left empty. The
+// variance of the heights is the sum of these powers, exactly.
+class WavePatchModel {
+ public:
+  // `length` [m] above 0; `size` points along a side, even.
+  WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share);
+  ~WavePatchModel();
+  WavePatchModel(WavePatchModel&&) noexcept;
+
+  double length() const { return length_; }
+  int size() const { return size_; }
+  double spacing() const { return length_ / size_; }
+
+  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through FFTW.
+  std::vector<double> Draw(NormalStream& stream) const;
+
+  double elevation_variance() const;
+  // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle
+  // sees the difference quotient of a wave, sin(kx dx / 2) / (dx / 2), not its slope kx.
+  Eigen::Matrix2d FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const;
+
+ private:
+  struct Plan;
+  double length_;
+  int size_;
+  std::vector<double>
+      power_;  // size x (size / 2 + 1), the expected |amplitude|^2; the other half is its mirror
+  std::unique_ptr<Plan> plan_;
+};
+
+}  // namespace albtpu
