@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "service/client/csv_reader.h"
-#include "service/client/exit_status.h"
 #include "service/client/number_text.h"
 #include "service/client/output_file.h"
 #include "service/client/progress.h"
@@ -137,9 +136,6 @@ absl::StatusOr<OutcomeCounts> AnnotateCsv(const std::filesystem::path& input,
   if (!columns.ok()) return columns.status();
   absl::StatusOr<OutputFile> file = OutputFile::Create(output, existing);
   if (!file.ok()) return file.status();
-  if (columns->azimuth_never_given()) {
-    Note("no azimuth: each value is the larger in magnitude of those along and across the wind");
-  }
 
   CsvWriter writer(*file, header.line_ending.empty() ? "\n" : header.line_ending);
   if (absl::Status status = writer.Append(header, answer_columns.names()); !status.ok()) return status;

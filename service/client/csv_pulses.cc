@@ -137,8 +137,4 @@ absl::StatusOr<Pulse> CsvPulses::Read(const CsvRecord& record) const {
   return pulse;
 }
 
-bool CsvPulses::azimuth_never_given() const {
-  return !columns_[Index(AxisId::kAzimuth)].has_value() && !fixed_[Index(AxisId::kAzimuth)].has_value();
-}
-
 }  // namespace albtpu::client

@@ -25,9 +25,6 @@ class CsvPulses {
 
   absl::StatusOr<Pulse> Read(const CsvRecord& record) const;
 
-  // Neither a column nor a fixed coordinate says where the beam points.
-  bool azimuth_never_given() const;
-
  private:
   CsvPulses() = default;
 

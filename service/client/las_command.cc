@@ -111,11 +111,14 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options) {
 }
 
 // What to do when no point is of a class that was asked for.
-std::string ClassHint(const std::filesystem::path& input, const LasOptions& options,
-                      const LasSummary& summary) {
-  return absl::StrCat(input.string(), ": no point of class ", absl::StrJoin(options.classes, " or "),
-                      ": name the bathymetric ones of this file by --classes (it has ", summary.ClassesText(),
-                      ")");
+std::string ClassHint(const Job& job, const LasOptions& options, const AnnotatedLas& annotated) {
+  const bool never = annotated.point_format<kFirstModernFormat&& * options.classes.begin()> kLegacyClassMask;
+  return absl::StrCat(job.input.string(), ": no point of class ", absl::StrJoin(options.classes, " or "),
+                      never ? absl::StrCat(", nor can there be in point format ", annotated.point_format,
+                                           ", whose classes end at ", kLegacyClassMask)
+                            : "",
+                      ": name the bathymetric ones of this file by --classes (it has ",
+                      annotated.summary.ClassesText(), ")");
 }
 
 // Whether later files can fare better than this one did.
@@ -137,9 +140,9 @@ class Annotator {
     const bool none = summary.points() > 0 && summary.outcomes().total() == 0;
     // One file without the class is a slip of the flag; among many it may be dry land.
     if (none && options_.output_folder.empty()) {
-      return absl::FailedPreconditionError(ClassHint(job.input, options_, summary) + "; nothing was written");
+      return absl::FailedPreconditionError(ClassHint(job, options_, *annotated) + "; nothing was written");
     }
-    if (none) Note(ClassHint(job.input, options_, summary) + "; all its points get no-data");
+    if (none) Note(ClassHint(job, options_, *annotated) + "; all its points get no-data");
     if (absl::Status status = annotated->file.Commit(); !status.ok()) return status;
     SayResolution(annotated->point_format);
     Note(absl::StrCat(job.output.string(), ":\n", summary.Text()));
@@ -175,9 +178,6 @@ absl::Status RunLas(const LasOptions& options) {
   if (!source.ok()) return source.status();
   const TableSummary& table = (*source)->table();
   Note(absl::StrCat("table ", table.id, " ", table.version, ", digest ", table.digest));
-  if (std::holds_alternative<std::monostate>(annotation->flight_line.azimuth)) {
-    Note("no azimuth: each value is the larger of those along and across the wind");
-  }
   Annotator annotator(options, *annotation, **source);
   std::size_t failed = 0;
   for (const Job& job : *jobs) {

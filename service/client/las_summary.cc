@@ -70,11 +70,13 @@ std::string LasSummary::Text() const {
   std::string text = absl::StrCat("  ", points(), " points; bathymetric: ", outcomes_.Text());
   if (outcomes_.interpolated() == 0) return text;
   absl::StrAppend(
-      &text, absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only", least_depth_, greatest_depth_));
+      &text,
+      absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only; limits are those at the shallow end",
+                      least_depth_, greatest_depth_));
   const std::string coverage = CoverageText(style_.coverage);
   const std::string order_name = std::string(Name(order()));
   absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %17s %17s %27s", "depth", "points", "THU, " + coverage,
-                                         "TVU, " + coverage, "S-44 " + order_name + ", 95 %, limits"));
+                                         "TVU, " + coverage, "S-44 " + order_name + " limits, 95 %"));
   absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %9s%s", "m", "", "mean m",
                                          "max m", "mean m", "max m", "THU m", "TVU m", "within",
                                          style_.standard_errors ? "  s.e. THU  s.e. TVU" : ""));

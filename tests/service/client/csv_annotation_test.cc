@@ -92,6 +92,9 @@ TEST_F(CsvAnnotation, TakesEmptyFetchAndAzimuthForAbsent) {
               ::testing::AllOf(HasSubstr("\n5,,12.5, ,.6,7" + Cells(pulse)),
                                HasSubstr("\n5,inf,12.5,,.6,7" + Cells(pulse))));
   EXPECT_THAT(Annotate("wind_speed,incidence,footprint,depth\n5,12.5,.6,7"), HasSubstr(Cells(pulse) + "\n"));
+  EXPECT_THAT(counts_.Text(), HasSubstr("1 pulse: 1 interpolated; all without azimuth: "));
+  Annotate(std::string(kHeader) + "\n5,,12.5,3,.6,7\n5,inf,12.5,,.6,7\n");
+  EXPECT_THAT(counts_.Text(), HasSubstr("; 1 without azimuth: "));
 }
 
 TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {

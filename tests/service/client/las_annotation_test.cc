@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
 #include <vector>
 
 #include "service/client/little_endian.h"
@@ -244,6 +245,29 @@ TEST_F(LasAnnotationTest, RefusesRecordsThatCannotGrow) {
   LasSpec spec = Spec(2, 0);
   spec.extra_bytes = 65535 - 20 - 7;
   EXPECT_THAT(Annotate(spec), HasSubstr("no room for 8 more bytes"));
+}
+
+// Whatever is wrong with a file, it ends in an output of the right size or in an error.
+TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
+  LasSpec spec = Spec(4, 9);
+  spec.extra_bytes = 5;
+  spec.vlrs.push_back({"LASF_Spec", 4, ExtraBytesEntry(4, 0, "echo width")});
+  spec.evlrs = {{"someone", 7, "behind"}};
+  spec.waveform_packet = "samples";
+  const std::string file = BuildLas(spec);
+  const std::size_t head = Load<std::uint32_t>(file, 96);
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    std::string damaged = file;
+    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
+      damaged[random() % head] = static_cast<char>(random());
+    }
+    if (random() % 8 == 0) damaged.resize(random() % file.size());
+    const std::filesystem::path input = folder_.Write("in.las", damaged);
+    const auto annotated = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_);
+    if (!annotated.ok()) EXPECT_THAT(std::string(annotated.status().message()), HasSubstr("in.las: "));
+  }
+  EXPECT_EQ(folder_.file_count(), 1u);
 }
 
 TEST_F(LasAnnotationTest, DoesNotWriteOverItsInput) {
