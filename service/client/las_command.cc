@@ -181,7 +181,7 @@ absl::Status RunLas(const LasOptions& options) {
   Annotator annotator(options, *annotation, **source);
   std::size_t failed = 0;
   for (const Job& job : *jobs) {
-    const absl::Status status = annotator.Annotate(job);
+    absl::Status status = annotator.Annotate(job);
     if (status.ok()) continue;
     if (jobs->size() == 1 || !IsOfOneFile(status)) return status;
     Report(status);

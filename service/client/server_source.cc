@@ -48,7 +48,7 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  const absl::Status status = FromServer(address, stub.GetTable(&context, request, &response));
+  absl::Status status = FromServer(address, stub.GetTable(&context, request, &response));
   if (!status.ok()) return status;
   return FromWire(response.table());
 }
@@ -80,7 +80,7 @@ absl::Status ServerSource::Answer(std::span<const Pulse> pulses, std::span<Pulse
   for (const std::vector<std::size_t>& indices : by_azimuth) {
     for (std::size_t begin = 0; begin < indices.size(); begin += kMostPulses) {
       const std::size_t count = std::min(kMostPulses, indices.size() - begin);
-      const absl::Status status = AnswerBatch(pulses, std::span(indices).subspan(begin, count), answers);
+      absl::Status status = AnswerBatch(pulses, std::span(indices).subspan(begin, count), answers);
       if (!status.ok()) return status;
     }
   }
@@ -96,7 +96,7 @@ absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::QueryColumnsResponse response;
-  const absl::Status status = FromServer(address_, stub_->QueryColumns(&context, request, &response));
+  absl::Status status = FromServer(address_, stub_->QueryColumns(&context, request, &response));
   if (!status.ok()) return status;
   if (response.table().digest() != summary_.digest) {
     return absl::AbortedError(absl::StrCat("server ", address_, ": table ", summary_.name,
@@ -112,7 +112,7 @@ absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& ad
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::ListTablesResponse response;
-  const absl::Status status = FromServer(address, stub->ListTables(&context, {}, &response));
+  absl::Status status = FromServer(address, stub->ListTables(&context, {}, &response));
   if (!status.ok()) return status;
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {

@@ -24,6 +24,7 @@ using albtpu::testing::ReadFile;
 using albtpu::testing::SimulatedFlight;
 using albtpu::testing::SyntheticTable;
 using albtpu::testing::TemporaryFolder;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 // A few points of each kind: bathymetric, above the water, deeper than the table, land. Their scan angles are
@@ -265,7 +266,7 @@ TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
     if (random() % 8 == 0) damaged.resize(random() % file.size());
     const std::filesystem::path input = folder_.Write("in.las", damaged);
     const auto annotated = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_);
-    if (!annotated.ok()) EXPECT_THAT(std::string(annotated.status().message()), HasSubstr("in.las: "));
+    EXPECT_THAT(std::string(annotated.status().message()), AnyOf("", HasSubstr("in.las: ")));
   }
   EXPECT_EQ(folder_.file_count(), 1u);
 }
