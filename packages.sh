@@ -1,0 +1,36 @@
+# Sourced by quickstart.sh and test.sh: the Debian packages of packages.txt.
+
+# Prints the names in packages.txt; without `tests`, those above its line "# tests only".
+package_names() {
+  if [[ ${1:-} == tests ]]; then
+    sed '/^#/d; /^$/d' packages.txt
+  else
+    sed '/^# tests only$/,$d; /^#/d; /^$/d' packages.txt
+  fi
+}
+
+# Installs those that are missing, as root or through sudo; nothing is touched when none is.
+install_packages() {
+  if ! command -v apt-get dpkg-query >/dev/null; then
+    echo "$0: no apt-get: Debian 12 is right, or a machine that has what packages.txt lists" >&2
+    return 1
+  fi
+  local installed missing
+  installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')
+  missing=$(comm -13 <(sort -u <<<"$installed") <(package_names "$@" | sort -u))
+  [[ -n $missing ]] || return 0
+  local names as_root=()
+  mapfile -t names <<<"$missing"
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "$0: ${#names[@]} packages are missing and there is no sudo: as root, run apt-get install ${names[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "== Installing ${#names[@]} Debian packages"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300
+             -o Acquire::Retries=3)
+  "${apt[@]}" update
+  "${apt[@]}" install --yes --no-install-recommends "${names[@]}" </dev/null >/dev/null
+}

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to a survey file with THU and TVU on every bathymetric point, without a question asked:
+# builds, makes a small lookup table by Monte Carlo, serves it, and annotates a flight line through the service.
+# All that it makes is in build/ and out/, beside this file.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+source ./packages.sh
+
+campaign=generator/campaigns/quick.toml
+table=out/tables/quick.h5
+sample=../shared/data/florida_topobathy_snippet.las  # Real; not part of this repository.
+simulated=out/simulated_flight.las
+annotated=out/annotated.las
+
+install_packages
+
+echo "== Building"
+cmake --preset release >/dev/null
+cmake --build --preset release -j "$(nproc)" \
+  --target albtpu-generate albtpu-serve albtpu-query albtpu_simulated_flight
+cmake --install build/release --prefix out >/dev/null
+
+echo "== Making $table by Monte Carlo, as $campaign says"
+mkdir -p out/tables
+if [[ $table -nt $campaign && $table -nt out/bin/albtpu-generate ]]; then
+  echo "It is there, newer than the campaign and the program."
+else
+  out/bin/albtpu-generate table --campaign "$campaign" --output "$table" --overwrite
+fi
+
+echo "== Starting the service"
+exec {service_log}< <(exec out/bin/albtpu-serve --tables out/tables --listen 127.0.0.1:0 2>&1)
+service=$!
+trap 'kill "$service" 2>/dev/null && wait "$service" 2>/dev/null || true' EXIT
+read -r ready <&"$service_log" || ready="albtpu-serve: ended without a word"
+echo "$ready"
+[[ $ready =~ 'ready on '([^,]+) ]] || exit 1
+address=${BASH_REMATCH[1]}
+
+echo "== Annotating a flight line through the service"
+conditions=(--wind-speed 5 --footprint 0.6 --s44-order 1b)
+if [[ -r $sample ]]; then
+  input=$sample
+  conditions+=(--classes 26 --water-level -23.09)
+else
+  echo "There is no $sample: the flight line is simulated."
+  input=$simulated
+  conditions+=(--water-level 0 --wind-from 250 --flight-direction 0)
+  build/release/tests/service/client/albtpu_simulated_flight "$input"
+fi
+echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
+out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite
+
+echo "== Done"
+echo "$annotated has total_thu and total_tvu on each bathymetric point: 2 sigma, m, the sea surface alone."
+echo "Ask for one pulse: out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"
