@@ -1,4 +1,4 @@
-"""What a shell sees of albtpu-query: exit codes, messages, outputs; and that nothing is lost or half written."""
+"""What a shell sees of albtpu-query: exit codes, messages, outputs, and nothing lost or half written."""
 
 import json
 import os
@@ -12,8 +12,8 @@ from programs import make_flight, make_table, query
 
 PULSE = ("--wind-speed", 5, "--incidence", 12, "--footprint", 0.5, "--depth", 8)
 AXES = ("wind_speed", "fetch", "incidence", "azimuth", "footprint", "depth")
-APPENDED = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu", "bias_along_beam", "bias_vertical",
-            "outcome")
+APPENDED = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu", "bias_along_beam",
+            "bias_vertical", "outcome")
 
 
 class CommandLineTest(programs.Test):
@@ -22,7 +22,8 @@ class CommandLineTest(programs.Test):
 
     def test_pulse_csv_and_server_give_the_same_numbers(self):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
-        source.write_text("wind_speed,incidence,azimuth,footprint,depth\n5,12,30,0.5,8\n5,12,,0.5,8\n5,12,,0.5,80\n")
+        source.write_text("wind_speed,incidence,azimuth,footprint,depth\n"
+                          "5,12,30,0.5,8\n5,12,,0.5,8\n5,12,,0.5,80\n")
         query("csv", source, target, "--table", self.table, check=0)
         rows = [dict(zip(target.read_text().split("\n")[0].split(","), line.split(",")))
                 for line in target.read_text().split("\n")[1:4]]
@@ -57,28 +58,31 @@ class CommandLineTest(programs.Test):
         self.assertIn("from 0 to 20 m", result.stdout)
 
     def test_wrong_flags_are_bad_usage(self):
-        for flags in (("--depth", "nan"), ("--depth", "inf"), ("--depth", "-1"), ("--depth", "deep"), ("--depth", ""),
-                      ("--wind-speed", "-5"), ("--fetch", "nan"), ("--fetch", "-inf"), ("--fetch", "-1"),
-                      ("--azimuth", "inf"), ("--coverage", "3sigma"), ("--s44-order", "3"), ("--no-such-flag",),
-                      ("--footprint",), ("--server", "localhost:1"), ("--server", "localhost"),
-                      ("--server", "localhost:0"), ("--server", ""), ("--table-name", "quick"), ("--table-name", "")):
+        for flags in (("--depth", "nan"), ("--depth", "inf"), ("--depth", "-1"), ("--depth", "deep"),
+                      ("--depth", ""), ("--wind-speed", "-5"), ("--fetch", "nan"), ("--fetch", "-inf"),
+                      ("--fetch", "-1"), ("--azimuth", "inf"), ("--coverage", "3sigma"), ("--s44-order", "3"),
+                      ("--no-such-flag",), ("--footprint",), ("--server", "localhost:1"),
+                      ("--server", "localhost"), ("--server", "localhost:0"), ("--server", ""),
+                      ("--table-name", "quick"), ("--table-name", "")):
             with self.subTest(flags=flags):
-                arguments = [item for item in zip(PULSE[::2], PULSE[1::2]) if item[0] != flags[0]]
-                self.assert_fails(self.pulse(*(part for pair in arguments for part in pair), *flags), 2, flags[0])
+                others = [pair for pair in zip(PULSE[::2], PULSE[1::2]) if pair[0] != flags[0]]
+                arguments = [part for pair in others for part in pair]
+                self.assert_fails(self.pulse(*arguments, *flags), 2, flags[0])
         self.assert_fails(self.pulse(*PULSE[2:]), 2, "--wind-speed")
         self.assert_fails(query(), 2)
         self.assert_fails(query("no-such-command"), 2)
         self.assertEqual(self.pulse(*PULSE, "--fetch", "inf", "--azimuth", "-30").returncode, 0)
 
     def test_every_command_takes_the_shared_flags(self):
-        shared = ("--table", self.table, "--coverage", "p95", "--s44-order", "1a", "--standard-errors", "--overwrite")
+        shared = ("--table", self.table, "--coverage", "p95", "--s44-order", "1a", "--standard-errors",
+                  "--overwrite")
         source = self.folder / "in.csv"
         source.write_text("depth\n1\n")
         query("pulse", *PULSE, *shared, check=0)
         query("tables", *shared, check=0)
         query("csv", source, self.folder / "out.csv", *PULSE[:-2], *shared, check=0)
-        query("las", make_flight(self.folder / "in.las"), self.folder / "out.las", "--water-level", 0, "--wind-speed",
-              5, "--footprint", 1, *shared, check=0)
+        query("las", make_flight(self.folder / "in.las"), self.folder / "out.las", "--water-level", 0,
+              "--wind-speed", 5, "--footprint", 1, *shared, check=0)
 
     def test_las_flags_that_do_not_fit(self):
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
@@ -123,7 +127,7 @@ class CommandLineTest(programs.Test):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
         source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
         target.write_text("precious")
-        self.assert_fails(query("csv", source, target, "--table", self.table), 1, "exists already", "--overwrite")
+        self.assert_fails(query("csv", source, target, "--table", self.table), 1, "exists already")
         self.assertEqual(target.read_text(), "precious")
         source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,deep\n")
         self.assert_fails(query("csv", source, target, "--table", self.table, "--overwrite"), 1, "line 2")
@@ -161,8 +165,8 @@ class CommandLineTest(programs.Test):
 
     def test_full_standard_output_is_a_failure(self):
         with open("/dev/full", "w") as full:
-            result = subprocess.run([programs.PATHS["query"], "pulse", "--table", self.table, *map(str, PULSE)],
-                                    stdout=full, stderr=subprocess.PIPE, text=True)
+            command = [programs.PATHS["query"], "pulse", "--table", self.table, *map(str, PULSE)]
+            result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
@@ -172,8 +176,8 @@ class CommandLineTest(programs.Test):
         os.mkfifo(source)
         before = self.names()
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            process = subprocess.Popen([programs.PATHS["query"], "csv", source, target, "--table", self.table],
-                                       stderr=subprocess.PIPE)
+            command = [programs.PATHS["query"], "csv", source, target, "--table", self.table]
+            process = subprocess.Popen(command, stderr=subprocess.PIPE)
             with open(source, "w") as pipe:
                 pipe.write("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
                 pipe.flush()

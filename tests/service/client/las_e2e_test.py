@@ -1,5 +1,8 @@
-"""albtpu-query las, checked by a reader that shares nothing with it: the same points in the same order, the same bytes
-in the old fields, and the values that `albtpu-query csv` gives for the same pulses."""
+"""albtpu-query las, checked by a reader that shares nothing with it.
+
+The same points in the same order, the same bytes in the old fields, and the values that `albtpu-query csv`
+gives for the same pulses.
+"""
 
 import csv
 import pathlib
@@ -17,9 +20,10 @@ WIND_FROM, FLIGHT = 100.0, 30.0  # degree
 
 class LasTest(programs.Test):
     def annotate(self, source, target, classes, water_level, *flags):
-        return query("las", source, target, "--table", self.table, "--water-level", water_level, "--classes", classes,
-                     "--wind-speed", 6.5, "--fetch", 30000, "--altitude", ALTITUDE, "--divergence", DIVERGENCE,
-                     "--wind-from", WIND_FROM, "--flight-direction", FLIGHT, *flags, check=0)
+        return query("las", source, target, "--table", self.table, "--water-level", water_level,
+                     "--classes", classes, "--wind-speed", 6.5, "--fetch", 30000, "--altitude", ALTITUDE,
+                     "--divergence", DIVERGENCE, "--wind-from", WIND_FROM, "--flight-direction", FLIGHT,
+                     *flags, check=0)
 
     def values_by_csv(self, las, point_class, water_level):
         """THU and TVU of the bathymetric points by `albtpu-query csv`; NaN where there is no number."""
@@ -32,9 +36,10 @@ class LasTest(programs.Test):
         with open(pulses, "w", newline="") as file:
             writer = csv.writer(file)
             writer.writerow(["depth", "incidence", "footprint", "azimuth"])
-            writer.writerows(zip(*(map(repr, column.tolist()) for column in (depths, incidences, footprints, azimuths))))
-        query("csv", pulses, answers, "--table", self.table, "--wind-speed", 6.5, "--fetch", 30000, "--overwrite",
-              check=0)
+            columns = (depths, incidences, footprints, azimuths)
+            writer.writerows(zip(*(map(repr, column.tolist()) for column in columns)))
+        query("csv", pulses, answers, "--table", self.table, "--wind-speed", 6.5, "--fetch", 30000,
+              "--overwrite", check=0)
         with open(answers, newline="") as file:
             rows = list(csv.DictReader(file))
         return [np.array([float(row[name] or "nan") for row in rows], np.float32) for name in ("thu", "tvu")]
@@ -61,13 +66,15 @@ class LasTest(programs.Test):
                          old.bytes[old.end_of_vlrs:old.offset_to_points])
         # The new values.
         dimensions = new.extra_dimensions()
-        for name, expected in zip(("total_thu", "total_tvu"), self.values_by_csv(old, point_class, water_level)):
+        by_csv = self.values_by_csv(old, point_class, water_level)
+        for name, expected in zip(("total_thu", "total_tvu"), by_csv):
             offset, kind, no_data, description = dimensions[name]
             self.assertEqual((kind, no_data, description), (9, -1.0, "sea surface only, 2 sigma, m"))
             values = new.field(offset, "<f4")
             chosen = new.classes == point_class
             np.testing.assert_array_equal(values[~chosen], np.float32(-1))
-            np.testing.assert_array_equal(values[chosen], np.where(np.isnan(expected), np.float32(-1), expected))
+            expected = np.where(np.isnan(expected), np.float32(-1), expected)
+            np.testing.assert_array_equal(values[chosen], expected)
             self.assertGreater(np.mean(values[chosen] > 0), 0.9)
         return new
 
@@ -84,8 +91,9 @@ class LasTest(programs.Test):
         self.assertEqual((offset, kind), (30, 0))
 
     def test_simulated_flights_of_many_formats(self):
-        for version, point_format, extra_bytes in ((2, 0, 0), (2, 1, 3), (2, 3, 300), (3, 4, 0), (3, 5, 2), (4, 1, 0),
-                                                   (4, 6, 6), (4, 7, 0), (4, 8, 1), (4, 10, 9)):
+        for version, point_format, extra_bytes in (
+                (2, 0, 0), (2, 1, 3), (2, 3, 300), (3, 4, 0), (3, 5, 2),
+                (4, 1, 0), (4, 6, 6), (4, 7, 0), (4, 8, 1), (4, 10, 9)):
             with self.subTest(version=version, point_format=point_format, extra_bytes=extra_bytes):
                 source = make_flight(self.folder / "in.las", version, point_format, extra_bytes)
                 target = self.folder / "out.las"
@@ -114,8 +122,10 @@ class LasTest(programs.Test):
         out = self.folder / "out"
         out.mkdir()
         (self.folder / "bad.las").write_bytes(b"LASF")
-        flags = ("--output-dir", out, "--table", self.table, "--water-level", 0, "--wind-speed", 6, "--footprint", 1)
-        result = query("las", self.folder / "a.las", self.folder / "bad.las", land, self.folder / "b.las", *flags)
+        flags = ("--output-dir", out, "--table", self.table,
+                 "--water-level", 0, "--wind-speed", 6, "--footprint", 1)
+        files = [self.folder / name for name in ("a.las", "bad.las", "land.las", "b.las")]
+        result = query("las", *files, *flags)
         self.assert_fails(result, 1, "1 of 4 files failed")
         self.assertIn("bad.las", result.stderr)
         self.assertEqual(sorted(path.name for path in out.iterdir()), ["a.las", "b.las", "land.las"])
@@ -123,8 +133,8 @@ class LasTest(programs.Test):
         self.assertTrue(np.all(values.field(values.record_length - 8, "<f4") == -1))
         self.assertIn("no point of class 40", result.stderr)
         self.assert_fails(query("las", land, *flags, "--overwrite"), 1, "no file has a point of class 40")
-        self.assert_fails(query("las", self.folder / "a.las", land.parent / "out" / ".." / "a.las", *flags), 2,
-                          "two inputs are called a.las")
+        same_name = self.folder / "out" / ".." / "a.las"
+        self.assert_fails(query("las", files[0], same_name, *flags), 2, "two inputs are called a.las")
 
     def test_hint_names_the_classes_there_are(self):
         source = make_flight(self.folder / "in.las")

@@ -1,4 +1,7 @@
-"""The real programs, for tests: albtpu-query and what it needs. Their paths are this script's arguments, NAME=PATH."""
+"""The real programs, for tests: albtpu-query and what it needs.
+
+Their paths are this script's arguments, NAME=PATH.
+"""
 
 import contextlib
 import pathlib
@@ -13,8 +16,8 @@ PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
 
 def query(*arguments, check=None, **keywords):
     """Runs albtpu-query; with `check`, its exit code must be that."""
-    result = subprocess.run([PATHS["query"], *map(str, arguments)], capture_output=True, text=True, timeout=300,
-                            **keywords)
+    command = [PATHS["query"], *map(str, arguments)]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=300, **keywords)
     if check is not None and result.returncode != check:
         raise AssertionError(f"albtpu-query {arguments} exited {result.returncode}: {result.stderr}")
     return result
