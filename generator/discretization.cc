@@ -11,11 +11,27 @@
 namespace albtpu {
 namespace {
 
-constexpr double kPatchPerBeam = 4;
+constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;
 constexpr double kCoarsestPoints = 32, kFinestPoints = 512;
 constexpr int kFewestRays = 1000, kMostRays = 64000;
-constexpr double kSlopeFraction = 0.995;
+constexpr double kGridLoss = 0.005;
+constexpr double kPatchDeparture = 0.005;
 constexpr double kAliasedFraction = 0.015;
+// A footprint that averages the waves down to less than this part of their mean square slope sees still
+// water: nothing is refined for the sake of what it does see.
+constexpr double kLeastSeen = 1e-5;
+
+// The part of the slope variance seen by the footprint that facets of the side `spacing` take away: waves
+// under two facets long, and of the others what a difference quotient misses of the slope.
+double GridLoss(const SeaState& sea, const BeamOptions& beam, double spacing, double seen) {
+  const Eigen::Matrix2d facets = SlopeCovariance(sea, [&](double k, double psi) {
+    const double x = k * std::cos(psi) * spacing / 2, y = k * std::sin(psi) * spacing / 2;
+    if (std::max(std::abs(x), std::abs(y)) > std::numbers::pi / 2) return 0.0;
+    const double quotient = (std::pow(std::sin(x), 2) + std::pow(std::sin(y), 2)) / (x * x + y * y);
+    return FootprintPower(beam, k, psi) * quotient;
+  });
+  return 1 - facets.trace() / seen;
+}
 
 // The variance of a beam's mean slope that comes from waves which its rays are too far apart to sample: their
 // slope variance over the number of rays. Two rays a wave is the limit of a square lattice; 2.5 are asked of
@@ -50,15 +66,23 @@ double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
 
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams) {
   const BeamOptions& widest = WidestBeam(beams);
-  Discretization choice{kPatchPerBeam, kCoarsestPoints, kFewestRays};
+  const double seen = SeenSlopeVariance(sea, widest);
+  const double least = std::max(seen, kLeastSeen * SlopeCovariance(sea).trace());
+  Discretization choice{kNarrowestPatch, kCoarsestPoints, kFewestRays};
   while (choice.points_per_footprint < kFinestPoints &&
-         FootprintSlopeFraction(sea, SurfaceModel(sea, widest, choice), {widest}) < kSlopeFraction) {
-    choice.points_per_footprint *= 1.5;
+         GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) * seen >
+             kGridLoss * least) {
+    choice.points_per_footprint *= 1.25;
+  }
+  while (choice.patch_per_beam < kWidestPatch &&
+         std::abs(FootprintSlopeFraction(sea, SurfaceModel(sea, widest, choice), {widest}) - 1) * seen >
+             kPatchDeparture * least) {
+    choice.patch_per_beam *= 1.25;
   }
   const SurfaceModel model(sea, widest, choice);
-  const double allowed = kAliasedFraction * SeenSlopeVariance(sea, widest);
-  while (choice.rays < kMostRays && AliasedSlopeVariance(model, widest, choice.rays) > allowed) {
-    choice.rays = choice.rays * 3 / 2;
+  while (choice.rays < kMostRays &&
+         AliasedSlopeVariance(model, widest, choice.rays) > kAliasedFraction * least) {
+    choice.rays = choice.rays * 5 / 4;
   }
   return choice;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace albtpu {
@@ -11,9 +12,6 @@ HeightField::HeightField(std::vector<double> heights, int points, double spacing
     : heights_(std::move(heights)), points_(points), spacing_(spacing) {
   assert(points >= 3 && points % 2 == 1 && spacing > 0);
   assert(heights_.size() == static_cast<std::size_t>(points) * points);
-  const auto [lowest, highest] = std::minmax_element(heights_.begin(), heights_.end());
-  lowest_ = *lowest;
-  highest_ = *highest;
 }
 
 HeightField::Facet HeightField::FacetAt(const Eigen::Vector2d& x) const {
@@ -37,9 +35,10 @@ HeightField::Facet HeightField::FacetAt(const Eigen::Vector2d& x) const {
 
 Hit Intersect(const HeightField& surface, const Ray& ray) {
   constexpr int kMostSteps = 100;
+  constexpr double kLeastApproach = 0.1;  // a step goes the right way even over a facet that turns away
   const Eigen::Vector2d per_height = ray.per_height();
-  double below = surface.lowest() - surface.spacing();   // heights at which the ray is known to be under
-  double above = surface.highest() + surface.spacing();  // and over the surface
+  double below = -std::numeric_limits<double>::infinity();  // heights at which the ray is known to be under
+  double above = std::numeric_limits<double>::infinity();   // and over the surface
   double z = 0;
   HeightField::Facet facet;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -47,9 +46,9 @@ Hit Intersect(const HeightField& surface, const Ray& ray) {
     facet = surface.FacetAt(x);
     const double clearance = z - facet.HeightAt(x);
     (clearance < 0 ? below : above) = z;
-    // The meeting with the plane of the facet under the ray; if it lies outside of what is known, halve what
-    // is known.
-    double next = z - clearance / (1 - facet.slope.dot(per_height));
+    // The meeting with the plane of the facet under the ray; if it lies outside of what is known, which then
+    // is finite, halve what is known.
+    double next = z - clearance / std::max(kLeastApproach, 1 - facet.slope.dot(per_height));
     if (!(next >= below && next <= above)) next = 0.5 * (below + above);
     const bool settled = std::abs(next - z) <= 1e-12 * surface.reach();
     z = next;

@@ -27,14 +27,11 @@ class HeightField {
 
   double reach() const { return (points_ - 1) / 2 * spacing_; }  // m from the centre to each side
   double spacing() const { return spacing_; }                    // m
-  double lowest() const { return lowest_; }                      // m
-  double highest() const { return highest_; }                    // m
 
  private:
   std::vector<double> heights_;
   int points_;
   double spacing_;
-  double lowest_, highest_;
 };
 
 // Where a ray meets a surface.

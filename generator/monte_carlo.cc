@@ -43,6 +43,8 @@ TracedBeam StillWater(const std::vector<Ray>& rays, double refractive_index) {
   return Trace(rays, HeightField(std::vector<double>(9, 0.0), 3, 1.0), refractive_index);
 }
 
+bool AtNadir(const PreparedBeam& prepared) { return prepared.beam.options().incidence == 0; }
+
 // One beam's realizations as columns.
 struct Sample {
   Eigen::ArrayXd tangent_x, tangent_y;
@@ -99,8 +101,9 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
                          std::uint32_t cell) {
   assert(!encounter.beams.empty() && effort.realizations >= 2);
   const SeaState sea(encounter.wind_speed_10m, encounter.fetch, Cosine2sSpreading(encounter.spreading));
-  const Discretization discretization =
+  Discretization discretization =
       encounter.discretization ? *encounter.discretization : ChooseDiscretization(sea, encounter.beams);
+  if (encounter.rays) discretization.rays = *encounter.rays;
   const SurfaceModel model(sea, WidestBeam(encounter.beams), discretization);
   const double n = encounter.refractive_index;
 
@@ -131,6 +134,11 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
     tbb::parallel_for(first, static_cast<int>(realizations.size()), [&](int i) {
       const SeaSurface surface(model, NormalStream(seed, cell, i));
       for (const PreparedBeam& prepared : beams) {
+        const std::size_t b = realizations[i].size();
+        if (b > 0 && AtNadir(beams[b]) && AtNadir(beams[b - 1])) {  // without an azimuth: one beam for all
+          realizations[i].push_back(realizations[i].back());
+          continue;
+        }
         const SeaSurface::Window window = surface.WindowUnder(prepared.beam);
         const bool collimated = std::isinf(prepared.beam.options().source_height);
         const TracedBeam traced =

@@ -29,6 +29,7 @@ struct Encounter {
   double refractive_index = 1.33;
   std::vector<BeamOptions> beams;                // not empty; the same footprint, profile and source
   std::vector<double> depths;                    // m, not negative
+  std::optional<int> rays;                       // of each beam; chosen from sea and beams where absent
   std::optional<Discretization> discretization;  // chosen from sea and beams where absent
 };
 

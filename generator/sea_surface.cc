@@ -20,8 +20,8 @@ CrossFade PatchShare(double patch_length) {
   return CrossFade(kAllLong * dk, kAllPatch * dk);
 }
 
-// The width on the water of the longer axis of a beam's footprint, m. All but 1e-4 of a gaussian beam is
-// within twice its diameter.
+// The width on the water of the longer axis of a beam's footprint, m. All but exp(-8) = 3e-4 of a
+// gaussian beam is within twice its diameter.
 double WidthOnWater(const BeamOptions& beam) {
   const double width = beam.profile == BeamProfile::kGaussian ? 2 * beam.footprint : beam.footprint;
   return width / std::cos(beam.incidence);

@@ -1,0 +1,297 @@
+#include "generator/campaign.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "generator/angle.h"
+#include "generator/wave_spectrum.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Collects the first thing that is wrong, so that a reader of many keys stays a list of keys.
+class TomlReader {
+ public:
+  explicit TomlReader(const toml::table& root) : root_(root) {}
+
+  std::string Text(std::string_view table, std::string_view key,
+                   std::optional<std::string_view> absent = std::nullopt) {
+    const toml::node* node = Find(table, key);
+    if (node == nullptr && absent) return std::string(*absent);
+    if (node == nullptr) return Missing<std::string>(table, key, "a text in quotes");
+    if (const auto text = node->value_exact<std::string>()) return *text;
+    return Wrong<std::string>(table, key, "a text in quotes");
+  }
+
+  // A number in [least, most]; `absent` where there is none.
+  double Number(std::string_view table, std::string_view key, double least, double most, double absent) {
+    const toml::node* node = Find(table, key);
+    if (node == nullptr) return absent;
+    const std::optional<double> number = node->value<double>();
+    const std::string right = absl::StrCat("a number from ", least, " to ", most);
+    if (!number || !(*number >= least && *number <= most)) return Wrong<double>(table, key, right);
+    return *number;
+  }
+
+  std::optional<std::int64_t> Integer(std::string_view table, std::string_view key, std::int64_t least,
+                                      std::int64_t most) {
+    const toml::node* node = Find(table, key);
+    if (node == nullptr) return std::nullopt;
+    const auto number = node->value_exact<std::int64_t>();
+    if (!number || *number < least || *number > most) {
+      return Wrong<std::int64_t>(table, key, absl::StrCat("a whole number from ", least, " to ", most));
+    }
+    return *number;
+  }
+
+  std::vector<double> Numbers(std::string_view table, std::string_view key) {
+    const toml::node* node = Find(table, key);
+    const std::string right = "a list of numbers, such as [1, 2, 5]";
+    if (node == nullptr) return Missing<std::vector<double>>(table, key, right);
+    const toml::array* array = node->as_array();
+    if (array == nullptr) return Wrong<std::vector<double>>(table, key, right);
+    std::vector<double> numbers;
+    for (const toml::node& element : *array) {
+      const std::optional<double> number = element.value<double>();
+      if (!number) return Wrong<std::vector<double>>(table, key, right);
+      numbers.push_back(*number);
+    }
+    return numbers;
+  }
+
+  void Fail(std::string problem) {
+    if (error_.ok()) error_ = absl::InvalidArgumentError(problem);
+  }
+
+  // The first failure, or a key that nobody asked for.
+  absl::Status Finish() {
+    CheckForUnknownKeys(root_, "");
+    return error_;
+  }
+
+ private:
+  static std::string FullName(std::string_view table, std::string_view key) {
+    return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key);
+  }
+
+  const toml::node* Find(std::string_view table, std::string_view key) {
+    known_.insert(FullName(table, key));
+    if (table.empty()) return root_.get(key);
+    const toml::node* inner = root_.get(table);
+    return inner != nullptr && inner->is_table() ? inner->as_table()->get(key) : nullptr;
+  }
+
+  template <typename T>
+  T Missing(std::string_view table, std::string_view key, const std::string& right) {
+    Fail(absl::StrCat("'", FullName(table, key), "' is missing: give ", right));
+    return {};
+  }
+
+  template <typename T>
+  T Wrong(std::string_view table, std::string_view key, const std::string& right) {
+    const toml::node* node = Find(table, key);
+    Fail(
+        absl::StrCat("'", FullName(table, key), "' in line ", node->source().begin.line, " must be ", right));
+    return {};
+  }
+
+  void CheckForUnknownKeys(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, node] : table) {
+      const std::string name = prefix + std::string(key.str());
+      if (prefix.empty() && node.is_table()) {
+        CheckForUnknownKeys(*node.as_table(), name + ".");
+      } else if (!known_.contains(name)) {
+        Fail(absl::StrCat("'", name, "' in line ", node.source().begin.line,
+                          " is not a key of a campaign; there are ", absl::StrJoin(known_, ", ")));
+      }
+    }
+  }
+
+  const toml::table& root_;
+  std::set<std::string> known_;
+  absl::Status error_;
+};
+
+// Nodes are kept in single precision, as tables are: 0.1 in the file is the float nearest to it.
+std::vector<double> InSinglePrecision(std::vector<double> nodes) {
+  for (double& node : nodes) node = static_cast<float>(node);
+  return nodes;
+}
+
+// The least float at or above `x`.
+double FloatNotBelow(double x) {
+  const float nearest = static_cast<float>(x);
+  return nearest >= x ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+// `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
+// there the seas of all winds are, and beyond it nothing changes.
+absl::Status ResolveFetch(std::vector<double>& fetch, const std::vector<double>& wind_speed) {
+  if (fetch.empty() || fetch.back() != kInfinity) {
+    return absl::InvalidArgumentError(
+        "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
+  }
+  const double developed =
+      FloatNotBelow(FullyDevelopedFetch(*std::max_element(wind_speed.begin(), wind_speed.end())));
+  fetch.back() = developed;
+  if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("node ", fetch.size() - 2, " of 'axes.fetch', ", fetch[fetch.size() - 2],
+                     " m, is beyond full development of the strongest wind (", developed,
+                     " m): leave it out, the last node is that sea"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+std::string_view Name(BeamProfile profile) {
+  return profile == BeamProfile::kUniform ? "uniform" : "gaussian";
+}
+
+std::optional<BeamProfile> FindBeamProfile(std::string_view name) {
+  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
+    if (name == Name(profile)) return profile;
+  }
+  return std::nullopt;
+}
+
+absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("line ", error.source().begin.line, " is not TOML: ", std::string(error.description())));
+  }
+  TomlReader toml(root);
+
+  const std::string id = toml.Text("", "id"), version = toml.Text("", "version"),
+                    title = toml.Text("", "title");
+  const auto seed = toml.Integer("", "seed", 0, std::numeric_limits<std::int64_t>::max());
+
+  std::array<std::vector<double>, kAxisCount> nodes;
+  for (const AxisId axis : kAxes) {
+    nodes[Index(axis)] = InSinglePrecision(toml.Numbers("axes", Describe(axis).name));
+  }
+
+  const std::optional<BeamProfile> profile =
+      FindBeamProfile(toml.Text("beam", "profile", Name(BeamProfile::kUniform)));
+  if (!profile) toml.Fail("'beam.profile' must be \"uniform\" or \"gaussian\"");
+  const double source_height = toml.Number("beam", "source_height", 0.1, kInfinity, kInfinity);
+  const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, 1.33);
+  const double spreading = toml.Number("sea", "spreading", 0.5, 30, 2);
+
+  constexpr int kMost = 10'000'000;
+  Effort effort;
+  effort.realizations = static_cast<int>(toml.Integer("effort", "realizations", 2, kMost).value_or(1000));
+  effort.relative_error = toml.Number("effort", "relative_error", 1e-4, 0.5, 0);
+  constexpr int kMostUnlessSaid = 40'000;
+  const int most =
+      effort.relative_error > 0 ? std::max(effort.realizations, kMostUnlessSaid) : effort.realizations;
+  effort.most_realizations = static_cast<int>(
+      toml.Integer("effort", "most_realizations", effort.realizations, kMost).value_or(most));
+  const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
+
+  if (const absl::Status status = toml.Finish(); !status.ok()) return status;
+
+  const auto positive = [&](AxisId axis) -> absl::Status {
+    if (nodes[Index(axis)].empty() || nodes[Index(axis)].front() > 0) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat("node 0 of 'axes.", std::string(Describe(axis).name), "' must be above 0"));
+  };
+  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch, AxisId::kFootprint}) {
+    if (const absl::Status status = positive(axis); !status.ok()) return status;
+  }
+  if (nodes[Index(AxisId::kWindSpeed)].empty()) {
+    return absl::InvalidArgumentError("'axes.wind_speed' has no node: give at least one");
+  }
+  if (const absl::Status status =
+          ResolveFetch(nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+      !status.ok()) {
+    return status;
+  }
+  constexpr double kGreatestIncidence = 60;  // degree; beyond it waves hide behind each other
+  if (!nodes[Index(AxisId::kIncidence)].empty() &&
+      nodes[Index(AxisId::kIncidence)].back() > kGreatestIncidence) {
+    return absl::InvalidArgumentError(
+        "the last node of 'axes.incidence' is above 60 degrees: waves would hide "
+        "behind each other, which is not modelled");
+  }
+
+  std::vector<Axis> axes;
+  for (const AxisId id_of_axis : kAxes) {
+    absl::StatusOr<Axis> axis = Axis::Create(id_of_axis, nodes[Index(id_of_axis)]);
+    if (!axis.ok()) return axis.status();
+    axes.push_back(*std::move(axis));
+  }
+  return Campaign{.text = std::string(text),
+                  .id = id,
+                  .version = version,
+                  .title = title,
+                  .seed = static_cast<std::uint64_t>(seed.value_or(1)),
+                  .axes = {axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]},
+                  .profile = *profile,
+                  .source_height = source_height,
+                  .refractive_index = refractive_index,
+                  .spreading = spreading,
+                  .effort = effort,
+                  .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
+}
+
+absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is a folder: name a campaign file"));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    return absl::NotFoundError(absl::StrCat(path.string(), ": no such campaign file, or not readable"));
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  absl::StatusOr<Campaign> campaign = ParseCampaign(text);
+  if (!campaign.ok()) {
+    return absl::Status(campaign.status().code(),
+                        absl::StrCat(path.string(), ": ", campaign.status().message()));
+  }
+  return campaign;
+}
+
+std::size_t EncounterCount(const Campaign& campaign) {
+  return campaign.nodes(AxisId::kWindSpeed).size() * campaign.nodes(AxisId::kFetch).size() *
+         campaign.nodes(AxisId::kFootprint).size();
+}
+
+Encounter EncounterOf(const Campaign& campaign, std::size_t index) {
+  const std::size_t footprints = campaign.nodes(AxisId::kFootprint).size();
+  const std::size_t fetches = campaign.nodes(AxisId::kFetch).size();
+  Encounter encounter;
+  encounter.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
+  encounter.fetch = campaign.nodes(AxisId::kFetch)[index / footprints % fetches];
+  encounter.spreading = campaign.spreading;
+  encounter.refractive_index = campaign.refractive_index;
+  encounter.depths = campaign.nodes(AxisId::kDepth);
+  encounter.rays = campaign.rays;
+  for (const double incidence : campaign.nodes(AxisId::kIncidence)) {
+    for (const double azimuth : campaign.nodes(AxisId::kAzimuth)) {
+      encounter.beams.push_back({.incidence = RadiansOfDegrees(incidence),
+                                 .azimuth = RadiansOfDegrees(azimuth),
+                                 .footprint = campaign.nodes(AxisId::kFootprint)[index % footprints],
+                                 .profile = campaign.profile,
+                                 .source_height = campaign.source_height});
+    }
+  }
+  return encounter;
+}
+
+}  // namespace albtpu

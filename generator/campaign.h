@@ -1,0 +1,76 @@
+// A campaign: what a table is to hold and with what effort, as its TOML file says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "generator/beam.h"
+#include "generator/monte_carlo.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+
+// Example of a file (units of tables/schema.h; `[beam]`, `[water]`, `[sea]` and all of `[effort]` may be left
+// out):
+//
+//   id = "bay"
+//   version = "1"
+//   title = "A bay, light winds"
+//   seed = 1
+//   [axes]
+//   wind_speed = [3, 5, 7]
+//   fetch = [1000, 10000, inf]    # the last one must be inf: fully developed
+//   incidence = [0, 10, 20]
+//   azimuth = [0, 45, 90]
+//   footprint = [0.25, 0.5, 1]
+//   depth = [0, 1, 20]
+//   [beam]
+//   profile = "uniform"           # or "gaussian"
+//   source_height = inf           # m; inf: collimated
+//   [water]
+//   refractive_index = 1.33
+//   [sea]
+//   spreading = 2                 # s of the cosine-2S spreading
+//   [effort]
+//   realizations = 1000
+//   most_realizations = 40000     # the end even where relative_error is not met
+//   relative_error = 0.02         # go on until every value has it; absent: `realizations` it is
+//   rays = 10000                  # of each beam; chosen from spectrum and footprint where absent
+struct Campaign {
+  std::string text;  // the file, as it is
+  std::string id, version, title;
+  std::uint64_t seed = 1;
+  UncertaintyTable::Axes
+      axes;  // `inf` of the fetch already resolved to the least fetch that is it for all winds
+  BeamProfile profile = BeamProfile::kUniform;
+  double source_height = std::numeric_limits<double>::infinity();
+  double refractive_index = 1.33;
+  double spreading = 2;
+  Effort effort;
+  std::optional<int> rays;
+
+  const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }
+};
+
+// InvalidArgument, naming the key and what would be right: text that is not TOML (with its line), an unknown
+// or a missing key, a value of another type or out of its range, nodes that do not make an axis.
+absl::StatusOr<Campaign> ParseCampaign(std::string_view toml);
+
+// The same from a file. NotFound when there is none; messages begin with the path.
+absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path);
+
+// A campaign is worked off in encounters: seas and footprints, each with all incidences, azimuths and depths.
+// Their order is wind, fetch, footprint, the last fastest.
+std::size_t EncounterCount(const Campaign& campaign);
+Encounter EncounterOf(const Campaign& campaign, std::size_t index);
+
+std::string_view Name(BeamProfile profile);  // "uniform", "gaussian"
+std::optional<BeamProfile> FindBeamProfile(std::string_view name);
+
+}  // namespace albtpu

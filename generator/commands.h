@@ -1,0 +1,41 @@
+// The commands of albtpu-generate: options, and running them. A status that is InvalidArgument is bad usage
+// (exit 2), any other failure exit 1.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+
+namespace albtpu {
+
+struct TableOptions {
+  std::filesystem::path campaign, output;
+  bool overwrite = false;
+};
+absl::Status RunTable(const TableOptions& options);
+
+struct PlanOptions {
+  std::filesystem::path campaign;
+};
+absl::Status RunPlan(const PlanOptions& options);
+
+struct PointOptions {
+  double wind_speed = 0;                                   // m/s
+  double fetch = std::numeric_limits<double>::infinity();  // m
+  double incidence = 0;                                    // degree
+  double azimuth = 0;                                      // degree
+  double footprint = 0;                                    // m
+  std::vector<double> depth;                               // m
+  std::string profile = "uniform";
+  double refractive_index = 1.33;
+  double relative_error = 0.01;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+absl::Status RunPoint(const PointOptions& options);
+
+}  // namespace albtpu

@@ -1,0 +1,131 @@
+// albtpu-generate: flags -> options -> run.
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <optional>
+
+#include "generator/commands.h"
+#include "tables/version.h"
+
+namespace {
+
+using albtpu::PlanOptions;
+using albtpu::PointOptions;
+using albtpu::TableOptions;
+
+constexpr int kFailure = 1, kBadUsage = 2;
+
+// A finite number in a range, both ends included unless `open_below`; "nan" and "inf" are numbers to CLI11.
+CLI::Validator NumberIn(double least, double most, bool open_below = false) {
+  const std::string right = std::string("a number ") + (open_below ? "above " : "from ") +
+                            CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        double x = 0;
+        const bool number = CLI::detail::lexical_cast(text, x);
+        if (number && std::isfinite(x) && x <= most && (open_below ? x > least : x >= least)) return {};
+        return "'" + text + "' is not " + right;
+      },
+      "", "number");
+}
+
+CLI::Validator Fetch() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double x = 0;
+        if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
+        return "'" + text + "' is not a fetch: give metres above 0, or inf for the fully developed sea";
+      },
+      "", "fetch");
+}
+
+void AddPoint(CLI::App& point, PointOptions& options) {
+  point.add_option("--wind-speed", options.wind_speed, "wind at 10 m height, m/s")
+      ->required()
+      ->check(NumberIn(0, 50, true));
+  point.add_option("--fetch", options.fetch, "m, or inf: fully developed (default)")->check(Fetch());
+  point.add_option("--incidence", options.incidence, "from the vertical, in air, degree")
+      ->required()
+      ->check(NumberIn(0, 60));
+  point.add_option("--azimuth", options.azimuth, "of the beam from downwind, degree (default 0)")
+      ->check(NumberIn(-1e6, 1e6));
+  point.add_option("--footprint", options.footprint, "diameter at the surface, across the beam, m")
+      ->required()
+      ->check(NumberIn(0, 1000, true));
+  point.add_option("--depth", options.depth, "m, several with commas")
+      ->required()
+      ->delimiter(',')
+      ->check(NumberIn(0, 1e4));
+  point.add_option("--profile", options.profile, "uniform (default) or gaussian");
+  point.add_option("--refractive-index", options.refractive_index, "of the water (default 1.33)")
+      ->check(NumberIn(1.01, 2));
+  point
+      .add_option("--relative-error", options.relative_error,
+                  "to go on to, of refraction, THU and TVU (default 0.01)")
+      ->check(NumberIn(1e-4, 0.5));
+  point.add_option("--seed", options.seed, "of the random numbers (default 1)");
+  point.add_flag("--json", options.json, "print one JSON object");
+}
+
+int ExitCode(const absl::Status& status) {
+  if (status.ok()) return 0;
+  std::cerr << "albtpu-generate: " << std::string(status.message()) << '\n';
+  return absl::IsInvalidArgument(status) ? kBadUsage : kFailure;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("Makes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry");
+  app.set_version_flag("--version",
+                       std::string(albtpu::Version()) + " (" + std::string(albtpu::Commit()) + ")");
+  app.require_subcommand(1);
+  int threads = 0;
+
+  TableOptions table_options;
+  CLI::App* table = app.add_subcommand("table", "make a table by Monte Carlo");
+  table->add_option("--campaign", table_options.campaign, "TOML file")->required();
+  table->add_option("--output", table_options.output, "HDF5 file to write")->required();
+  table->add_flag("--overwrite", table_options.overwrite, "replace an existing file");
+
+  PlanOptions plan_options;
+  CLI::App* plan = app.add_subcommand("plan", "say what a campaign will take, before the work");
+  plan->add_option("--campaign", plan_options.campaign, "TOML file")->required();
+
+  PointOptions point_options;
+  CLI::App* point = app.add_subcommand("point", "the uncertainty of one beam over one sea");
+  AddPoint(*point, point_options);
+
+  for (CLI::App* command : {table, plan, point}) {
+    command->add_option("--threads", threads, "all cores unless given")->check(CLI::Range(1, 4096));
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "albtpu-generate: " << error.what() << "; see --help\n";
+    return kBadUsage;
+  }
+
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  if (*table) return ExitCode(RunTable(table_options));
+  if (*plan) return ExitCode(RunPlan(plan_options));
+  return ExitCode(RunPoint(point_options));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Run(argc, argv);
+  } catch (const std::exception& error) {  // no memory, no threads
+    std::cerr << "albtpu-generate: " << error.what() << '\n';
+    return kFailure;
+  }
+}

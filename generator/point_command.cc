@@ -1,0 +1,111 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "generator/angle.h"
+#include "generator/campaign.h"
+#include "generator/commands.h"
+#include "generator/monte_carlo.h"
+
+namespace albtpu {
+namespace {
+
+// The least the variance of a variance is trusted with, and where a point ends that does not meet its error.
+constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
+
+absl::StatusOr<Encounter> EncounterAt(const PointOptions& options) {
+  const std::optional<BeamProfile> profile = FindBeamProfile(options.profile);
+  if (!profile) {
+    return absl::InvalidArgumentError("--profile must be uniform or gaussian, not '" + options.profile + "'");
+  }
+  Encounter encounter;
+  encounter.wind_speed_10m = options.wind_speed;
+  encounter.fetch = options.fetch;
+  encounter.refractive_index = options.refractive_index;
+  encounter.depths = options.depth;
+  encounter.beams = {{.incidence = RadiansOfDegrees(options.incidence),
+                      .azimuth = RadiansOfDegrees(options.azimuth),
+                      .footprint = options.footprint,
+                      .profile = *profile}};
+  return encounter;
+}
+
+void AddToJson(nlohmann::ordered_json& json, const std::string& name,
+               const std::vector<Estimate>& estimates) {
+  std::vector<double> values, standard_errors;
+  for (const Estimate& estimate : estimates) {
+    values.push_back(estimate.value);
+    standard_errors.push_back(estimate.standard_error);
+  }
+  json[name] = values;
+  json[name + "_standard_error"] = standard_errors;
+}
+
+void PrintJson(const PointOptions& options, const EncounterResult& result, double seconds) {
+  const BeamUncertainty& beam = result.beams.front();
+  nlohmann::ordered_json json;
+  const auto add_angle = [&](const std::string& name, const Estimate& estimate) {
+    json[name] = DegreesOfRadians(estimate.value);
+    json[name + "_standard_error"] = DegreesOfRadians(estimate.standard_error);
+  };
+  add_angle("refraction_along_wind", beam.refraction_along_wind);
+  add_angle("refraction_cross_wind", beam.refraction_cross_wind);
+  json["depth"] = options.depth;
+  AddToJson(json, "thu", beam.thu);
+  AddToJson(json, "tvu", beam.tvu);
+  AddToJson(json, "bias_along_beam", beam.bias_along_beam);
+  AddToJson(json, "bias_vertical", beam.bias_vertical);
+  json["realizations"] = result.realizations;
+  json["seconds"] = seconds;
+  std::cout << json.dump() << '\n';
+}
+
+void PrintText(const PointOptions& options, const EncounterResult& result) {
+  const BeamUncertainty& beam = result.beams.front();
+  const auto angle = [](const char* name, const Estimate& estimate) {
+    std::printf("%-22s %8.4f +- %.4f degree\n", name, DegreesOfRadians(estimate.value),
+                DegreesOfRadians(estimate.standard_error));
+  };
+  std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n",
+              result.realizations);
+  angle("refraction along wind", beam.refraction_along_wind);
+  angle("refraction cross wind", beam.refraction_cross_wind);
+  std::printf("\n%8s  %-19s %-19s %-21s %-21s\n", "depth m", "THU m", "TVU m", "bias along beam m",
+              "bias vertical m");
+  for (std::size_t d = 0; d < options.depth.size(); ++d) {
+    std::printf("%8g  %8.4f +- %-7.4f %8.4f +- %-7.4f %9.4f +- %-8.4f %9.4f +- %-8.4f\n", options.depth[d],
+                beam.thu[d].value, beam.thu[d].standard_error, beam.tvu[d].value, beam.tvu[d].standard_error,
+                beam.bias_along_beam[d].value, beam.bias_along_beam[d].standard_error,
+                beam.bias_vertical[d].value, beam.bias_vertical[d].standard_error);
+  }
+}
+
+}  // namespace
+
+absl::Status RunPoint(const PointOptions& options) {
+  const absl::StatusOr<Encounter> encounter = EncounterAt(options);
+  if (!encounter.ok()) return encounter.status();
+  const Effort effort{.realizations = kLeastRealizations,
+                      .most_realizations = kMostRealizations,
+                      .relative_error = options.relative_error};
+  const auto start = std::chrono::steady_clock::now();
+  const EncounterResult result = Simulate(*encounter, effort, options.seed, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!result.converged) {
+    std::fprintf(
+        stderr,
+        "albtpu-generate: not all values met a relative error of %g within %d realizations: their standard "
+        "errors stand beside them\n",
+        options.relative_error, result.realizations);
+  }
+  if (options.json) {
+    PrintJson(options, result, seconds);
+  } else {
+    PrintText(options, result);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu

@@ -1,0 +1,29 @@
+// How far a long work is and how long it will still take, for people, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace albtpu {
+
+// On a terminal a bar, redrawn in place and wiped at the end; elsewhere a plain line every ten seconds.
+class Progress {
+ public:
+  Progress(std::string label, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void Reach(std::size_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string label_;
+  std::size_t total_;
+  bool terminal_;
+  Clock::time_point start_, last_shown_;
+};
+
+}  // namespace albtpu

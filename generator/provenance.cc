@@ -1,0 +1,104 @@
+#include "generator/provenance.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+#include "tables/version.h"
+
+namespace albtpu {
+namespace {
+
+// The least and the greatest of a number over the encounters.
+template <typename Number>
+std::vector<double> Range(const std::vector<EncounterResult>& results, Number EncounterResult::*member) {
+  std::vector<double> range = {static_cast<double>(results.front().*member),
+                               static_cast<double>(results.front().*member)};
+  for (const EncounterResult& result : results) {
+    range[0] = std::min(range[0], static_cast<double>(result.*member));
+    range[1] = std::max(range[1], static_cast<double>(result.*member));
+  }
+  return range;
+}
+
+// The median, the 95th percentile and the greatest of sorted magnitudes.
+std::vector<double> Summary(const std::vector<double>& sorted) {
+  return {sorted[sorted.size() / 2], sorted[sorted.size() * 95 / 100], sorted.back()};
+}
+
+}  // namespace
+
+Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results,
+                          const InterpolationError& interpolation_error) {
+  Provenance provenance;
+  provenance.id = campaign.id;
+  provenance.version = campaign.version;
+  provenance.title = campaign.title;
+  provenance.campaign = campaign.text;
+  provenance.attributes = {
+      {"source", "Monte Carlo ray tracing through a random sea surface, albtpu-generate"},
+      {"references", "Birkebak et al. (2018), doi:10.3390/rs10030453; Apel (1994), doi:10.1029/94JC00846"},
+      {"component", "sea surface only: no water column, air side, platform or system"},
+      {"program_version", std::string(Version())},
+      {"commit", std::string(Commit())},
+      {"instruction_set", InstructionSet()},
+      {"date_created", DateCreated()},
+      {"seed", static_cast<std::int64_t>(campaign.seed)},
+      {"refractive_index", campaign.refractive_index},
+      {"beam_profile", std::string(Name(campaign.profile))},
+      {"spectrum", "Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading"},
+      {"spectrum_departures",
+       "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz, the mean square slope 1.6 "
+       "to 2.7 "
+       "times Cox and Munk (1954). Below some 10 km of fetch waves are 2 to 3 times lower than JONSWAP: "
+       "values at short "
+       "fetch are not conservative."},
+      {"discretization",
+       "Waves shorter than a fraction of the patch by FFT on a periodic grid, longer ones as plane waves; "
+       "waves shorter "
+       "than the grid by the mean of refraction over their slopes. Ranges are the least and the greatest "
+       "over winds, "
+       "fetches and footprints."},
+      {"realizations", Range(results, &EncounterResult::realizations)},
+      {"rays", Range(results, &EncounterResult::rays)},
+      {"domain", Range(results, &EncounterResult::patch_length)},
+      {"spacing", Range(results, &EncounterResult::spacing)},
+      {"footprint_slope_variance_fraction", Range(results, &EncounterResult::footprint_slope_fraction)},
+      {"resolved_slope_variance_fraction", Range(results, &EncounterResult::resolved_slope_fraction)},
+      {"interpolation_error",
+       "Relative error of interpolating the closed form between the nodes, at 400 pulses drawn evenly over "
+       "the axes: "
+       "median, 95th percentile, greatest"},
+      {"interpolation_error_refraction_along_wind", Summary(interpolation_error.refraction_along_wind)},
+      {"interpolation_error_thu", Summary(interpolation_error.thu)},
+  };
+  return provenance;
+}
+
+std::string InstructionSet() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "x86-64-v4";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "x86-64-v3";
+  return "x86-64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "unknown";
+#endif
+}
+
+std::string DateCreated() {
+  std::time_t time = std::time(nullptr);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+    std::from_chars(epoch, epoch + std::strlen(epoch), time);
+  }
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace albtpu
