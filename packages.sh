@@ -23,14 +23,14 @@ install_packages() {
   mapfile -t names <<<"$missing"
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
-      echo "$0: ${#names[@]} packages are missing and there is no sudo: as root, run apt-get install ${names[*]}" >&2
+      echo "$0: packages are missing and there is no sudo: as root, apt-get install ${names[*]}" >&2
       return 1
     fi
     as_root=(sudo)
   fi
   echo "== Installing ${#names[@]} Debian packages"
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300
-             -o Acquire::Retries=3)
+             -o Dpkg::Use-Pty=0 -o Acquire::Retries=3)
   "${apt[@]}" update
   "${apt[@]}" install --yes --no-install-recommends "${names[@]}" </dev/null >/dev/null
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a survey file with THU and TVU on every bathymetric point, without a question asked:
-# builds, makes a small lookup table by Monte Carlo, serves it, and annotates a flight line through the service.
-# All that it makes is in build/ and out/, beside this file.
+# From a bare Debian 12 to a survey file with THU and TVU on every bathymetric point, without a question:
+# builds, makes a small lookup table by Monte Carlo, serves it, and annotates a flight line through the
+# service. All that it makes is in build/ and out/, beside this file.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
@@ -53,4 +53,5 @@ out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions
 
 echo "== Done"
 echo "$annotated has total_thu and total_tvu on each bathymetric point: 2 sigma, m, the sea surface alone."
-echo "Ask for one pulse: out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"
+echo "Ask for one pulse:"
+echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

@@ -8,7 +8,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 # GoogleTest, unittest, and our own scripts that exit with SKIP_RETURN_CODE.
-REASONS = (re.compile(r": Skipped\n(.+)"), re.compile(r"\.\.\. skipped '(.+)'"), re.compile(r"^skipped: (.+)", re.M))
+REASONS = (re.compile(r": Skipped\n(.+)"), re.compile(r"\.\.\. skipped '(.+)'"),
+           re.compile(r"^skipped: (.+)", re.MULTILINE))
 
 
 def main():

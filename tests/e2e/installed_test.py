@@ -1,0 +1,87 @@
+"""What `cmake --install` puts under a prefix runs from there, and finds its tables there.
+
+Usage: installed_test.py CMAKE BUILD_FOLDER ALBTPU_SYNTHETIC_TABLE
+"""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from serving import Server
+
+CMAKE, BUILD, SYNTHETIC_TABLE = sys.argv[1:4]
+PROGRAMS = ("albtpu-generate", "albtpu-serve", "albtpu-query")
+PULSE = ("--wind-speed", "6", "--incidence", "12.5", "--azimuth", "0", "--footprint", "0.7", "--depth", "5")
+# Nothing of the shell that started the test may help the programs find their files.
+CLEAN = {name: value for name, value in os.environ.items()
+         if name not in ("LD_LIBRARY_PATH", "ALBTPU_TABLES")}
+
+
+class Installation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="albtpu installed ")
+        cls.addClassCleanup(folder.cleanup)
+        cls.prefix = pathlib.Path(folder.name)
+        subprocess.run([CMAKE, "--install", BUILD, "--prefix", cls.prefix], check=True, capture_output=True)
+        cls.tables = cls.prefix / "share/albtpu/tables"
+        cls.tables.mkdir(exist_ok=True)
+        if not (cls.tables / "survey.h5").exists():
+            subprocess.run([SYNTHETIC_TABLE, cls.tables / "survey.h5"], check=True)
+
+    def run_program(self, name, *arguments):
+        result = subprocess.run([self.prefix / "bin" / name, *arguments], env=CLEAN, capture_output=True,
+                                text=True, cwd="/")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_programs_say_their_version(self):
+        for name in PROGRAMS:
+            self.assertRegex(self.run_program(name, "--version"), rf"^{name} \d+\.\d+\.\d+ ")
+
+    def test_programs_remember_no_build_folder(self):
+        for name in PROGRAMS:
+            dynamic = subprocess.run(["readelf", "-d", self.prefix / "bin" / name], check=True,
+                                     capture_output=True, text=True).stdout
+            self.assertNotRegex(dynamic, r"\((RPATH|RUNPATH)\)")
+
+    def test_the_client_answers_from_the_installed_tables(self):
+        pulse = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
+        self.assertEqual(pulse["outcome"], "INTERPOLATED")
+        self.assertGreater(pulse["thu"], 0)
+
+    def test_the_service_serves_the_installed_tables(self):
+        inside = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
+        server = Server(self.prefix / "bin/albtpu-serve", environment={"ALBTPU_TABLES": ""})
+        with server:
+            asked = self.run_program("albtpu-query", "pulse", *PULSE, "--json", "--server", server.address)
+            self.assertEqual(json.loads(asked), inside)
+            self.assertEqual(server.stop(signal.SIGTERM), 0)
+
+    def test_the_generator_plans_every_installed_campaign(self):
+        campaigns = sorted((self.prefix / "share/albtpu/campaigns").glob("*.toml"))
+        self.assertEqual([path.stem for path in campaigns], ["paper", "quick", "survey"])
+        for campaign in campaigns:
+            self.assertTrue(self.run_program("albtpu-generate", "plan", "--campaign", campaign))
+
+    def test_licence_documents_and_protos_come_along(self):
+        for name in ("doc/albtpu/LICENSE", "doc/albtpu/README.md", "doc/albtpu/docs/beam_and_sea.svg",
+                     "doc/albtpu/tables/FORMAT.md", "albtpu/proto/albtpu/v1/uncertainty_service.proto"):
+            self.assertTrue((self.prefix / "share" / name).is_file(), name)
+
+    def test_documents_find_what_they_link_to(self):
+        documents = self.prefix / "share/doc/albtpu"
+        for page in documents.rglob("*.md"):
+            for link in re.findall(r"\]\(([\w./-]+)\)", page.read_text()):
+                if link.endswith((".md", ".svg")) or link == "LICENSE":
+                    self.assertTrue((page.parent / link).exists(), f"{page.relative_to(documents)}: {link}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
