@@ -1,5 +1,6 @@
 // albtpu-query: asks for the uncertainty of pulses, of CSV files and of LAS files. Flags, then a command.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -44,6 +45,8 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A work does not end because nobody reads its messages; answers that nobody reads are an error of writing.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return Main(argc, argv);
   } catch (const std::exception& error) {

@@ -170,6 +170,16 @@ class CommandLineTest(programs.Test):
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
+    def test_work_goes_on_when_nobody_reads_its_messages(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
+        flags = ("--water-level", 0, "--wind-speed", 5, "--footprint", 1)
+        command = [programs.PATHS["query"], "las", source, target, "--table", self.table, *map(str, flags)]
+        self.assertEqual(subprocess.run(command, stderr=writer).returncode, 0)
+        os.close(writer)
+        self.assertTrue(target.exists())
+
     def test_signal_leaves_nothing(self):
         # The input is a pipe that never ends, so the program is surely at work when the signal comes.
         source, target = self.folder / "in.csv", self.folder / "out.csv"
