@@ -1,5 +1,5 @@
-# The commit this tree was built from, for `--version` and for the provenance of tables. Written at every build,
-# and only when it changed, so that a commit does not recompile the tree.
+# The commit this tree was built from, for `--version` and for the provenance of tables. Written at every
+# build, and only when it changed, so that a commit does not recompile the tree.
 set(ALBTPU_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 add_custom_target(albtpu_version_source
   COMMAND ${CMAKE_COMMAND}
