@@ -12,8 +12,8 @@ namespace {
 // sampling the spectrum on the patch's lattice of wavenumbers becomes as good as the rings and sectors of the
 // plane waves.
 constexpr double kAllLong = 3, kAllPatch = 6;
-constexpr double kNodesPerLongWave =
-    11;  // cubic interpolation is then right to 0.3 % of the shortest wave's height
+// Nodes along the shortest plane wave, about. Cubic interpolation is then right to 0.3 % amid the cross-fade.
+constexpr double kNodesPerLongWave = 7;
 
 CrossFade PatchShare(double patch_length) {
   const double dk = 2 * std::numbers::pi / patch_length;
@@ -80,7 +80,7 @@ std::array<double, 4> CubicWeights(double t) {
 SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
                            const Discretization& discretization)
     : patch_(MakePatch(sea, widest, discretization)), long_waves_(sea, PatchShare(patch_.length())) {
-  stride_ = std::max(1, static_cast<int>(patch_.size() / (kAllPatch * kNodesPerLongWave)));
+  stride_ = std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
   const double node_spacing = stride_ * patch_.spacing();
   half_nodes_ = static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;  // one for the cubic
   phase_x_ = Phases(long_waves_, half_nodes_, node_spacing, 0);
