@@ -12,14 +12,14 @@ namespace albtpu {
 namespace {
 
 constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;
-constexpr double kCoarsestPoints = 32, kFinestPoints = 512;
-constexpr int kFewestRays = 1000, kMostRays = 64000;
-constexpr double kGridLoss = 0.005;
+constexpr double kCoarsestPoints = 32, kFinestPoints = 256;
+constexpr int kFewestRays = 1000, kMostRays = 24000;
+constexpr double kGridLoss = 0.004;
 constexpr double kPatchDeparture = 0.005;
 constexpr double kAliasedFraction = 0.015;
 // A footprint that averages the waves down to less than this part of their mean square slope sees still
 // water: nothing is refined for the sake of what it does see.
-constexpr double kLeastSeen = 1e-5;
+constexpr double kLeastSeen = 3e-5;
 
 // The part of the slope variance seen by the footprint that facets of the side `spacing` take away: waves
 // under two facets long, and of the others what a difference quotient misses of the slope.
@@ -82,7 +82,7 @@ Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamO
   const SurfaceModel model(sea, widest, choice);
   while (choice.rays < kMostRays &&
          AliasedSlopeVariance(model, widest, choice.rays) > kAliasedFraction * least) {
-    choice.rays = choice.rays * 5 / 4;
+    choice.rays = std::min(choice.rays * 5 / 4, kMostRays);
   }
   return choice;
 }

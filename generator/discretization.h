@@ -16,7 +16,7 @@ struct Discretization {
 
 // The discretization with which doubling the patch, halving the spacing and doubling the rays moves
 // refraction, THU and TVU by less than 1 %. It starts coarse and refines
-//   * the grid, until its facets cost the footprint less than 0.5 % of the slope variance that it sees: a
+//   * the grid, until its facets cost the footprint less than 0.4 % of the slope variance that it sees: a
 //   footprint much
 //     wider than the waves averages them down to what happens at its edge;
 //   * the patch, until the modes and plane waves together show the footprint the closed form's variance
