@@ -2,7 +2,6 @@
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
 file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
-install(DIRECTORY generator/campaigns DESTINATION ${data} FILES_MATCHING PATTERN *.toml)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
