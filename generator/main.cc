@@ -79,9 +79,10 @@ int ExitCode(const absl::Status& status) {
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app("Makes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry");
-  app.set_version_flag("--version",
-                       std::string(albtpu::Version()) + " (" + std::string(albtpu::Commit()) + ")");
+  CLI::App app("Makes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry",
+               "albtpu-generate");
+  app.set_version_flag("--version", "albtpu-generate " + std::string(albtpu::Version()) + " (" +
+                                        std::string(albtpu::Commit()) + ")");
   app.require_subcommand(1);
   int threads = 0;
 
