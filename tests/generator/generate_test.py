@@ -1,0 +1,181 @@
+"""albtpu-generate from outside: equal bytes, foreign readers, and what it says to bad input."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import netCDF4
+import numpy
+import xarray
+
+GENERATE = sys.argv.pop(1)
+
+CAMPAIGN = """id = "small"
+version = "1"
+title = "Two seas"
+[axes]
+wind_speed = [3, 6]
+fetch = [5000, inf]
+incidence = [0, 20]
+azimuth = [0, 90]
+footprint = [0.25, 1]
+depth = [0, 10]
+[effort]
+realizations = 40
+"""
+POINT = ["point", "--wind-speed", "7", "--incidence", "12", "--azimuth", "45", "--footprint", "0.6",
+         "--depth", "1,5", "--relative-error", "0.2"]
+
+
+def generate(*arguments, **environment):
+    return subprocess.run([GENERATE, *map(str, arguments)], capture_output=True, text=True,
+                          env={**os.environ, **environment}, stdin=subprocess.DEVNULL)
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.campaign = self.path("small.toml", CAMPAIGN)
+
+    def path(self, name, text=None):
+        path = os.path.join(self.folder, name)
+        if text is not None:
+            with open(path, "w") as file:
+                file.write(text)
+        return path
+
+    def make(self, name, *flags, **environment):
+        result = generate("table", "--campaign", self.campaign, "--output", self.path(name), *flags, **environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.path(name)
+
+    def refused(self, code, *arguments):
+        result = generate(*arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertRegex(result.stderr, r"^albtpu-generate: ")
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        return result.stderr
+
+    def test_same_bytes_from_one_thread_and_from_two(self):
+        one = self.make("one.h5", "--threads", "1", SOURCE_DATE_EPOCH="1700000000")
+        two = self.make("two.h5", "--threads", "2", SOURCE_DATE_EPOCH="1700000000")
+        with open(one, "rb") as a, open(two, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_opens_in_netcdf_xarray_and_h5py_with_named_axes_and_units(self):
+        path = self.make("table.h5")
+        axes = ("wind_speed", "fetch", "incidence", "azimuth", "footprint", "depth")
+        with xarray.open_dataset(path, engine="netcdf4") as data:
+            self.assertEqual(data["thu"].dims, axes)
+            self.assertEqual(data["refraction_along_wind"].dims, axes[:-1])
+            self.assertEqual(data["wind_speed"].attrs["units"], "m s-1")
+            self.assertEqual(data["thu"].attrs["units"], "m")
+        with netCDF4.Dataset(path) as data:
+            self.assertEqual(data["tvu"].ancillary_variables, "tvu_standard_error")
+        with h5py.File(path) as data:
+            self.assertEqual([d.label or d[0].name.strip("/") for d in data["thu"].dims], list(axes))
+            self.assertTrue(numpy.isfinite(data["thu"][...]).all())
+            for name in ("id", "version", "title", "source", "references", "campaign", "seed", "realizations", "rays",
+                         "program_version", "commit", "instruction_set", "date_created", "coverage",
+                         "refractive_index", "beam_profile", "spectrum", "spectrum_departures", "domain", "spacing",
+                         "footprint_slope_variance_fraction", "resolved_slope_variance_fraction",
+                         "interpolation_error", "content_digest"):
+                self.assertIn(name, data.attrs)
+            campaign = data.attrs["campaign"]
+            self.assertEqual(campaign.decode() if isinstance(campaign, bytes) else campaign, CAMPAIGN)
+            low, high = data.attrs["footprint_slope_variance_fraction"]
+            self.assertGreater(low, 0.99)
+            self.assertLess(high, 1.01)
+
+    def test_prints_nothing_that_depends_on_path_or_time(self):
+        first = generate("table", "--campaign", self.campaign, "--output", self.path("a.h5"))
+        second = generate("table", "--campaign", self.campaign, "--output", self.path("b.h5"), "--threads", "1")
+        self.assertEqual(first.stdout, second.stdout)
+        self.assertRegex(first.stdout, r"digest [0-9a-f]{64}")
+
+    def test_keeps_an_existing_table_unless_told(self):
+        path = self.path("there.h5", "precious")
+        error = self.refused(1, "table", "--campaign", self.campaign, "--output", path)
+        self.assertIn("--overwrite", error)
+        with open(path) as file:
+            self.assertEqual(file.read(), "precious")
+        self.make("there.h5", "--overwrite")
+
+    def test_says_before_the_work_that_the_output_has_no_folder(self):
+        self.assertIn("no folder", self.refused(1, "table", "--campaign", self.campaign, "--output",
+                                                self.path("absent/table.h5")))
+        self.assertEqual(os.listdir(self.folder), ["small.toml"])
+
+    def test_says_before_the_work_that_the_output_folder_is_not_writable(self):
+        self.assertIn("not writable", self.refused(1, "table", "--campaign", self.campaign, "--output",
+                                                   "/proc/self/table.h5"))
+
+    def test_refuses_bad_campaigns(self):
+        for text, expected in ((CAMPAIGN.replace("[0, 20]", "[20, 0]"), "nodes must increase"),
+                               (CAMPAIGN.replace("wind_speed", "wind"), "axes.wind"),
+                               ("\x00\xff", "not TOML"), ("", "missing")):
+            path = self.path("bad.toml", text)
+            self.assertIn(expected, self.refused(2, "table", "--campaign", path, "--output", self.path("x.h5")))
+        self.assertIn("no such", self.refused(1, "table", "--campaign", self.path("absent.toml"), "--output",
+                                              self.path("x.h5")))
+        self.assertNotIn("x.h5", os.listdir(self.folder))
+
+    def test_plans_before_the_work(self):
+        result = generate("plan", "--campaign", self.campaign)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"cells +64\n")
+        self.assertRegex(result.stdout, r"time, at least +\d+ s")
+
+
+class Point(unittest.TestCase):
+    def test_prints_one_json_object(self):
+        result = generate(*POINT, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual(answer["depth"], [1, 5])
+        for name in ("thu", "tvu", "bias_along_beam", "bias_vertical"):
+            self.assertEqual(len(answer[name]), 2)
+            self.assertEqual(len(answer[name + "_standard_error"]), 2)
+        for name in ("refraction_along_wind", "refraction_cross_wind"):
+            self.assertGreater(answer[name], 0)
+            self.assertLessEqual(answer[name + "_standard_error"], 0.2 * answer[name])
+        self.assertTrue(math.isclose(answer["thu"][1] / answer["thu"][0], 5, rel_tol=0.05))
+        self.assertGreaterEqual(answer["realizations"], 1000)
+        self.assertGreater(answer["seconds"], 0)
+
+    def test_takes_infinity_as_the_fully_developed_sea(self):
+        absent, infinite = generate(*POINT), generate(*POINT, "--fetch", "inf")
+        self.assertEqual(absent.stdout, infinite.stdout)
+        self.assertEqual(absent.returncode, 0)
+
+    def test_refuses_bad_flags_as_usage(self):
+        for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"), ("--wind-speed", "0"),
+                            ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
+                            ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
+                            ("--fetch", "0"), ("--azimuth", "inf"), ("--profile", "square"),
+                            ("--relative-error", "0"), ("--refractive-index", "nan"), ("--speed", "3")):
+            arguments = list(POINT)
+            if flag in arguments:
+                at = arguments.index(flag)
+                del arguments[at:at + 2]
+            result = generate(*arguments, f"{flag}={value}")
+            self.assertEqual(result.returncode, 2, (flag, value, result.stderr))
+            self.assertEqual(result.stdout, "")
+            self.assertRegex(result.stderr, r"^albtpu-generate: ")
+
+    def test_asks_for_what_is_missing(self):
+        result = generate("point", "--wind-speed", "5")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("required", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
