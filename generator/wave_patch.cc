@@ -110,9 +110,12 @@ Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(
       const double power = power_[row * (size_ / 2 + 1) + j];
       if (power == 0) continue;
       const int i = SignedIndex(row, size_);
-      const Eigen::Vector2d quotient(2 * std::sin(i * dk * dx / 2) / dx, 2 * std::sin(j * dk * dx / 2) / dx);
-      covariance += power * (j == 0 ? 1 : 2) * weight(dk * std::hypot(i, j), std::atan2(j, i)) * quotient *
-                    quotient.transpose();
+      const double phase_x = i * dk * dx / 2, phase_y = j * dk * dx / 2;
+      const Eigen::Vector2d quotient(2 * std::sin(phase_x) / dx, 2 * std::sin(phase_y) / dx);
+      Eigen::Matrix2d squares = quotient * quotient.transpose();
+      squares(0, 1) *= std::cos(phase_x + phase_y);  // the two sides of a triangle are half a diagonal apart
+      squares(1, 0) = squares(0, 1);
+      covariance += power * (j == 0 ? 1 : 2) * weight(dk * std::hypot(i, j), std::atan2(j, i)) * squares;
     }
   }
   return covariance;

@@ -1,0 +1,71 @@
+#include "generator/sea_state.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "generator/beam.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
+
+// The slow twin of SlopeCovariance: five times as many wavenumbers, four times as many directions.
+Eigen::Matrix2d FineSlopeCovariance(const SeaState& sea, const BeamOptions& beam) {
+  constexpr double kStep = 0.004;
+  constexpr int kDirections = 128;
+  const auto [lowest, highest] = sea.energetic_range();
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (double k = lowest; k < highest; k *= std::exp(kStep)) {
+    for (int j = 0; j < kDirections; ++j) {
+      const double psi = 2 * std::numbers::pi * (j + 0.5) / kDirections;
+      const Eigen::Vector2d wave(k * std::cos(psi), k * std::sin(psi));
+      sum += sea.Psi(k, psi) * FootprintPower(beam, k, psi) * k * k * kStep *
+             (2 * std::numbers::pi / kDirections) * wave * wave.transpose();
+    }
+  }
+  return sum;
+}
+
+TEST(SeaState, LooksAlikeAfterHalfATurnAndInTheMirrorOfTheWind) {
+  const SeaState sea(7, 1e4);
+  for (const double psi : {0.1, 0.8, 1.5}) {
+    EXPECT_NEAR(sea.Psi(3, psi) / sea.Psi(3, psi + std::numbers::pi), 1, 1e-12);
+    EXPECT_NEAR(sea.Psi(3, psi) / sea.Psi(3, -psi), 1, 1e-12);
+  }
+}
+
+TEST(SeaState, SharesItsMeanSquareSlopeSevenToFive) {
+  const Eigen::Matrix2d slopes = SlopeCovariance(SeaState(5, kFullyDeveloped));
+  EXPECT_NEAR(slopes.trace(), 0.049, 0.0005);  // printed precision
+  EXPECT_NEAR(slopes(0, 0) / slopes(1, 1), 7.0 / 5, 1e-9);
+  EXPECT_NEAR(slopes(0, 1), 0, 1e-12);
+}
+
+TEST(SeaState, HasTheWaveHeightOfItsSpectrum) {
+  EXPECT_NEAR(4 * std::sqrt(ElevationVariance(SeaState(10, kFullyDeveloped))), 2.04, 0.005);
+}
+
+TEST(SlopeCovariance, IsIntegratedToOnePartInTenThousandUnderAnyFootprint) {
+  for (const double wind_speed : {2.0, 12.0}) {
+    for (const double fetch : {100.0, kFullyDeveloped}) {
+      for (const double footprint : {0.1, 0.5, 5.0}) {
+        const SeaState sea(wind_speed, fetch);
+        const BeamOptions beam{.incidence = 0.4, .azimuth = 0.5, .footprint = footprint};
+        const Eigen::Matrix2d fast =
+            SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); });
+        const Eigen::Matrix2d fine = FineSlopeCovariance(sea, beam);
+        const double let_through = std::max(fine.norm(), 3e-5 * SlopeCovariance(sea).trace());
+        EXPECT_LT((fast - fine).norm(), 1e-4 * let_through)
+            << wind_speed << " m/s, " << fetch << " m, footprint " << footprint;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace albtpu
