@@ -1,127 +1,21 @@
 #include "generator/campaign.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "generator/angle.h"
+#include "generator/toml_reader.h"
 #include "generator/wave_spectrum.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Collects the first thing that is wrong, so that a reader of many keys stays a list of keys.
-class TomlReader {
- public:
-  explicit TomlReader(const toml::table& root) : root_(root) {}
-
-  std::string Text(std::string_view table, std::string_view key,
-                   std::optional<std::string_view> absent = std::nullopt) {
-    const toml::node* node = Find(table, key);
-    if (node == nullptr && absent) return std::string(*absent);
-    if (node == nullptr) return Missing<std::string>(table, key, "a text in quotes");
-    if (const auto text = node->value_exact<std::string>()) return *text;
-    return Wrong<std::string>(table, key, "a text in quotes");
-  }
-
-  // A number in [least, most]; `absent` where there is none.
-  double Number(std::string_view table, std::string_view key, double least, double most, double absent) {
-    const toml::node* node = Find(table, key);
-    if (node == nullptr) return absent;
-    const std::optional<double> number = node->value<double>();
-    const std::string right = absl::StrCat("a number from ", least, " to ", most);
-    if (!number || !(*number >= least && *number <= most)) return Wrong<double>(table, key, right);
-    return *number;
-  }
-
-  std::optional<std::int64_t> Integer(std::string_view table, std::string_view key, std::int64_t least,
-                                      std::int64_t most) {
-    const toml::node* node = Find(table, key);
-    if (node == nullptr) return std::nullopt;
-    const auto number = node->value_exact<std::int64_t>();
-    if (!number || *number < least || *number > most) {
-      return Wrong<std::int64_t>(table, key, absl::StrCat("a whole number from ", least, " to ", most));
-    }
-    return *number;
-  }
-
-  std::vector<double> Numbers(std::string_view table, std::string_view key) {
-    const toml::node* node = Find(table, key);
-    const std::string right = "a list of numbers, such as [1, 2, 5]";
-    if (node == nullptr) return Missing<std::vector<double>>(table, key, right);
-    const toml::array* array = node->as_array();
-    if (array == nullptr) return Wrong<std::vector<double>>(table, key, right);
-    std::vector<double> numbers;
-    for (const toml::node& element : *array) {
-      const std::optional<double> number = element.value<double>();
-      if (!number) return Wrong<std::vector<double>>(table, key, right);
-      numbers.push_back(*number);
-    }
-    return numbers;
-  }
-
-  void Fail(std::string problem) {
-    if (error_.ok()) error_ = absl::InvalidArgumentError(problem);
-  }
-
-  // The first failure, or a key that nobody asked for.
-  absl::Status Finish() {
-    CheckForUnknownKeys(root_, "");
-    return error_;
-  }
-
- private:
-  static std::string FullName(std::string_view table, std::string_view key) {
-    return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key);
-  }
-
-  const toml::node* Find(std::string_view table, std::string_view key) {
-    known_.insert(FullName(table, key));
-    if (table.empty()) return root_.get(key);
-    const toml::node* inner = root_.get(table);
-    return inner != nullptr && inner->is_table() ? inner->as_table()->get(key) : nullptr;
-  }
-
-  template <typename T>
-  T Missing(std::string_view table, std::string_view key, const std::string& right) {
-    Fail(absl::StrCat("'", FullName(table, key), "' is missing: give ", right));
-    return {};
-  }
-
-  template <typename T>
-  T Wrong(std::string_view table, std::string_view key, const std::string& right) {
-    const toml::node* node = Find(table, key);
-    Fail(
-        absl::StrCat("'", FullName(table, key), "' in line ", node->source().begin.line, " must be ", right));
-    return {};
-  }
-
-  void CheckForUnknownKeys(const toml::table& table, const std::string& prefix) {
-    for (const auto& [key, node] : table) {
-      const std::string name = prefix + std::string(key.str());
-      if (prefix.empty() && node.is_table()) {
-        CheckForUnknownKeys(*node.as_table(), name + ".");
-      } else if (!known_.contains(name)) {
-        Fail(absl::StrCat("'", name, "' in line ", node.source().begin.line,
-                          " is not a key of a campaign; there are ", absl::StrJoin(known_, ", ")));
-      }
-    }
-  }
-
-  const toml::table& root_;
-  std::set<std::string> known_;
-  absl::Status error_;
-};
 
 // Nodes are kept in single precision, as tables are: 0.1 in the file is the float nearest to it.
 std::vector<double> InSinglePrecision(std::vector<double> nodes) {
@@ -168,14 +62,9 @@ std::optional<BeamProfile> FindBeamProfile(std::string_view name) {
 }
 
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
-  toml::table root;
-  try {
-    root = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("line ", error.source().begin.line, " is not TOML: ", std::string(error.description())));
-  }
-  TomlReader toml(root);
+  absl::StatusOr<TomlReader> parsed = TomlReader::Parse(text);
+  if (!parsed.ok()) return parsed.status();
+  TomlReader& toml = *parsed;
 
   const std::string id = toml.Text("", "id"), version = toml.Text("", "version"),
                     title = toml.Text("", "title");
