@@ -120,7 +120,7 @@ TEST(Campaign, AsksForTheFullyDevelopedSeaAsTheLastFetch) {
 }
 
 TEST(Campaign, BeginsMessagesOfAFileWithItsPath) {
-  const TemporaryDirectory folder;
+  const testing::TemporaryDirectory folder;
   const std::filesystem::path path = folder.path() / "bad.toml";
   std::ofstream(path) << "id = 3\n";
   EXPECT_THAT(std::string(ReadCampaign(path).status().message()),
