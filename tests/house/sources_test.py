@@ -14,7 +14,7 @@ SOURCE = pathlib.Path(sys.argv[1])
 CODE = (".h", ".cc", ".py", ".sh", ".proto", ".cmake")
 NOT_OURS = ("build", "out", "b", ".git", ".cache", "__pycache__")  # Nor a folder that holds a CMakeCache.txt.
 MOST_LINES = 350
-MOST_COLUMNS = 110
+MOST_COLUMNS = 120
 # A path that only one machine has; written so that this line is not one.
 HOME = re.compile(r"(?<![\w.])/(?:home|root|Users|work)/\w")
 
