@@ -16,7 +16,7 @@ log=build/release/test.log
 results=build/release/test.xml
 status=0
 ctest --preset release --parallel 2 --output-junit "$PWD/$results" --test-output-size-passed 1000000 \
-  | tee "$log" | sed '/% tests passed/,$d' || status=$?
+  | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
 
 python3 tests/skipped.py "$results"
 sed -n '/% tests passed/,$p' "$log"
