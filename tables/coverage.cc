@@ -73,13 +73,16 @@ double RadiusFactor95(double axis_ratio) {
   return std::lerp(factors[lower], factors[lower + 1], position - lower);
 }
 
+double RadiusOverThu(const std::array<float, kQuantityCount>& values) {
+  return RadiusFactor95(AxisRatio(values[Index(Quantity::kRefractionAlongWind)],
+                                  values[Index(Quantity::kRefractionCrossWind)]));
+}
+
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage) {
   if (coverage == Coverage::kTwoSigma || uncertainty.outcome != Outcome::kInterpolated) return uncertainty;
-  const double thu_factor = RadiusFactor95(
-      AxisRatio(uncertainty[Quantity::kRefractionAlongWind], uncertainty[Quantity::kRefractionCrossWind]));
   for (Quantity quantity : kQuantities) {
     if (Describe(quantity).is_bias) continue;
-    const double factor = quantity == Quantity::kThu ? thu_factor : kFactor95;
+    const double factor = quantity == Quantity::kThu ? uncertainty.radius_over_thu : kFactor95;
     float& value = uncertainty.values[Index(quantity)];
     float& standard_error = uncertainty.standard_errors[Index(quantity)];
     value = static_cast<float>(value * factor);

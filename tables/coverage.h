@@ -1,6 +1,8 @@
 // From 2 sigma, which tables hold, to 95 %, which S-44 compares with.
 #pragma once
 
+#include <array>
+
 #include "tables/interpolation.h"
 
 namespace albtpu {
@@ -15,8 +17,12 @@ enum class Coverage {
 // 0.980 at 0 (one dimension) to 0.865 at 1 (isotropic). Correct to 1e-6.
 double RadiusFactor95(double axis_ratio);
 
-// The values and standard errors of `uncertainty`, given at 2 sigma, restated. THU takes the axis ratio of
-// the along and cross refraction, their correlation neglected. Biases are means and stay.
+// The 95 % radius over the THU of values at 2 sigma and at one azimuth: RadiusFactor95 at the axis ratio of
+// the along and cross refraction, their correlation neglected.
+double RadiusOverThu(const std::array<float, kQuantityCount>& values);
+
+// The values and standard errors of `uncertainty`, given at 2 sigma, restated; THU by its `radius_over_thu`.
+// Biases are means and stay.
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage);
 
 }  // namespace albtpu

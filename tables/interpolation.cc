@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "tables/coverage.h"
+
 namespace albtpu {
 namespace {
 
@@ -99,6 +101,7 @@ PulseUncertainty InterpolateAt(const UncertaintyTable& table, const Coordinates&
     uncertainty.standard_errors[Index(quantity)] =
         static_cast<float>(corners.Mean(variable->standard_errors));
   }
+  uncertainty.radius_over_thu = RadiusOverThu(uncertainty.values);
   return uncertainty;
 }
 
@@ -108,15 +111,12 @@ const PulseUncertainty& WorseOutcome(const PulseUncertainty& a, const PulseUncer
   return a.axis <= b.axis ? a : b;
 }
 
-// Each value the larger in magnitude of the two, with the standard error that belongs to it.
-PulseUncertainty LargerOf(PulseUncertainty a, const PulseUncertainty& b) {
-  if (a.outcome != Outcome::kInterpolated || b.outcome != Outcome::kInterpolated) return WorseOutcome(a, b);
-  for (std::size_t i = 0; i < kQuantityCount; ++i) {
-    if (!(std::abs(b.values[i]) > std::abs(a.values[i]))) continue;
-    a.values[i] = b.values[i];
-    a.standard_errors[i] = b.standard_errors[i];
-  }
-  return a;
+// The larger 95 % radius of the two, over their larger THU.
+double LargerRadiusOverThu(const PulseUncertainty& a, const PulseUncertainty& b) {
+  const double thu_a = a[Quantity::kThu], thu_b = b[Quantity::kThu];
+  const double radius_a = a.radius_over_thu * thu_a, radius_b = b.radius_over_thu * thu_b;
+  if (thu_a >= thu_b) return radius_a >= radius_b ? a.radius_over_thu : radius_b / thu_a;
+  return radius_b >= radius_a ? b.radius_over_thu : radius_a / thu_b;
 }
 
 }  // namespace
@@ -133,9 +133,22 @@ PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse) 
     return InterpolateAt(table, coordinates);
   };
   if (pulse.azimuth.has_value()) return at_azimuth(*pulse.azimuth);
-  PulseUncertainty uncertainty = LargerOf(at_azimuth(0), at_azimuth(90));
-  uncertainty.azimuth_absent = true;
-  return uncertainty;
+  return LargerOf(at_azimuth(0), at_azimuth(90));
+}
+
+PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind) {
+  const bool numbers =
+      downwind.outcome == Outcome::kInterpolated && crosswind.outcome == Outcome::kInterpolated;
+  PulseUncertainty larger = numbers ? downwind : WorseOutcome(downwind, crosswind);
+  larger.azimuth_absent = true;
+  if (!numbers) return larger;
+  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+    if (!(std::abs(crosswind.values[i]) > std::abs(downwind.values[i]))) continue;
+    larger.values[i] = crosswind.values[i];
+    larger.standard_errors[i] = crosswind.standard_errors[i];
+  }
+  larger.radius_over_thu = LargerRadiusOverThu(downwind, crosswind);
+  return larger;
 }
 
 std::string OutcomeText(const PulseUncertainty& uncertainty) {

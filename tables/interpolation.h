@@ -30,20 +30,28 @@ enum class Outcome {
 // 2 sigma, as the table holds it; see coverage.h for 95 %. Not-a-number wherever there is no number.
 struct PulseUncertainty {
   Outcome outcome = Outcome::kInvalid;
-  std::optional<AxisId>
-      axis;  // The first axis, in the order of kAxes, that made the outcome; none if interpolated.
+  // The first axis, in the order of kAxes, that made the outcome; none if interpolated.
+  std::optional<AxisId> axis;
   bool azimuth_absent = false;  // True: each value is the larger in magnitude of those at 0 and 90 degrees.
   std::array<float, kQuantityCount> values;
   std::array<float, kQuantityCount> standard_errors;  // Interpolated linearly.
+  // The 95 % radius of the horizontal error over the THU, for coverage.h. Without an azimuth the values do
+  // not tell it: the radius, too, is the larger of those at 0 and 90 degrees.
+  double radius_over_thu = 1;
 
   float operator[](Quantity quantity) const { return values[Index(quantity)]; }
 };
 
 // Example:
 //   auto table = ReadTable("quick.h5");
-//   PulseUncertainty u = Interpolate(*table, {.wind_speed = 5, .incidence = 20, .footprint = 0.5f, .depth =
-//   8}); if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
+//   Pulse pulse = {.wind_speed = 5, .incidence = 20, .footprint = 0.5f, .depth = 8};
+//   PulseUncertainty u = Interpolate(*table, pulse);
+//   if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
 PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse);
+
+// The answer for a pulse without azimuth, from its answers at 0 and 90 degrees: each value the larger in
+// magnitude, with the standard error that belongs to it. If not both have numbers, neither has the answer.
+PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind);
 
 // "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID": the text of CSV files and of people.
 std::string OutcomeText(const PulseUncertainty& uncertainty);

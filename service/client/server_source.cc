@@ -74,25 +74,34 @@ absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::stri
 
 absl::Status ServerSource::Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
   assert(pulses.size() == answers.size());
-  // A column of azimuths is there for all pulses of a message or for none.
-  std::array<std::vector<std::size_t>, 2> by_azimuth;
-  for (std::size_t i = 0; i < pulses.size(); ++i) by_azimuth[pulses[i].azimuth.has_value()].push_back(i);
-  for (const std::vector<std::size_t>& indices : by_azimuth) {
-    for (std::size_t begin = 0; begin < indices.size(); begin += kMostPulses) {
-      const std::size_t count = std::min(kMostPulses, indices.size() - begin);
-      absl::Status status = AnswerBatch(pulses, std::span(indices).subspan(begin, count), answers);
-      if (!status.ok()) return status;
-    }
+  // An answer at 2 sigma and without azimuth does not tell its THU at 95 %. So pulses without azimuth are
+  // asked about at 0 degrees, in their place, and at 90, behind all others.
+  std::vector<Pulse> asked(pulses.begin(), pulses.end());
+  for (std::size_t i = 0; i < pulses.size(); ++i) {
+    if (pulses[i].azimuth.has_value()) continue;
+    asked[i].azimuth = 0;
+    asked.push_back(pulses[i]);
+    asked.back().azimuth = 90;
+  }
+  std::vector<PulseUncertainty> replies(asked.size());
+  for (std::size_t begin = 0; begin < asked.size(); begin += kMostPulses) {
+    const std::size_t count = std::min(kMostPulses, asked.size() - begin);
+    absl::Status status =
+        AnswerBatch(std::span(asked).subspan(begin, count), std::span(replies).subspan(begin, count));
+    if (!status.ok()) return status;
+  }
+  auto crosswind = replies.cbegin() + static_cast<std::ptrdiff_t>(pulses.size());
+  for (std::size_t i = 0; i < pulses.size(); ++i) {
+    answers[i] = pulses[i].azimuth.has_value() ? replies[i] : LargerOf(replies[i], *crosswind++);
   }
   return absl::OkStatus();
 }
 
-absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<const std::size_t> indices,
-                                       std::span<PulseUncertainty> answers) {
+absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
   albtpu::v1::QueryColumnsRequest request;
   request.mutable_options()->set_table(summary_.name);
   request.mutable_options()->set_standard_errors(standard_errors_);
-  ToWire(pulses, indices, *request.mutable_pulses());
+  ToWire(pulses, *request.mutable_pulses());
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::QueryColumnsResponse response;
@@ -103,7 +112,7 @@ absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<
                                            " changed from digest ", summary_.digest, " to ",
                                            response.table().digest(), " while it was asked: start again"));
   }
-  const absl::Status read = FromWire(response, indices, standard_errors_, answers);
+  const absl::Status read = FromWire(response, standard_errors_, answers);
   return read.ok() ? read : absl::InternalError(absl::StrCat("server ", address_, ": ", read.message()));
 }
 

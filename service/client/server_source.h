@@ -28,9 +28,8 @@ class ServerSource : public UncertaintySource {
 
   ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary, bool standard_errors);
 
-  // The pulses at `indices`, all of them with an azimuth or none.
-  absl::Status AnswerBatch(std::span<const Pulse> pulses, std::span<const std::size_t> indices,
-                           std::span<PulseUncertainty> answers);
+  // Pulses of one message, all of them with an azimuth.
+  absl::Status AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers);
 
   std::string address_;
   std::unique_ptr<Stub> stub_;

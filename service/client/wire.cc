@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "service/client/little_endian.h"
+#include "tables/coverage.h"
 
 namespace albtpu::client {
 namespace {
@@ -19,10 +20,10 @@ namespace v1 = albtpu::v1;
 
 // A column of single precision numbers, `value` of each pulse.
 template <typename Value>
-std::string Column(std::span<const Pulse> pulses, std::span<const std::size_t> indices, Value value) {
-  std::string bytes(indices.size() * sizeof(float), '\0');
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    const float number = value(pulses[indices[i]]);
+std::string Column(std::span<const Pulse> pulses, Value value) {
+  std::string bytes(pulses.size() * sizeof(float), '\0');
+  for (std::size_t i = 0; i < pulses.size(); ++i) {
+    const float number = value(pulses[i]);
     Store(number, bytes.data() + i * sizeof number);
   }
   return bytes;
@@ -99,23 +100,21 @@ std::string Text(const v1::AttributeValue& value) {
 
 }  // namespace
 
-void ToWire(std::span<const Pulse> pulses, std::span<const std::size_t> indices, v1::PulseColumns& columns) {
-  if (indices.empty()) return;
-  const auto column = [&](auto value) { return Shortened(Column(pulses, indices, value)); };
+void ToWire(std::span<const Pulse> pulses, v1::PulseColumns& columns) {
+  if (pulses.empty()) return;
+  const auto column = [&](auto value) { return Shortened(Column(pulses, value)); };
   columns.set_wind_speed(column([](const Pulse& pulse) { return pulse.wind_speed; }));
   columns.set_fetch(column([](const Pulse& pulse) { return pulse.fetch; }));
   columns.set_incidence(column([](const Pulse& pulse) { return pulse.incidence; }));
+  columns.set_azimuth(column([](const Pulse& pulse) { return *pulse.azimuth; }));
   columns.set_footprint(column([](const Pulse& pulse) { return pulse.footprint; }));
-  if (pulses[indices[0]].azimuth.has_value()) {
-    columns.set_azimuth(column([](const Pulse& pulse) { return *pulse.azimuth; }));
-  }
   // The longest column tells the number of pulses, so this one is never shortened.
-  columns.set_depth(Column(pulses, indices, [](const Pulse& pulse) { return pulse.depth; }));
+  columns.set_depth(Column(pulses, [](const Pulse& pulse) { return pulse.depth; }));
 }
 
-absl::Status FromWire(const v1::QueryColumnsResponse& response, std::span<const std::size_t> indices,
-                      bool standard_errors, std::span<PulseUncertainty> answers) {
-  const std::size_t count = indices.size();
+absl::Status FromWire(const v1::QueryColumnsResponse& response, bool standard_errors,
+                      std::span<PulseUncertainty> answers) {
+  const std::size_t count = answers.size();
   if (response.coverage() != v1::COVERAGE_TWO_SIGMA) {
     return absl::InternalError(
         absl::StrCat("answered coverage ", response.coverage(), ": 2 sigma was asked for"));
@@ -131,7 +130,7 @@ absl::Status FromWire(const v1::QueryColumnsResponse& response, std::span<const 
     if (absl::Status status = CheckLengths(errors, count); !status.ok()) return status;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    PulseUncertainty& answer = answers[indices[i]];
+    PulseUncertainty& answer = answers[i];
     const auto number = Load<std::uint8_t>(response.outcomes(), i);
     const std::optional<Outcome> outcome = OutcomeOf(number);
     if (!outcome.has_value()) {
@@ -142,6 +141,7 @@ absl::Status FromWire(const v1::QueryColumnsResponse& response, std::span<const 
     answer.axis = AxisOf(Load<std::uint8_t>(response.outcome_axes(), i));
     answer.azimuth_absent = response.azimuth_absent();
     answer.values = ValuesAt(values, i);
+    answer.radius_over_thu = RadiusOverThu(answer.values);
     if (standard_errors) {
       answer.standard_errors = ValuesAt(errors, i);
     } else {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tests/tables/synthetic_table.h"
 
 namespace albtpu {
 namespace {
@@ -36,6 +39,7 @@ PulseUncertainty Uncertainty(float along, float cross) {
   uncertainty.outcome = Outcome::kInterpolated;
   uncertainty.values = {along, cross, 2, 0.5f, -0.25f, 0.125f};
   uncertainty.standard_errors = {0.1f, 0.2f, 0.4f, 0.05f, 0.03f, 0.02f};
+  uncertainty.radius_over_thu = RadiusOverThu(uncertainty.values);
   return uncertainty;
 }
 
@@ -91,6 +95,32 @@ TEST(Coverage, DoesNotCareWhichRefractionIsLarger) {
 TEST(Coverage, TakesAFlatSeaForOneDimension) {
   EXPECT_FLOAT_EQ(WithCoverage(Uncertainty(0, 0), Coverage::kP95)[Quantity::kThu],
                   static_cast<float>(2 * kOneDimension));
+}
+
+TEST(Coverage, WithoutAzimuthIsTheLargerRadiusNotThatOfTheLargerThu) {
+  PulseUncertainty round = Uncertainty(1, 1), slender = Uncertainty(1, 0.1f);
+  slender.values[Index(Quantity::kThu)] = 1.9f;  // Below the 2 m of `round`.
+  const float radius = WithCoverage(slender, Coverage::kP95)[Quantity::kThu];
+  ASSERT_GT(radius, WithCoverage(round, Coverage::kP95)[Quantity::kThu]);
+  for (const PulseUncertainty& both : {LargerOf(round, slender), LargerOf(slender, round)}) {
+    EXPECT_EQ(both[Quantity::kThu], 2);
+    EXPECT_FLOAT_EQ(WithCoverage(both, Coverage::kP95)[Quantity::kThu], radius);
+  }
+}
+
+TEST(Coverage, WithoutAzimuthIsTheLargerOfDownwindAndCrosswind) {
+  const UncertaintyTable table = albtpu::testing::SyntheticTable();
+  Pulse pulse = {.wind_speed = 6, .incidence = 20, .azimuth = {}, .footprint = 0.6f, .depth = 8};
+  const PulseUncertainty absent = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
+  pulse.azimuth = 0.0f;
+  const PulseUncertainty downwind = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
+  pulse.azimuth = 90.0f;
+  const PulseUncertainty crosswind = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
+  for (Quantity quantity : kQuantities) {
+    EXPECT_FLOAT_EQ(std::abs(absent[quantity]),
+                    std::max(std::abs(downwind[quantity]), std::abs(crosswind[quantity])))
+        << Describe(quantity).name;
+  }
 }
 
 TEST(Coverage, InventsNoNumbers) {
