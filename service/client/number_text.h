@@ -9,9 +9,11 @@
 namespace albtpu::client {
 
 // The float32 nearest to a decimal number, `nan`, `inf` or `infinity` (any case), with spaces around it
-// allowed; nothing when the text is anything else. Beyond the range of float32 it is an infinity or zero, as
-// rounding says.
+// allowed; nothing when the text is anything else. A number beyond the range of float32 is the largest that
+// there is: out of domain, not infinite.
 std::optional<float> ParseFloat(std::string_view text);
+
+// The same in double precision, but an infinity beyond its range.
 std::optional<double> ParseDouble(std::string_view text);
 
 // Nine significant digits, enough to read back to the same float32: 0.3 is "0.300000012". Requires a finite

@@ -106,7 +106,7 @@ TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {
   EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,-1,,,,,,,OUT_OF_DOMAIN:depth\n"));
   EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,nan,,,,,,,INVALID"));
   EXPECT_THAT(text, HasSubstr("\ninf,,12,,.6,7,,,,,,,INVALID"));
-  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,1e39,,,,,,,INVALID"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,1e39,,,,,,,OUT_OF_DOMAIN:depth\n"));
   EXPECT_THAT(text, HasSubstr("\n5,-inf,12,,.6,7,,,,,,,INVALID"));
   EXPECT_THAT(text, HasSubstr("\n5,,91,,.6,7,,,,,,,OUT_OF_DOMAIN:incidence\n"));
   EXPECT_EQ(counts_.total(), 8u);
