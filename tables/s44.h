@@ -20,8 +20,8 @@ std::optional<S44Order> FindS44Order(std::string_view name);
 double ThuLimit(S44Order order, double depth);
 double TvuLimit(S44Order order, double depth);
 
-// The limit of orders 1a and 1b as Birkebak et al. (2018) print it in Eq. 22, 5 m + 2 % of depth; S-44 says 5
-// %.
+// The limit of orders 1a and 1b as Birkebak et al. (2018) print it in Eq. 22: 5 m and 2 % of the depth, where
+// S-44 says 5 %.
 double ThuLimitAsPrintedByBirkebak(double depth);
 
 // The strictest order whose limits exceed `thu` and `tvu`, both at 95 %, in m; nothing if none does. The

@@ -28,10 +28,11 @@ using AnswerCell = std::variant<std::monostate, float, std::string>;
 //   thu, tvu, bias_along_beam, bias_vertical      m
 //   outcome                                       as OutcomeText says
 //   with standard errors:  <each of the six>_standard_error, in its unit
-//   with an S-44 order:    s44_best_order         the strictest order that the surface alone leaves open;
-//   nothing if none
-//                          s44_remaining_thu      m at 95 %, what the order's limit leaves for all other
-//                          sources; nothing s44_remaining_tvu      if the surface alone exceeds it
+//   with an S-44 order:
+//     s44_best_order                              the strictest order that the surface alone leaves open;
+//                                                 nothing if none
+//     s44_remaining_thu, s44_remaining_tvu        m at 95 %, what the order's limit leaves for all other
+//                                                 sources; nothing if the surface alone exceeds it
 class AnswerColumns {
  public:
   explicit AnswerColumns(AnswerStyle style);

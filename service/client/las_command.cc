@@ -15,7 +15,8 @@ namespace {
 
 // What to do when no point is of a class that was asked for.
 std::string ClassHint(const Job& job, const LasOptions& options, const AnnotatedLas& annotated) {
-  const bool never = annotated.point_format<kFirstModernFormat&& * options.classes.begin()> kLegacyClassMask;
+  const int least_class = *options.classes.begin();
+  const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < least_class;
   return absl::StrCat(job.input.string(), ": no point of class ", absl::StrJoin(options.classes, " or "),
                       never ? absl::StrCat(", nor can there be in point format ", annotated.point_format,
                                            ", whose classes end at ", kLegacyClassMask)
