@@ -6,7 +6,7 @@
 namespace albtpu {
 
 std::string_view Version();  // "0.1.0"
-std::string_view
-Commit();  // "1a2b3c4d5e6f", "-dirty" after it if the tree was changed, "unknown" outside git.
+// "1a2b3c4d5e6f", "-dirty" behind it if the tree was changed, "unknown" outside git.
+std::string_view Commit();
 
 }  // namespace albtpu

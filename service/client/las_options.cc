@@ -30,8 +30,7 @@ absl::Status SetAzimuth(const LasOptions& options, FlightLine& line) {
   if (either != computed || (azimuth.has_value() && either)) {
     return UsageError(
         "las: the direction of the beam: either --azimuth, or --wind-from and --flight-direction, or none of "
-        "them, "
-        "is right");
+        "them, is right");
   }
   if (azimuth.has_value()) line.azimuth = *azimuth;
   if (computed) {

@@ -22,8 +22,7 @@ int Main(int argc, char** argv) {
                                                      std::string(albtpu::Commit()), ")"));
   program.footer(
       "Neither --server nor --table: the installed tables answer, in this process; ALBTPU_TABLES names "
-      "another "
-      "folder.\nExit: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.");
+      "another folder.\nExit: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
@@ -45,7 +44,7 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A work does not end because nobody reads its messages; answers that nobody reads are an error of writing.
+  // Work does not end because nobody reads its messages; answers that nobody reads are an error of writing.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return Main(argc, argv);

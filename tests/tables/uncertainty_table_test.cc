@@ -91,8 +91,7 @@ TEST(UncertaintyTable, NamesTheNodeOfAValueThatIsNotFinite) {
   parts[Quantity::kTvu].values[13] = std::numeric_limits<float>::quiet_NaN();  // 13 = 0b1101
   EXPECT_EQ(parts.Problem(),
             "variable 'tvu' is nan at [wind_speed 1, fetch 0, incidence 1, azimuth 0, footprint 0, depth 1]: "
-            "values "
-            "must be finite");
+            "values must be finite");
 }
 
 TEST(UncertaintyTable, RefusesInfinity) {
