@@ -33,7 +33,7 @@ struct Provenance {
   std::string version;   // not empty
   std::string title;     // one line
   std::string campaign;  // the TOML text that made it; empty for published tables
-  // All other global attributes of FORMAT.md, by name.
+  // All other global attributes, by name (FORMAT.md).
   std::map<std::string, AttributeValue> attributes;
 };
 
