@@ -9,8 +9,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "generator/angle.h"
+#include "generator/refraction.h"
 #include "generator/toml_reader.h"
 #include "generator/wave_spectrum.h"
+#include "tables/format.h"
+#include "tables/provenance.h"
 
 namespace albtpu {
 namespace {
@@ -48,6 +51,77 @@ absl::Status ResolveFetch(std::vector<double>& fetch, const std::vector<double>&
   return absl::OkStatus();
 }
 
+using Nodes = std::array<std::vector<double>, kAxisCount>;
+
+Nodes ReadNodes(TomlReader& toml) {
+  Nodes nodes;
+  for (const AxisId axis : kAxes) {
+    nodes[Index(axis)] = InSinglePrecision(toml.Numbers("axes", Describe(axis).name));
+  }
+  return nodes;
+}
+
+Effort ReadEffort(TomlReader& toml) {
+  constexpr int kMost = 10'000'000;
+  constexpr int kMostUnlessSaid = 40'000;
+  Effort effort;
+  effort.realizations = static_cast<int>(toml.Integer("effort", "realizations", 2, kMost).value_or(1000));
+  effort.relative_error = toml.Number("effort", "relative_error", 1e-4, 0.5, 0);
+  const int most =
+      effort.relative_error > 0 ? std::max(effort.realizations, kMostUnlessSaid) : effort.realizations;
+  effort.most_realizations = static_cast<int>(
+      toml.Integer("effort", "most_realizations", effort.realizations, kMost).value_or(most));
+  return effort;
+}
+
+// Beyond the rules of all axes, those of a sea that can be simulated.
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(Nodes nodes) {
+  for (const AxisId axis : kAxes) {
+    if (nodes[Index(axis)].empty()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("'axes.", std::string(Describe(axis).name), "' has no node: give at least one"));
+    }
+  }
+  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch, AxisId::kFootprint}) {
+    if (nodes[Index(axis)].front() <= 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("node 0 of 'axes.", std::string(Describe(axis).name), "' must be above 0"));
+    }
+  }
+  constexpr double kGreatestIncidence = 60;  // degree; beyond it waves hide behind each other
+  if (nodes[Index(AxisId::kIncidence)].back() > kGreatestIncidence) {
+    return absl::InvalidArgumentError(
+        "the last node of 'axes.incidence' is above 60 degrees: waves would hide behind each other, which is "
+        "not "
+        "modelled");
+  }
+  const absl::Status fetch = ResolveFetch(nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+  if (!fetch.ok()) return fetch;
+
+  std::vector<Axis> axes;
+  for (const AxisId id : kAxes) {
+    absl::StatusOr<Axis> axis = Axis::Create(id, nodes[Index(id)]);
+    if (!axis.ok()) return axis.status();
+    axes.push_back(*std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
+// What the table would refuse after the work is refused before it.
+absl::Status CheckTable(const Campaign& campaign) {
+  if (ValueCount(campaign.axes, Quantity::kThu) > format::kMaxValueCount) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("the axes make ", ValueCount(campaign.axes, Quantity::kThu),
+                     " cells, more than a table holds (", format::kMaxValueCount, "): give fewer nodes"));
+  }
+  Provenance provenance;
+  provenance.id = campaign.id;
+  provenance.version = campaign.version;
+  provenance.title = campaign.title;
+  provenance.campaign = campaign.text;
+  return CheckProvenance(provenance);
+}
+
 }  // namespace
 
 std::string_view Name(BeamProfile profile) {
@@ -66,77 +140,37 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (!parsed.ok()) return parsed.status();
   TomlReader& toml = *parsed;
 
-  const std::string id = toml.Text("", "id"), version = toml.Text("", "version"),
-                    title = toml.Text("", "title");
+  const std::string id = toml.Text("", "id");
+  const std::string version = toml.Text("", "version");
+  const std::string title = toml.Text("", "title");
   const auto seed = toml.Integer("", "seed", 0, std::numeric_limits<std::int64_t>::max());
-
-  std::array<std::vector<double>, kAxisCount> nodes;
-  for (const AxisId axis : kAxes) {
-    nodes[Index(axis)] = InSinglePrecision(toml.Numbers("axes", Describe(axis).name));
-  }
-
+  const Nodes nodes = ReadNodes(toml);
   const std::optional<BeamProfile> profile =
       FindBeamProfile(toml.Text("beam", "profile", Name(BeamProfile::kUniform)));
   if (!profile) toml.Fail("'beam.profile' must be \"uniform\" or \"gaussian\"");
   const double source_height = toml.Number("beam", "source_height", 0.1, kInfinity, kInfinity);
-  const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, 1.33);
+  const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, kRefractiveIndex);
   const double spreading = toml.Number("sea", "spreading", 0.5, 30, 2);
-
-  constexpr int kMost = 10'000'000;
-  Effort effort;
-  effort.realizations = static_cast<int>(toml.Integer("effort", "realizations", 2, kMost).value_or(1000));
-  effort.relative_error = toml.Number("effort", "relative_error", 1e-4, 0.5, 0);
-  constexpr int kMostUnlessSaid = 40'000;
-  const int most =
-      effort.relative_error > 0 ? std::max(effort.realizations, kMostUnlessSaid) : effort.realizations;
-  effort.most_realizations = static_cast<int>(
-      toml.Integer("effort", "most_realizations", effort.realizations, kMost).value_or(most));
+  const Effort effort = ReadEffort(toml);
   const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
-
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
-  const auto positive = [&](AxisId axis) -> absl::Status {
-    if (nodes[Index(axis)].empty() || nodes[Index(axis)].front() > 0) return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        absl::StrCat("node 0 of 'axes.", std::string(Describe(axis).name), "' must be above 0"));
-  };
-  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch, AxisId::kFootprint}) {
-    if (const absl::Status status = positive(axis); !status.ok()) return status;
-  }
-  if (nodes[Index(AxisId::kWindSpeed)].empty()) {
-    return absl::InvalidArgumentError("'axes.wind_speed' has no node: give at least one");
-  }
-  if (const absl::Status status =
-          ResolveFetch(nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
-      !status.ok()) {
-    return status;
-  }
-  constexpr double kGreatestIncidence = 60;  // degree; beyond it waves hide behind each other
-  if (!nodes[Index(AxisId::kIncidence)].empty() &&
-      nodes[Index(AxisId::kIncidence)].back() > kGreatestIncidence) {
-    return absl::InvalidArgumentError(
-        "the last node of 'axes.incidence' is above 60 degrees: waves would hide "
-        "behind each other, which is not modelled");
-  }
-
-  std::vector<Axis> axes;
-  for (const AxisId id_of_axis : kAxes) {
-    absl::StatusOr<Axis> axis = Axis::Create(id_of_axis, nodes[Index(id_of_axis)]);
-    if (!axis.ok()) return axis.status();
-    axes.push_back(*std::move(axis));
-  }
-  return Campaign{.text = std::string(text),
-                  .id = id,
-                  .version = version,
-                  .title = title,
-                  .seed = static_cast<std::uint64_t>(seed.value_or(1)),
-                  .axes = {axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]},
-                  .profile = *profile,
-                  .source_height = source_height,
-                  .refractive_index = refractive_index,
-                  .spreading = spreading,
-                  .effort = effort,
-                  .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
+  if (!axes.ok()) return axes.status();
+  Campaign campaign{.text = std::string(text),
+                    .id = id,
+                    .version = version,
+                    .title = title,
+                    .seed = static_cast<std::uint64_t>(seed.value_or(1)),
+                    .axes = *std::move(axes),
+                    .profile = *profile,
+                    .source_height = source_height,
+                    .refractive_index = refractive_index,
+                    .spreading = spreading,
+                    .effort = effort,
+                    .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
+  if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
+  return campaign;
 }
 
 absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {

@@ -16,8 +16,8 @@
 
 namespace albtpu {
 
-// Example of a file (units of tables/schema.h; `[beam]`, `[water]`, `[sea]` and all of `[effort]` may be left
-// out):
+// Example of a file, in the units of tables/schema.h; `seed`, `[beam]`, `[water]`, `[sea]` and `[effort]`, or
+// any key of these, may be left out:
 //
 //   id = "bay"
 //   version = "1"
@@ -46,8 +46,7 @@ struct Campaign {
   std::string text;  // the file, as it is
   std::string id, version, title;
   std::uint64_t seed = 1;
-  UncertaintyTable::Axes
-      axes;  // `inf` of the fetch already resolved to the least fetch that is it for all winds
+  UncertaintyTable::Axes axes;  // the last fetch already resolved: the least that is `inf` for all winds
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;

@@ -1,5 +1,4 @@
-// The commands of albtpu-generate: options, and running them. A status that is InvalidArgument is bad usage
-// (exit 2), any other failure exit 1.
+// The commands of albtpu-generate: options, already checked as flags, and running them.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +29,7 @@ struct PointOptions {
   double azimuth = 0;                                      // degree
   double footprint = 0;                                    // m
   std::vector<double> depth;                               // m
-  std::string profile = "uniform";
+  std::string profile = "uniform";                         // or "gaussian"
   double refractive_index = 1.33;
   double relative_error = 0.01;
   std::uint64_t seed = 1;

@@ -16,12 +16,11 @@ struct Discretization {
 
 // The discretization with which doubling the patch, halving the spacing and doubling the rays moves
 // refraction, THU and TVU by less than 1 %. It starts coarse and refines
-//   * the grid, until its facets cost the footprint less than 0.4 % of the slope variance that it sees: a
-//   footprint much
-//     wider than the waves averages them down to what happens at its edge;
-//   * the patch, until the modes and plane waves together show the footprint the closed form's variance
-//   within 0.5 %;
-//   * the rays, until waves too short for their spacing to sample add less than 1.5 % to that variance.
+//   * the grid, until its facets cost the footprint less than 0.4 % of the slope variance that it sees (a
+//     footprint much wider than the waves averages them down to what happens at its edge);
+//   * the patch, until modes and plane waves together show the footprint the closed form's variance
+//     within 0.5 %;
+//   * the rays, until waves too short for their spacing to sample add less than some 1.5 % to it.
 // `beams` share footprint, profile and source; not empty.
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams);
 

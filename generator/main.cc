@@ -4,7 +4,10 @@
 #include <tbb/info.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -44,6 +47,17 @@ CLI::Validator Fetch() {
       "", "fetch");
 }
 
+CLI::Validator Seed() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        std::int64_t seed = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+        if (error == std::errc() && end == text.data() + text.size() && seed >= 0) return {};
+        return "'" + text + "' is not a whole number from 0 to 9223372036854775807";
+      },
+      "", "seed");
+}
+
 void AddPoint(CLI::App& point, PointOptions& options) {
   point.add_option("--wind-speed", options.wind_speed, "wind at 10 m height, m/s")
       ->required()
@@ -61,21 +75,27 @@ void AddPoint(CLI::App& point, PointOptions& options) {
       ->required()
       ->delimiter(',')
       ->check(NumberIn(0, 1e4));
-  point.add_option("--profile", options.profile, "uniform (default) or gaussian");
+  point.add_option("--profile", options.profile, "uniform (default) or gaussian")
+      ->check(CLI::IsMember({"uniform", "gaussian"}));
   point.add_option("--refractive-index", options.refractive_index, "of the water (default 1.33)")
       ->check(NumberIn(1.01, 2));
   point
       .add_option("--relative-error", options.relative_error,
                   "to go on to, of refraction, THU and TVU (default 0.01)")
       ->check(NumberIn(1e-4, 0.5));
-  point.add_option("--seed", options.seed, "of the random numbers (default 1)");
+  point.add_option("--seed", options.seed, "of the random numbers, a whole number (default 1)")
+      ->check(Seed());
   point.add_flag("--json", options.json, "print one JSON object");
 }
 
-int ExitCode(const absl::Status& status) {
+// Prints what went wrong, if anything, and makes sure that what was printed got through.
+int ExitCode(absl::Status status) {
+  if (status.ok() && (std::fflush(stdout) != 0 || !std::cout.flush())) {
+    status = absl::DataLossError("standard output: cannot be written: send it where there is room");
+  }
   if (status.ok()) return 0;
   std::cerr << "albtpu-generate: " << std::string(status.message()) << '\n';
-  return absl::IsInvalidArgument(status) ? kBadUsage : kFailure;
+  return kFailure;
 }
 
 int Run(int argc, char** argv) {

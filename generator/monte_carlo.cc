@@ -45,6 +45,39 @@ TracedBeam StillWater(const std::vector<Ray>& rays, double refractive_index) {
 
 bool AtNadir(const PreparedBeam& prepared) { return prepared.beam.options().incidence == 0; }
 
+std::vector<PreparedBeam> Prepare(const Encounter& encounter, int ray_count,
+                                  const Eigen::Matrix2d& unresolved_slopes) {
+  std::vector<PreparedBeam> beams;
+  for (const BeamOptions& options : encounter.beams) {
+    Beam beam(options, ray_count);
+    std::vector<Ray> rays = beam.Rays(0);
+    const TracedBeam still = StillWater(rays, encounter.refractive_index);
+    beams.push_back({std::move(beam),
+                     EffectOfUnresolvedWaves(options, encounter.refractive_index, unresolved_slopes), still,
+                     std::move(rays)});
+  }
+  return beams;
+}
+
+// The errors of all beams on one surface.
+std::vector<BeamErrors> Realize(const std::vector<PreparedBeam>& beams, const SeaSurface& surface,
+                                double refractive_index) {
+  std::vector<BeamErrors> errors;
+  for (std::size_t b = 0; b < beams.size(); ++b) {
+    if (b > 0 && AtNadir(beams[b]) && AtNadir(beams[b - 1])) {  // without an azimuth: one beam for all
+      errors.push_back(errors.back());
+      continue;
+    }
+    const PreparedBeam& prepared = beams[b];
+    const SeaSurface::Window window = surface.WindowUnder(prepared.beam);
+    const bool collimated = std::isinf(prepared.beam.options().source_height);
+    const TracedBeam traced = Trace(collimated ? prepared.rays : prepared.beam.Rays(window.elevation),
+                                    window.heights, refractive_index);
+    errors.push_back(ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water));
+  }
+  return errors;
+}
+
 // One beam's realizations as columns.
 struct Sample {
   Eigen::ArrayXd tangent_x, tangent_y;
@@ -105,47 +138,25 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
       encounter.discretization ? *encounter.discretization : ChooseDiscretization(sea, encounter.beams);
   if (encounter.rays) discretization.rays = *encounter.rays;
   const SurfaceModel model(sea, WidestBeam(encounter.beams), discretization);
-  const double n = encounter.refractive_index;
 
   EncounterResult result;
   result.rays = discretization.rays;
   result.patch_length = model.patch().length();
   result.spacing = model.patch().spacing();
-  const auto everything = [](double, double) { return 1.0; };
   const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
-  const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance(everything);
+  const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
   result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
   result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, encounter.beams);
 
-  std::vector<PreparedBeam> beams;
-  for (const BeamOptions& options : encounter.beams) {
-    Beam beam(options, discretization.rays);
-    std::vector<Ray> rays = beam.Rays(0);
-    const TracedBeam still = StillWater(rays, n);
-    beams.push_back({std::move(beam), EffectOfUnresolvedWaves(options, n, all_slopes - facet_slopes), still,
-                     std::move(rays)});
-  }
-
+  const std::vector<PreparedBeam> beams = Prepare(encounter, discretization.rays, all_slopes - facet_slopes);
   std::vector<std::vector<BeamErrors>> realizations;
-  for (bool finished = false; !finished;) {
+  do {
     const int first = static_cast<int>(realizations.size());
     const int wanted = first < effort.realizations ? effort.realizations : first + kBatch;
     realizations.resize(std::min(wanted, effort.most_realizations));
     tbb::parallel_for(first, static_cast<int>(realizations.size()), [&](int i) {
       const SeaSurface surface(model, NormalStream(seed, cell, i));
-      for (const PreparedBeam& prepared : beams) {
-        const std::size_t b = realizations[i].size();
-        if (b > 0 && AtNadir(beams[b]) && AtNadir(beams[b - 1])) {  // without an azimuth: one beam for all
-          realizations[i].push_back(realizations[i].back());
-          continue;
-        }
-        const SeaSurface::Window window = surface.WindowUnder(prepared.beam);
-        const bool collimated = std::isinf(prepared.beam.options().source_height);
-        const TracedBeam traced =
-            Trace(collimated ? prepared.rays : prepared.beam.Rays(window.elevation), window.heights, n);
-        realizations[i].push_back(
-            ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water));
-      }
+      realizations[i] = Realize(beams, surface, encounter.refractive_index);
     });
 
     result.beams.clear();
@@ -156,8 +167,7 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
       result.converged = result.converged &&
                          (effort.relative_error == 0 || Meets(result.beams.back(), effort.relative_error));
     }
-    finished = result.converged || static_cast<int>(realizations.size()) >= effort.most_realizations;
-  }
+  } while (!result.converged && static_cast<int>(realizations.size()) < effort.most_realizations);
   result.realizations = static_cast<int>(realizations.size());
   return result;
 }

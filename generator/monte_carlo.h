@@ -16,8 +16,8 @@ namespace albtpu {
 struct Effort {
   int realizations = 1000;       // at least so many, 2 or more
   int most_realizations = 1000;  // and no more
-  double relative_error =
-      0;  // go on until refraction, THU and TVU have this standard error over value; 0: don't
+  // Go on until refraction, THU and TVU have this standard error over their value; 0: don't.
+  double relative_error = 0;
 };
 inline constexpr int kBatch = 250;
 
@@ -33,8 +33,8 @@ struct Encounter {
   std::optional<Discretization> discretization;  // chosen from sea and beams where absent
 };
 
-// What one beam of an encounter comes to. Refraction in rad, the others in m, one for each depth; see DESIGN
-// of the table in tables/FORMAT.md for the definitions.
+// What one beam of an encounter comes to. Refraction in rad, the others in m, one for each depth.
+// docs/method.md has the definitions.
 struct BeamUncertainty {
   Estimate refraction_along_wind, refraction_cross_wind;
   std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
@@ -47,8 +47,8 @@ struct EncounterResult {
   // What the surface was.
   int rays = 0;
   double patch_length = 0, spacing = 0;  // m
-  double footprint_slope_fraction =
-      0;  // least over the beams: slope variance seen by the footprint, over closed form's
+  // Slope variance that the facets show the footprint, over that of the closed form; the least of the beams.
+  double footprint_slope_fraction = 0;
   double resolved_slope_fraction = 0;  // mean square slope of the facets, over the sea's
 };
 

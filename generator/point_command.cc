@@ -15,11 +15,7 @@ namespace {
 // The least the variance of a variance is trusted with, and where a point ends that does not meet its error.
 constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
-absl::StatusOr<Encounter> EncounterAt(const PointOptions& options) {
-  const std::optional<BeamProfile> profile = FindBeamProfile(options.profile);
-  if (!profile) {
-    return absl::InvalidArgumentError("--profile must be uniform or gaussian, not '" + options.profile + "'");
-  }
+Encounter EncounterAt(const PointOptions& options) {
   Encounter encounter;
   encounter.wind_speed_10m = options.wind_speed;
   encounter.fetch = options.fetch;
@@ -28,7 +24,7 @@ absl::StatusOr<Encounter> EncounterAt(const PointOptions& options) {
   encounter.beams = {{.incidence = RadiansOfDegrees(options.incidence),
                       .azimuth = RadiansOfDegrees(options.azimuth),
                       .footprint = options.footprint,
-                      .profile = *profile}};
+                      .profile = *FindBeamProfile(options.profile)}};
   return encounter;
 }
 
@@ -85,13 +81,11 @@ void PrintText(const PointOptions& options, const EncounterResult& result) {
 }  // namespace
 
 absl::Status RunPoint(const PointOptions& options) {
-  const absl::StatusOr<Encounter> encounter = EncounterAt(options);
-  if (!encounter.ok()) return encounter.status();
   const Effort effort{.realizations = kLeastRealizations,
                       .most_realizations = kMostRealizations,
                       .relative_error = options.relative_error};
   const auto start = std::chrono::steady_clock::now();
-  const EncounterResult result = Simulate(*encounter, effort, options.seed, 0);
+  const EncounterResult result = Simulate(EncounterAt(options), effort, options.seed, 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.converged) {
     std::fprintf(

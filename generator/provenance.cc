@@ -51,16 +51,15 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
       {"spectrum", "Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading"},
       {"spectrum_departures",
        "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz, the mean square slope 1.6 "
-       "to 2.7 "
-       "times Cox and Munk (1954). Below some 10 km of fetch waves are 2 to 3 times lower than JONSWAP: "
-       "values at short "
-       "fetch are not conservative."},
+       "to "
+       "2.7 times Cox and Munk (1954). Below some 10 km of fetch waves are 2 to 3 times lower than JONSWAP: "
+       "values "
+       "at short fetch are not conservative."},
       {"discretization",
-       "Waves shorter than a fraction of the patch by FFT on a periodic grid, longer ones as plane waves; "
-       "waves shorter "
-       "than the grid by the mean of refraction over their slopes. Ranges are the least and the greatest "
-       "over winds, "
-       "fetches and footprints."},
+       "Short waves by FFT on a periodic grid, longer ones as plane waves; waves shorter than the grid by "
+       "the mean "
+       "of refraction over their slopes. Ranges are the least and the greatest over winds, fetches and "
+       "footprints."},
       {"realizations", Range(results, &EncounterResult::realizations)},
       {"rays", Range(results, &EncounterResult::rays)},
       {"domain", Range(results, &EncounterResult::patch_length)},
@@ -69,8 +68,8 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
       {"resolved_slope_variance_fraction", Range(results, &EncounterResult::resolved_slope_fraction)},
       {"interpolation_error",
        "Relative error of interpolating the closed form between the nodes, at 400 pulses drawn evenly over "
-       "the axes: "
-       "median, 95th percentile, greatest"},
+       "the "
+       "axes: median, 95th percentile, greatest"},
       {"interpolation_error_refraction_along_wind", Summary(interpolation_error.refraction_along_wind)},
       {"interpolation_error_thu", Summary(interpolation_error.thu)},
   };

@@ -14,8 +14,7 @@ namespace albtpu {
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results,
                           const InterpolationError& interpolation_error);
 
-// The instructions that this machine runs our libraries with, as the microarchitecture level of the x86-64
-// psABI
+// The instructions that this machine runs our libraries with, as the microarchitecture level of the x86-64 psABI
 // ("x86-64-v3"), or the name of another architecture. FFTW and the C library choose by it, so the last bit
 // depends on it.
 std::string InstructionSet();

@@ -24,7 +24,7 @@ void NormalStream::Fill(std::span<double> normals) {
   const r123::Philox4x32::key_type key = {
       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
   for (std::size_t i = 0; i < normals.size(); i += 4) {
-    const r123::Philox4x32::ctr_type counter = {{block_++, realization_, cell_, 0}};
+    const r123::Philox4x32::ctr_type counter = {{block_++, realization_, cell_, part_}};
     const r123::Philox4x32::ctr_type words = r123::Philox4x32()(counter, key);
     std::array<double, 4> four;
     BoxMuller(words[0], words[1], &four[0]);

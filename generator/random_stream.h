@@ -11,8 +11,11 @@ namespace albtpu {
 // Muller.
 class NormalStream {
  public:
-  NormalStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization)
-      : seed_(seed), cell_(cell), realization_(realization) {}
+  NormalStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization, std::uint32_t part = 0)
+      : seed_(seed), cell_(cell), realization_(realization), part_(part) {}
+
+  // Another part of the same realization, from its beginning, independent of all others.
+  NormalStream Part(std::uint32_t part) const { return {seed_, cell_, realization_, part}; }
 
   // Fills `normals` with independent numbers of mean 0 and variance 1. Each call goes on where the last one
   // ended, rounded up to four numbers.
@@ -20,7 +23,7 @@ class NormalStream {
 
  private:
   std::uint64_t seed_;
-  std::uint32_t cell_, realization_;
+  std::uint32_t cell_, realization_, part_;
   std::uint32_t block_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include <unistd.h>
 
-#include <cstdio>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <iostream>
 
 #include "absl/strings/str_cat.h"
@@ -12,23 +14,30 @@
 namespace albtpu {
 namespace {
 
-// What would make the table useless after the work is looked at before it.
+// What would keep the table from being written is looked for before the work.
 absl::Status CheckOutput(const TableOptions& options) {
+  const std::string name = options.output.string();
   std::error_code error;
-  if (std::filesystem::exists(options.output, error) && !options.overwrite) {
-    return absl::AlreadyExistsError(
-        absl::StrCat(options.output.string(), ": is there already; --overwrite replaces it"));
+  const std::filesystem::file_status there = std::filesystem::status(options.output, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    return absl::InvalidArgumentError(absl::StrCat(name, ": is not a regular file: name one to write"));
   }
-  std::filesystem::path folder = options.output.parent_path();
-  if (folder.empty()) folder = ".";
+  if (std::filesystem::exists(there) && !options.overwrite) {
+    return absl::AlreadyExistsError(absl::StrCat(name, ": is there already; --overwrite replaces it"));
+  }
+  const std::filesystem::path folder =
+      options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, error)) {
-    return absl::NotFoundError(
-        absl::StrCat(options.output.string(), ": there is no folder ", folder.string()));
+    return absl::NotFoundError(absl::StrCat(name, ": there is no folder ", folder.string()));
   }
-  if (access(folder.c_str(), W_OK) != 0) {
+  std::string probe = (folder / ".albtpu-probe-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0) {
     return absl::PermissionDeniedError(
-        absl::StrCat(options.output.string(), ": the folder ", folder.string(), " is not writable"));
+        absl::StrCat(name, ": the folder ", folder.string(), " is not writable: ", std::strerror(errno)));
   }
+  close(file);
+  unlink(probe.c_str());
   return absl::OkStatus();
 }
 

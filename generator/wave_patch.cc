@@ -31,6 +31,9 @@ T* OrThrow(T* memory) {
   return memory;
 }
 
+// Each row of modes has a part of the stream to itself, whatever the size of the grid; part 0 is the long waves'.
+std::uint32_t PartOfRow(int i) { return i >= 0 ? 2 * i + 1 : -2 * i; }
+
 int SignedIndex(int i, int size) { return i <= size / 2 ? i : i - size; }
 
 }  // namespace
@@ -74,14 +77,18 @@ WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, con
 WavePatchModel::~WavePatchModel() = default;
 WavePatchModel::WavePatchModel(WavePatchModel&&) noexcept = default;
 
-std::vector<double> WavePatchModel::Draw(NormalStream& stream) const {
+std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
   const int half = size_ / 2 + 1;
-  std::vector<double> normals(2 * power_.size());
-  stream.Fill(normals);
   const ComplexBuffer amplitudes(OrThrow(fftw_alloc_complex(power_.size())));
   auto* amplitude = reinterpret_cast<std::complex<double>*>(amplitudes.get());
-  for (std::size_t m = 0; m < power_.size(); ++m) {
-    amplitude[m] = std::sqrt(power_[m] / 2) * std::complex<double>(normals[2 * m], normals[2 * m + 1]);
+  std::vector<double> normals(2 * half);
+  for (int row = 0; row < size_; ++row) {
+    stream.Part(PartOfRow(SignedIndex(row, size_))).Fill(normals);
+    for (int j = 0; j < half; ++j) {
+      const std::size_t mode = static_cast<std::size_t>(row) * half + j;
+      amplitude[mode] =
+          std::sqrt(power_[mode] / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
+    }
   }
   // Both halves of the column j = 0 are stored: the lower one must be the mirror of the upper.
   for (int i = 1; i < size_ / 2; ++i) amplitude[(size_ - i) * half] = std::conj(amplitude[i * half]);

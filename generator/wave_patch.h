@@ -30,8 +30,9 @@ class WavePatchModel {
   int size() const { return size_; }
   double spacing() const { return length_ / size_; }
 
-  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through FFTW.
-  std::vector<double> Draw(NormalStream& stream) const;
+  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through FFTW. A finer grid of the same
+  // length draws the same amplitudes for the modes that both have.
+  std::vector<double> Draw(const NormalStream& stream) const;
 
   double elevation_variance() const;
   // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle

@@ -9,7 +9,7 @@ namespace albtpu {
 namespace {
 
 constexpr double kGravity = 9.80665;           // m/s^2, standard gravity, exact
-constexpr double kSaturation = 0.00195;        // A of Eq. 1
+constexpr double kSaturation = 0.00195;        // A of Eq. 1, as given below it
 constexpr double kFullyDevelopedOmega = 0.84;  // Elfouhaily et al. (1997), doi:10.1029/97JC00467
 constexpr double kRollOff = 100;               // rad/m, Eq. 10
 constexpr double kResonance = 400;             // rad/m, Eq. 11

@@ -118,12 +118,18 @@ class Table(unittest.TestCase):
         self.assertIn("not writable", self.refused(1, "table", "--campaign", self.campaign, "--output",
                                                    "/proc/self/table.h5"))
 
+    def test_refuses_a_folder_as_output_even_to_replace_it(self):
+        self.assertIn("not a regular file", self.refused(1, "table", "--campaign", self.campaign, "--output",
+                                                         self.folder, "--overwrite"))
+
     def test_refuses_bad_campaigns(self):
         for text, expected in ((CAMPAIGN.replace("[0, 20]", "[20, 0]"), "nodes must increase"),
                                (CAMPAIGN.replace("wind_speed", "wind"), "axes.wind"),
+                               (CAMPAIGN.replace('"small"', '"My Bay"'), "My Bay"),
+                               (CAMPAIGN.replace('version = "1"', 'version = ""'), "version"),
                                ("\x00\xff", "not TOML"), ("", "missing")):
             path = self.path("bad.toml", text)
-            self.assertIn(expected, self.refused(2, "table", "--campaign", path, "--output", self.path("x.h5")))
+            self.assertIn(expected, self.refused(1, "table", "--campaign", path, "--output", self.path("x.h5")))
         self.assertIn("no such", self.refused(1, "table", "--campaign", self.path("absent.toml"), "--output",
                                               self.path("x.h5")))
         self.assertNotIn("x.h5", os.listdir(self.folder))
@@ -161,7 +167,8 @@ class Point(unittest.TestCase):
                             ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
                             ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
                             ("--fetch", "0"), ("--azimuth", "inf"), ("--profile", "square"),
-                            ("--relative-error", "0"), ("--refractive-index", "nan"), ("--speed", "3")):
+                            ("--relative-error", "0"), ("--seed", "-1"), ("--seed", "18446744073709551616"),
+                            ("--refractive-index", "nan"), ("--speed", "3")):
             arguments = list(POINT)
             if flag in arguments:
                 at = arguments.index(flag)
@@ -170,6 +177,12 @@ class Point(unittest.TestCase):
             self.assertEqual(result.returncode, 2, (flag, value, result.stderr))
             self.assertEqual(result.stdout, "")
             self.assertRegex(result.stderr, r"^albtpu-generate: ")
+
+    def test_fails_when_its_answer_does_not_get_through(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([GENERATE, *POINT, "--json"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("standard output", result.stderr)
 
     def test_asks_for_what_is_missing(self):
         result = generate("point", "--wind-speed", "5")
