@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct PointOptions {
   double wind_speed = 0;                                   // m/s
   double fetch = std::numeric_limits<double>::infinity();  // m
   double incidence = 0;                                    // degree
-  double azimuth = 0;                                      // degree
+  std::optional<double> azimuth;                           // degree; absent: the worse of 0 and 90
   double footprint = 0;                                    // m
   std::vector<double> depth;                               // m
   std::string profile = "uniform";                         // or "gaussian"

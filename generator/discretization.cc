@@ -19,7 +19,7 @@ constexpr double kPatchDeparture = 0.005;
 // The estimate of what aliases is half of what doubling the rays was seen to take away.
 constexpr double kAliasedFraction = 0.0075;
 constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;    // widths of the beam
-constexpr double kCoarsestPoints = 32, kFinestPoints = 256;  // along the footprint
+constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footprint
 constexpr int kFewestRays = 1000, kMostRays = 64000;
 // A footprint that averages the waves down to less than this part of their mean square slope sees still
 // water: nothing is refined for the sake of what it does see.

@@ -66,7 +66,7 @@ void AddPoint(CLI::App& point, PointOptions& options) {
   point.add_option("--incidence", options.incidence, "from the vertical, in air, degree")
       ->required()
       ->check(NumberIn(0, 60));
-  point.add_option("--azimuth", options.azimuth, "of the beam from downwind, degree (default 0)")
+  point.add_option("--azimuth", options.azimuth, "of the beam from downwind, degree; absent: the worse of 0 and 90")
       ->check(NumberIn(-1e6, 1e6));
   point.add_option("--footprint", options.footprint, "diameter at the surface, across the beam, m")
       ->required()

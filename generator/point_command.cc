@@ -21,11 +21,31 @@ Encounter EncounterAt(const PointOptions& options) {
   encounter.fetch = options.fetch;
   encounter.refractive_index = options.refractive_index;
   encounter.depths = options.depth;
-  encounter.beams = {{.incidence = RadiansOfDegrees(options.incidence),
-                      .azimuth = RadiansOfDegrees(options.azimuth),
-                      .footprint = options.footprint,
-                      .profile = *FindBeamProfile(options.profile)}};
+  const std::vector<double> azimuths =
+      options.azimuth ? std::vector<double>{*options.azimuth} : std::vector<double>{0, 90};
+  for (const double azimuth : azimuths) {
+    encounter.beams.push_back({.incidence = RadiansOfDegrees(options.incidence),
+                               .azimuth = RadiansOfDegrees(azimuth),
+                               .footprint = options.footprint,
+                               .profile = *FindBeamProfile(options.profile)});
+  }
   return encounter;
+}
+
+// Each value the larger in magnitude of two beams, as tables answer where the azimuth is not known.
+BeamUncertainty WorseOf(BeamUncertainty a, const BeamUncertainty& b) {
+  const auto take = [](Estimate& ours, const Estimate& other) {
+    if (std::abs(other.value) > std::abs(ours.value)) ours = other;
+  };
+  take(a.refraction_along_wind, b.refraction_along_wind);
+  take(a.refraction_cross_wind, b.refraction_cross_wind);
+  for (std::size_t d = 0; d < a.thu.size(); ++d) {
+    take(a.thu[d], b.thu[d]);
+    take(a.tvu[d], b.tvu[d]);
+    take(a.bias_along_beam[d], b.bias_along_beam[d]);
+    take(a.bias_vertical[d], b.bias_vertical[d]);
+  }
+  return a;
 }
 
 void AddToJson(nlohmann::ordered_json& json, const std::string& name,
@@ -40,7 +60,7 @@ void AddToJson(nlohmann::ordered_json& json, const std::string& name,
 }
 
 void PrintJson(const PointOptions& options, const EncounterResult& result, double seconds) {
-  const BeamUncertainty& beam = result.beams.front();
+  const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
   nlohmann::ordered_json json;
   const auto add_angle = [&](const std::string& name, const Estimate& estimate) {
     json[name] = DegreesOfRadians(estimate.value);
@@ -53,17 +73,20 @@ void PrintJson(const PointOptions& options, const EncounterResult& result, doubl
   AddToJson(json, "tvu", beam.tvu);
   AddToJson(json, "bias_along_beam", beam.bias_along_beam);
   AddToJson(json, "bias_vertical", beam.bias_vertical);
+  json["azimuth_absent"] = !options.azimuth.has_value();
   json["realizations"] = result.realizations;
   json["seconds"] = seconds;
   std::cout << json.dump() << '\n';
 }
 
 void PrintText(const PointOptions& options, const EncounterResult& result) {
-  const BeamUncertainty& beam = result.beams.front();
+  const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
   const auto angle = [](const char* name, const Estimate& estimate) {
     std::printf("%-22s %8.4f +- %.4f degree\n", name, DegreesOfRadians(estimate.value),
                 DegreesOfRadians(estimate.standard_error));
   };
+  if (!options.azimuth)
+    std::printf("azimuth not given: each value is the larger of those at 0 and 90 degrees\n");
   std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n",
               result.realizations);
   angle("refraction along wind", beam.refraction_along_wind);

@@ -20,6 +20,7 @@ struct TracedBeam {
   double secant;                   // path per unit of depth
   double height_secant;            // mean of h times the secant, m
   Eigen::Vector2d slope;           // of the facets that the rays met
+  Eigen::Vector3d slope_squares;   // the same of SlopeSquares
 };
 
 // `rays` are in the coordinates of `surface`.

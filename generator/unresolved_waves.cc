@@ -52,10 +52,16 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
   constexpr double kStep = 0.05;  // of slope: within what the resolved waves do, far above rounding
   UnresolvedWaves effect;
   effect.offset = change(Eigen::Vector2d::Zero());
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
-    effect.gain.col(axis) = (change(step) - change(-step)) / (2 * kStep);
-  }
+  const Eigen::Vector2d x = kStep * Eigen::Vector2d::UnitX(), y = kStep * Eigen::Vector2d::UnitY();
+  const auto first = [&](const Eigen::Vector2d& step) {
+    return Eigen::Vector3d((change(step) - change(-step)) / (2 * kStep));
+  };
+  const auto second = [&](const Eigen::Vector2d& step) {
+    return Eigen::Vector3d((change(step) + change(-step) - 2 * effect.offset) / (2 * kStep * kStep));
+  };
+  effect.gain << first(x), first(y);
+  effect.curvature << second(x), second(y),
+      (change(x + y) + change(-x - y) - change(x - y) - change(y - x)) / (4 * kStep * kStep);
   return effect;
 }
 

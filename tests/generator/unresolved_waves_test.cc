@@ -71,7 +71,8 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatTheBeamSees) {
   // The weights average to 1 (+ facing . m), so the ratio estimator's error is that of weight (value - mean).
   const auto check = [&](const Eigen::Vector2d& m, double bias) {
     Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
-    const Eigen::Array3d expected = (Refracted(beam, m) + waves.offset + waves.gain * m).array();
+    const Eigen::Array3d expected =
+        (Refracted(beam, m) + waves.offset + waves.gain * m + waves.curvature * SlopeSquares(m)).array();
     double weights = 0;
     for (int i = 0; i < kDraws; ++i) {
       const Eigen::Vector2d slope = m + Eigen::Vector2d(std::sqrt(covariance(0, 0)) * normals[2 * i],
@@ -87,9 +88,8 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatTheBeamSees) {
     }
   };
   check({0, 0}, 0);
-  // What the expansion to first order in the resolved slope leaves out: a hundredth of the second-order
-  // change, mss m^2.
-  check({0.05, -0.03}, 0.02 * 0.05 * 0.05);
+  // What the expansion to second order in the resolved slope leaves out, mss m^3.
+  check({0.05, -0.03}, 0.02 * 0.05 * 0.05 * 0.05);
 }
 
 }  // namespace

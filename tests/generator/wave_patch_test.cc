@@ -19,23 +19,22 @@ SeaState Sea() { return SeaState(5, std::numeric_limits<double>::infinity()); }
 // The share of a patch alone: everything that its lattice can hold.
 CrossFade AllPatch() { return CrossFade(1e-9, 2e-9); }
 
-// The slow twin of Draw: the same normals, two for each mode of the half plane row by row, and the sum over
-// the modes written out.
+// The slow twin of Draw: the same normals, two for each mode of the half plane, each row from a part of
+// its own, and the sum over the modes written out.
 std::vector<double> SlowDraw(const SeaState& sea, double length, int size, const CrossFade& share,
-                             NormalStream stream) {
+                             const NormalStream& stream) {
   const int half = size / 2 + 1;
-  std::vector<double> normals(2 * static_cast<std::size_t>(size) * half);
-  stream.Fill(normals);
+  std::vector<double> normals(2 * half);
   const double dk = 2 * kPi / length;
   std::vector<double> heights(static_cast<std::size_t>(size) * size, 0.0);
   for (int i = -size / 2 + 1; i < size / 2; ++i) {
+    stream.Part(i >= 0 ? 2 * i + 1 : -2 * i).Fill(normals);  // each row its own
     for (int j = 0; j < size / 2; ++j) {
       if (j == 0 && i <= 0) continue;  // the mean, and mirrors of i > 0
       const double k = dk * std::hypot(i, j);
       const double power = share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk;
-      const std::size_t mode = static_cast<std::size_t>((i + size) % size) * half + j;
       const std::complex<double> amplitude =
-          std::sqrt(power / 2) * std::complex<double>(normals[2 * mode], normals[2 * mode + 1]);
+          std::sqrt(power / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
       for (int ix = 0; ix < size; ++ix) {
         for (int iy = 0; iy < size; ++iy) {
           heights[ix * size + iy] +=
@@ -56,6 +55,29 @@ TEST(WavePatch, IsTheSumOfItsModes) {
   const std::vector<double> slow = SlowDraw(sea, 2.0, 24, share, NormalStream(1, 2, 3));
   const double root_mean_square = std::sqrt(model.elevation_variance());
   for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(fast[i], slow[i], 1e-12 * root_mean_square);
+}
+
+// The amplitude of mode (i, j) of a grid of heights, by a direct sum.
+std::complex<double> Mode(const std::vector<double>& heights, int size, int i, int j) {
+  std::complex<double> sum = 0;
+  for (int ix = 0; ix < size; ++ix) {
+    for (int iy = 0; iy < size; ++iy) {
+      sum += heights[ix * size + iy] * std::polar(1.0, -2 * kPi * (i * ix + j * iy) / size);
+    }
+  }
+  return sum / static_cast<double>(size * size);
+}
+
+TEST(WavePatch, DrawsTheSameWavesOnAFinerGrid) {
+  const SeaState sea = Sea();
+  const NormalStream stream(1, 2, 3);
+  const std::vector<double> coarse = WavePatchModel(sea, 2.0, 24, AllPatch()).Draw(stream);
+  const std::vector<double> fine = WavePatchModel(sea, 2.0, 60, AllPatch()).Draw(stream);
+  for (const auto& [i, j] : {std::pair(3, 0), std::pair(-5, 2), std::pair(11, 11), std::pair(0, 7)}) {
+    const std::complex<double> amplitude = Mode(coarse, 24, i, j);
+    EXPECT_GT(std::abs(amplitude), 0);
+    EXPECT_LT(std::abs(Mode(fine, 60, i, j) - amplitude), 1e-9 * std::abs(amplitude)) << i << ", " << j;
+  }
 }
 
 // 2000 draws: the spatial mean of the squares has a scatter of its own, from which the standard error comes.

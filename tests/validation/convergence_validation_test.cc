@@ -1,11 +1,11 @@
 // The discretization that is chosen from the sea and the footprint against one twice as fine.
 //
-// Doubling the patch or halving the spacing draws other waves, so two runs differ by chance: with the
-// realizations of this test the ratio of two standard deviations is known to 2.2 % in one case (of vertical
-// errors at nadir to 4 %) and to 1 % in the mean over the cases. So these runs find a defect of some 8 % in
-// one case and 4 % in all. The finer scale of 1 % is held twice nearly without chance: by the slope variance
-// that the discrete waves show the footprint, on which the uncertainties rest in the limit of small slopes,
-// and by doubling the rays, which meet the same surfaces.
+// Halving the spacing and doubling the rays keep the waves, so that two runs differ by little but the defect that
+// is looked for. Doubling the patch draws other waves: with the realizations of this test the ratio of two standard
+// deviations is known to 2.2 % in one case (of vertical errors at nadir to 4 %) and to 1 % in the mean over the
+// cases, so these runs find a defect of some 8 % in one case and 4 % in all. The finer scale of 1 % is held by the
+// slope variance that the discrete waves show the footprint, on which the uncertainties rest in the limit of small
+// slopes, and which knows no chance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <ostream>
+#include <string_view>
 #include <vector>
 
 #include "generator/discretization.h"
@@ -122,29 +123,38 @@ TEST(Convergence, DoublingThePatchMovesNothingByMoreThanAPercent) {
   ExpectNoMoreThanAPercent(WithTwiceThePatch);
 }
 
-TEST(Convergence, HalvingTheSpacingMovesNothingByMoreThanAPercent) {
-  ExpectNoMoreThanAPercent(WithHalfTheSpacing);
-}
-
-// The same surfaces: what is left to chance is the share of the waves that the rays are too few to sample, up
-// to 1.5 % of the variance, whose product with the rest averages out as one over the root of the
-// realizations.
-TEST(Convergence, DoublingTheRaysMovesNothingByMoreThanAPercent) {
+// Runs every case as chosen and as `refined`, on the same waves. What is left to chance is what one of the two
+// does not see, up to 1.5 % of the variance (discretization.h); its product with the rest averages out as one over
+// the root of the realizations. Vertical errors at nadir are of second order in slope and rest on shorter waves
+// than all else: a finer grid adds up to 2 % to them, which is within their own standard error of 2-3 % here and is
+// held to no more than that.
+void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(Discretization)>& refined) {
   const double three_standard_errors = 3 * std::sqrt(0.015 / kRealizations);
   for (std::size_t i = 0; i < kCases.size(); ++i) {
     const Case& c = kCases[i];
     const Discretization chosen = Chosen(c);
     const auto cell = static_cast<std::uint32_t>(i);
     const std::vector<BeamUncertainty> coarse = Simulated(c, chosen, cell);
-    const std::vector<BeamUncertainty> fine = Simulated(c, WithTwiceTheRays(chosen), cell);
+    const std::vector<BeamUncertainty> fine = Simulated(c, refined(chosen), cell);
     for (const std::size_t beam : {0, 1}) {
       for (const Quantity& quantity : kQuantities) {
-        EXPECT_NEAR(quantity.of(fine[beam]).value / quantity.of(coarse[beam]).value, 1,
-                    kAllowed + three_standard_errors)
+        const Estimate before = quantity.of(coarse[beam]), after = quantity.of(fine[beam]);
+        const bool second_order = beam == 0 && quantity.name == std::string_view("TVU");
+        const double chance = second_order ? before.standard_error / before.value : three_standard_errors;
+        EXPECT_NEAR(after.value / before.value, 1, kAllowed + chance)
             << quantity.name << (beam == 0 ? " at nadir, " : " at slant, ") << c;
       }
     }
   }
+}
+
+// A finer grid of the same patch draws the same waves, and more that are shorter.
+TEST(Convergence, HalvingTheSpacingMovesNothingByMoreThanAPercent) {
+  ExpectNoMoreThanAPercentOnTheSameWaves(WithHalfTheSpacing);
+}
+
+TEST(Convergence, DoublingTheRaysMovesNothingByMoreThanAPercent) {
+  ExpectNoMoreThanAPercentOnTheSameWaves(WithTwiceTheRays);
 }
 
 // Standard deviations go as the root of the slope variance, along and across the wind.
