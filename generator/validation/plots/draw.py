@@ -1,0 +1,52 @@
+"""Draws the figures of a validation report from its CSV files, as SVG.
+
+    python3 draw.py CSV_FOLDER SVG_FOLDER FIGURE...
+
+A figure is a function of the same name in one of the modules beside this file. It gets `read`, which gives a CSV
+file by its name without ending as a NumPy record array (numbers where a column holds numbers, text elsewhere), and
+returns a matplotlib Figure.
+"""
+
+import importlib
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("svg")
+import numpy
+
+STYLE = {
+    "svg.hashsalt": "albtpu",  # the same bytes from the same numbers
+    "font.size": 10,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "legend.frameon": False,
+    "figure.figsize": (7, 4.2),
+    "figure.constrained_layout.use": True,
+}
+
+
+def modules():
+    here = pathlib.Path(__file__).resolve().parent
+    sys.path.insert(0, str(here))
+    names = sorted(path.stem for path in here.glob("*.py") if path.stem != "draw")
+    return [importlib.import_module(name) for name in names]
+
+
+def main(csv_folder, svg_folder, figures):
+    def read(name):
+        return numpy.genfromtxt(pathlib.Path(csv_folder) / f"{name}.csv", delimiter=",", names=True,
+                                dtype=None, encoding="utf-8")
+
+    drawers = {name: function for module in modules() for name, function in vars(module).items()}
+    matplotlib.rcParams.update(STYLE)
+    for figure in figures:
+        drawn = drawers[figure](read)
+        drawn.savefig(pathlib.Path(svg_folder) / f"{figure}.svg", metadata={"Date": None})
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2], sys.argv[3:])
