@@ -40,6 +40,8 @@ double SeaState::FrozenSpreading(double psi) const {
 
 double SeaState::Psi(double k, double psi) const { return spectrum_(k) / k * FrozenSpreading(psi); }
 
+double SeaState::DirectionalPsi(double k, double psi) const { return spectrum_(k) / k * spreading_(psi); }
+
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea,
                                 const std::function<double(double k, double psi)>& weight) {
   return IntegrateOverWavenumbers(sea, Eigen::Matrix2d(Eigen::Matrix2d::Zero()), [&](double k, double psi) {

@@ -21,6 +21,9 @@ class SeaState {
   double Psi(double k, double psi) const;
   double FrozenSpreading(double psi) const;  // (D(psi) + D(psi + pi)) / 2, 1/rad
 
+  // The spectrum of waves that travel along psi, Psi itself: what a sea that evolves in time is made of.
+  double DirectionalPsi(double k, double psi) const;
+
   const ApelSpectrum& spectrum() const { return spectrum_; }
   WavenumberRange energetic_range() const { return EnergeticRange(spectrum_); }
 
