@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "generator/cross_fade.h"
+#include "generator/inverse_fft.h"
 #include "generator/random_stream.h"
 #include "generator/sea_state.h"
 
@@ -23,14 +23,12 @@ class WavePatchModel {
  public:
   // `length` [m] above 0; `size` points along a side, even.
   WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share);
-  ~WavePatchModel();
-  WavePatchModel(WavePatchModel&&) noexcept;
 
   double length() const { return length_; }
   int size() const { return size_; }
   double spacing() const { return length_ / size_; }
 
-  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through FFTW. A finer grid of the same
+  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through an FFT. A finer grid of the same
   // length draws the same amplitudes for the modes that both have.
   std::vector<double> Draw(const NormalStream& stream) const;
 
@@ -40,12 +38,11 @@ class WavePatchModel {
   Eigen::Matrix2d FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const;
 
  private:
-  struct Plan;
   double length_;
   int size_;
   std::vector<double>
       power_;  // size x (size / 2 + 1), the expected |amplitude|^2; the other half is its mirror
-  std::unique_ptr<Plan> plan_;
+  InverseFft transform_;
 };
 
 }  // namespace albtpu
