@@ -20,7 +20,9 @@ constexpr double kPatchDeparture = 0.005;
 constexpr double kAliasedFraction = 0.0075;
 constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;    // widths of the beam
 constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footprint
-constexpr int kFewestRays = 1000, kMostRays = 64000;
+// Fewer rays sample the squares of slopes too coarsely, on which vertical errors at nadir rest: 1000 were seen to
+// add 3 % to them, 4000 add 0.1 %.
+constexpr int kFewestRays = 4000, kMostRays = 64000;
 // A footprint that averages the waves down to less than this part of their mean square slope sees still
 // water: nothing is refined for the sake of what it does see.
 constexpr double kLeastSeen = 3e-5;

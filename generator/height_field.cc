@@ -9,28 +9,22 @@
 namespace albtpu {
 
 HeightField::HeightField(std::vector<double> heights, int points, double spacing)
-    : heights_(std::move(heights)), points_(points), spacing_(spacing) {
+    : heights_(std::move(heights)), points_(points), spacing_(spacing), points_per_metre_(1 / spacing) {
   assert(points >= 3 && points % 2 == 1 && spacing > 0);
   assert(heights_.size() == static_cast<std::size_t>(points) * points);
 }
 
-HeightField::Facet HeightField::FacetAt(const Eigen::Vector2d& x) const {
-  const double centre = (points_ - 1) / 2;
-  const double last_cell = points_ - 2;
-  const Eigen::Vector2d at = (x / spacing_).array() + centre;
-  const int ix = static_cast<int>(std::clamp(at.x(), 0.0, last_cell));
-  const int iy = static_cast<int>(std::clamp(at.y(), 0.0, last_cell));
+HeightField::Facet HeightField::FacetOf(const Triangle& triangle) const {
+  const auto [ix, iy, beside_x] = triangle;
   const double* low = &heights_[static_cast<std::size_t>(ix) * points_ + iy];
   const double* high = low + points_;
-  Eigen::Vector2d rise;
-  if (at.x() - ix > at.y() - iy) {
-    rise = {high[0] - low[0], high[1] - high[0]};  // first along x, then along y
-  } else {
-    rise = {high[1] - low[1], low[1] - low[0]};  // first along y, then along x
-  }
-  const Eigen::Vector2d slope = rise / spacing_;
-  const Eigen::Vector2d corner((ix - centre) * spacing_, (iy - centre) * spacing_);
-  return {low[0] - slope.dot(corner), slope};
+  // From the low corner to the high one: first along x, then along y, or the other way round. Which of them is
+  // as good as random, so that addresses are chosen and not branches.
+  const int first = beside_x ? 0 : 1;
+  const double* last = beside_x ? high : low;
+  const Eigen::Vector2d rise(high[first] - low[first], last[1] - last[0]);
+  const int centre = (points_ - 1) / 2;
+  return {low[0] - rise.dot(Eigen::Vector2d(ix - centre, iy - centre)), rise * points_per_metre_};
 }
 
 Hit Intersect(const HeightField& surface, const Ray& ray) {
@@ -40,19 +34,23 @@ Hit Intersect(const HeightField& surface, const Ray& ray) {
   double below = -std::numeric_limits<double>::infinity();  // heights at which the ray is known to be under
   double above = std::numeric_limits<double>::infinity();   // and over the surface
   double z = 0;
+  HeightField::Triangle triangle = surface.TriangleAt(ray.at_zero);
   HeightField::Facet facet;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::Vector2d x = ray.at_zero + z * per_height;
-    facet = surface.FacetAt(x);
-    const double clearance = z - facet.HeightAt(x);
+    facet = surface.FacetOf(triangle);
+    const double clearance = z - facet.HeightAt(ray.at_zero + z * per_height);
     (clearance < 0 ? below : above) = z;
     // The meeting with the plane of the facet under the ray; if it lies outside of what is known, which then
     // is finite, halve what is known.
-    double next = z - clearance / std::max(kLeastApproach, 1 - facet.slope.dot(per_height));
+    const double approach = 1 - facet.slope.dot(per_height);
+    double next = z - clearance / std::max(kLeastApproach, approach);
+    const bool on_the_plane = next >= below && next <= above && approach >= kLeastApproach;
     if (!(next >= below && next <= above)) next = 0.5 * (below + above);
-    const bool settled = std::abs(next - z) <= 1e-12 * surface.reach();
+    const HeightField::Triangle under = surface.TriangleAt(ray.at_zero + next * per_height);
+    const bool settled = (on_the_plane && under == triangle) || std::abs(next - z) <= 1e-12 * surface.reach();
     z = next;
     if (settled) break;
+    triangle = under;
   }
   return {z, facet};
 }

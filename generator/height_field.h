@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "generator/beam.h"
@@ -16,14 +17,29 @@ class HeightField {
   // `points` along a side, odd, at least 3.
   HeightField(std::vector<double> heights, int points, double spacing);
 
-  // A triangle as the plane height_at_origin + slope . (x, y).
+  // One of the two triangles of a cell.
+  struct Triangle {
+    int ix, iy;     // the low corner of the cell
+    bool beside_x;  // the one that has the side from the low corner along x
+    bool operator==(const Triangle&) const = default;
+  };
+  // The triangle over or under `x`; beyond the edge, one of the outermost cells.
+  Triangle TriangleAt(const Eigen::Vector2d& x) const {
+    const double last_cell = points_ - 2;
+    const Eigen::Vector2d at = (x * points_per_metre_).array() + (points_ - 1) / 2;
+    const int ix = static_cast<int>(std::clamp(at.x(), 0.0, last_cell));
+    const int iy = static_cast<int>(std::clamp(at.y(), 0.0, last_cell));
+    return {ix, iy, at.x() - ix > at.y() - iy};
+  }
+
+  // The plane of a triangle, height_at_origin + slope . (x, y).
   struct Facet {
     double height_at_origin;  // m
     Eigen::Vector2d slope;
     double HeightAt(const Eigen::Vector2d& x) const { return height_at_origin + slope.dot(x); }
   };
-  // The triangle over or under `x`. The planes of the outermost cells go on beyond the edge.
-  Facet FacetAt(const Eigen::Vector2d& x) const;
+  Facet FacetOf(const Triangle& triangle) const;
+  Facet FacetAt(const Eigen::Vector2d& x) const { return FacetOf(TriangleAt(x)); }
 
   double reach() const { return (points_ - 1) / 2 * spacing_; }  // m from the centre to each side
   double spacing() const { return spacing_; }                    // m
@@ -31,7 +47,7 @@ class HeightField {
  private:
   std::vector<double> heights_;
   int points_;
-  double spacing_;
+  double spacing_, points_per_metre_;
 };
 
 // Where a ray meets a surface.

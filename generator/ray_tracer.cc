@@ -13,10 +13,7 @@ TracedBeam Trace(const std::vector<Ray>& rays, const HeightField& surface, doubl
   double height = 0;
   for (const Ray& ray : rays) {
     const Hit hit = Intersect(surface, ray);
-    const Eigen::Vector3d refracted =
-        Refract(ray.direction, NormalOfSlope(hit.facet.slope), refractive_index);
-    const double secant = -1 / refracted.z();
-    const Eigen::Vector2d tangent = refracted.head<2>() * secant;
+    const auto [tangent, secant] = RefractAtSlope(ray.direction, hit.facet.slope, refractive_index);
     height += hit.height;
     sum.tangent += tangent;
     sum.height_tangent += hit.height * tangent;

@@ -24,6 +24,23 @@ inline Eigen::Vector3d NormalOfSlope(const Eigen::Vector2d& slope) {
   return Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
 }
 
+// A refracted ray per unit of depth: how far it goes sideways and how long it is.
+struct RefractedRay {
+  Eigen::Vector2d tangent;
+  double secant;
+};
+
+// The same law on a facet of slope m, without unit normals: with q = 1 + |m|^2, v = -incident . (-m, 1) and r = 1 / n,
+// the refracted direction is r incident + (-m, 1) (r v - sqrt(q (1 - r^2) + r^2 v^2)) / q.
+inline RefractedRay RefractAtSlope(const Eigen::Vector3d& incident, const Eigen::Vector2d& slope, double n) {
+  const double ratio = 1 / n;
+  const double q = 1 + slope.squaredNorm();
+  const double v = ratio * (slope.dot(incident.head<2>()) - incident.z());
+  const double lift = (v - std::sqrt(q * (1 - ratio * ratio) + v * v)) / q;
+  const double secant = -1 / (ratio * incident.z() + lift);
+  return {(ratio * incident.head<2>() - lift * slope) * secant, secant};
+}
+
 // The angle from the vertical, rad, of a ray refracted by still water: sin(incidence) = n sin(refracted).
 double StillWaterRefraction(double incidence, double n);
 

@@ -38,7 +38,7 @@ TEST(Discretization, IsFinerUnderAFootprintMuchWiderThanTheWaves) {
 TEST(Discretization, IsCoarseUnderAFootprintMuchNarrowerThanTheWaves) {
   const Discretization choice = ChooseDiscretization(SeaState(10, kFullyDeveloped), {{.footprint = 0.5}});
   EXPECT_LE(choice.points_per_footprint, 64);
-  EXPECT_LE(choice.rays, 2000);
+  EXPECT_LE(choice.rays, 4000);
 }
 
 }  // namespace

@@ -38,6 +38,17 @@ TEST(Refraction, StaysInThePlaneOfIncidenceAndOfUnitLength) {
   }
 }
 
+TEST(Refraction, AtASlopeIsTheVectorForm) {
+  for (const double incidence : {0.0, 0.2, 0.45}) {
+    for (const Eigen::Vector2d& slope : {Eigen::Vector2d(0, 0), {0.4, 0.1}, {-0.2, 0.5}, {0, -1}}) {
+      const Eigen::Vector3d direction = Refract(Incident(incidence), NormalOfSlope(slope), kN);
+      const auto [tangent, secant] = RefractAtSlope(Incident(incidence), slope, kN);
+      EXPECT_NEAR(secant, -1 / direction.z(), 1e-14);
+      EXPECT_LT((tangent + direction.head<2>() / direction.z()).norm(), 1e-14);
+    }
+  }
+}
+
 TEST(Refraction, BendsTowardTheNormal) {
   const Eigen::Vector3d normal = NormalOfSlope({0.4, 0.1});
   const Eigen::Vector3d incident = Incident(0.35);
