@@ -11,7 +11,6 @@
 #include "generator/angle.h"
 #include "generator/refraction.h"
 #include "generator/toml_reader.h"
-#include "generator/wave_spectrum.h"
 #include "tables/format.h"
 #include "tables/provenance.h"
 
@@ -34,13 +33,14 @@ double FloatNotBelow(double x) {
 
 // `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
 // there the seas of all winds are, and beyond it nothing changes.
-absl::Status ResolveFetch(std::vector<double>& fetch, const std::vector<double>& wind_speed) {
+absl::Status ResolveFetch(SpectrumKind spectrum, std::vector<double>& fetch,
+                          const std::vector<double>& wind_speed) {
   if (fetch.empty() || fetch.back() != kInfinity) {
     return absl::InvalidArgumentError(
         "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
   }
   const double developed =
-      FloatNotBelow(FullyDevelopedFetch(*std::max_element(wind_speed.begin(), wind_speed.end())));
+      FloatNotBelow(FullyDevelopedFetch(spectrum, *std::max_element(wind_speed.begin(), wind_speed.end())));
   fetch.back() = developed;
   if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
     return absl::InvalidArgumentError(
@@ -61,6 +61,27 @@ Nodes ReadNodes(TomlReader& toml) {
   return nodes;
 }
 
+SeaOptions ReadSea(TomlReader& toml) {
+  constexpr double kShortestCorrected = 0.1;  // m
+  SeaOptions sea;
+  const std::string name = toml.Text("sea", "spectrum", Name(sea.spectrum));
+  if (const std::optional<SpectrumKind> spectrum = FindSpectrum(name)) {
+    sea.spectrum = *spectrum;
+  } else {
+    toml.Fail("'sea.spectrum' must be \"apel\" or \"elfouhaily\"");
+  }
+  constexpr double kNotGiven = 0;
+  const double spreading = toml.Number("sea", "spreading", 0.5, 30, kNotGiven);
+  if (spreading != kNotGiven) sea.spreading = spreading;
+  if (spreading != kNotGiven && sea.spectrum != SpectrumKind::kApel) {
+    toml.Fail(absl::StrCat("'sea.spreading' is that of Apel's sea; \"", name,
+                           "\" has a spreading of its own: leave it out"));
+  }
+  sea.corrected_above =
+      toml.Number("sea", "corrected_above", kShortestCorrected, kInfinity, sea.corrected_above);
+  return sea;
+}
+
 Effort ReadEffort(TomlReader& toml) {
   constexpr int kMost = 10'000'000;
   constexpr int kMostUnlessSaid = 40'000;
@@ -75,7 +96,7 @@ Effort ReadEffort(TomlReader& toml) {
 }
 
 // Beyond the rules of all axes, those of a sea that can be simulated.
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(Nodes nodes) {
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(SpectrumKind spectrum, Nodes nodes) {
   for (const AxisId axis : kAxes) {
     if (nodes[Index(axis)].empty()) {
       return absl::InvalidArgumentError(
@@ -95,7 +116,8 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(Nodes nodes) {
         "not "
         "modelled");
   }
-  const absl::Status fetch = ResolveFetch(nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+  const absl::Status fetch =
+      ResolveFetch(spectrum, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
   if (!fetch.ok()) return fetch;
 
   std::vector<Axis> axes;
@@ -150,12 +172,12 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (!profile) toml.Fail("'beam.profile' must be \"uniform\" or \"gaussian\"");
   const double source_height = toml.Number("beam", "source_height", 0.1, kInfinity, kInfinity);
   const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, kRefractiveIndex);
-  const double spreading = toml.Number("sea", "spreading", 0.5, 30, 2);
+  const SeaOptions sea = ReadSea(toml);
   const Effort effort = ReadEffort(toml);
   const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(sea.spectrum, nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = std::string(text),
                     .id = id,
@@ -166,7 +188,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .profile = *profile,
                     .source_height = source_height,
                     .refractive_index = refractive_index,
-                    .spreading = spreading,
+                    .sea = sea,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
   if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
@@ -199,9 +221,10 @@ Encounter EncounterOf(const Campaign& campaign, std::size_t index) {
   const std::size_t footprints = campaign.nodes(AxisId::kFootprint).size();
   const std::size_t fetches = campaign.nodes(AxisId::kFetch).size();
   Encounter encounter;
-  encounter.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
-  encounter.fetch = campaign.nodes(AxisId::kFetch)[index / footprints % fetches];
-  encounter.spreading = campaign.spreading;
+  const std::size_t fetch = index / footprints % fetches;
+  encounter.sea = campaign.sea;
+  encounter.sea.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
+  encounter.sea.fetch = fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity;
   encounter.refractive_index = campaign.refractive_index;
   encounter.depths = campaign.nodes(AxisId::kDepth);
   encounter.rays = campaign.rays;

@@ -36,7 +36,9 @@ namespace albtpu {
 //   [water]
 //   refractive_index = 1.33
 //   [sea]
-//   spreading = 2                 # s of the cosine-2S spreading
+//   spectrum = "apel"             # or "elfouhaily"
+//   spreading = 2                 # s of the cosine-2S spreading, of Apel's sea only
+//   corrected_above = inf         # m; longer waves are corrected for by the local slope and left out
 //   [effort]
 //   realizations = 1000
 //   most_realizations = 40000     # the end even where relative_error is not met
@@ -50,7 +52,7 @@ struct Campaign {
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;
-  double spreading = 2;
+  SeaOptions sea;  // wind and fetch aside, which are axes
   Effort effort;
   std::optional<int> rays;
 

@@ -24,13 +24,15 @@ struct PlanOptions {
 absl::Status RunPlan(const PlanOptions& options);
 
 struct PointOptions {
-  double wind_speed = 0;                                   // m/s
-  double fetch = std::numeric_limits<double>::infinity();  // m
-  double incidence = 0;                                    // degree
-  std::optional<double> azimuth;                           // degree; absent: the worse of 0 and 90
-  double footprint = 0;                                    // m
-  std::vector<double> depth;                               // m
-  std::string profile = "uniform";                         // or "gaussian"
+  double wind_speed = 0;                                             // m/s
+  double fetch = std::numeric_limits<double>::infinity();            // m
+  std::string spectrum = "apel";                                     // or "elfouhaily"
+  double corrected_above = std::numeric_limits<double>::infinity();  // m
+  double incidence = 0;                                              // degree
+  std::optional<double> azimuth;                                     // degree; absent: the worse of 0 and 90
+  double footprint = 0;                                              // m
+  std::vector<double> depth;                                         // m
+  std::string profile = "uniform";                                   // or "gaussian"
   double refractive_index = 1.33;
   double relative_error = 0.01;
   std::uint64_t seed = 1;

@@ -30,10 +30,10 @@ LongWaveModel::Wave CellWave(const SeaState& sea, const CrossFade& patch_share, 
   for (int p = 0; p < kPanels; ++p) {
     for (int a = 0; a < 4; ++a) {
       const double k = k_inner * std::exp(panel * (p + 0.5 + 0.5 * kGaussNodes[a]));
-      const double ring = 0.5 * panel * kGaussWeights[a] * k * sea.spectrum()(k) * (1 - patch_share(k));
+      const double ring = 0.5 * panel * kGaussWeights[a] * k * sea.S(k) * (1 - patch_share(k));
       for (int b = 0; b < 4; ++b) {
         const double direction = psi + 0.5 * d_psi * kGaussNodes[b];
-        const double power = 2 * ring * 0.5 * d_psi * kGaussWeights[b] * sea.FrozenSpreading(direction);
+        const double power = 2 * ring * 0.5 * d_psi * kGaussWeights[b] * sea.FrozenSpreading(k, direction);
         elevation += power;
         slope += power * k * k;
       }

@@ -63,10 +63,18 @@ void AddPoint(CLI::App& point, PointOptions& options) {
       ->required()
       ->check(NumberIn(0, 50, true));
   point.add_option("--fetch", options.fetch, "m, or inf: fully developed (default)")->check(Fetch());
+  point.add_option("--spectrum", options.spectrum, "of the waves: apel (default) or elfouhaily")
+      ->check(CLI::IsMember({"apel", "elfouhaily"}));
+  point
+      .add_option("--corrected-above", options.corrected_above,
+                  "m; longer waves are corrected for by the local slope and left out")
+      ->check(NumberIn(0.1, 1e6));
   point.add_option("--incidence", options.incidence, "from the vertical, in air, degree")
       ->required()
       ->check(NumberIn(0, 60));
-  point.add_option("--azimuth", options.azimuth, "of the beam from downwind, degree; absent: the worse of 0 and 90")
+  point
+      .add_option("--azimuth", options.azimuth,
+                  "of the beam from downwind, degree; absent: the worse of 0 and 90")
       ->check(NumberIn(-1e6, 1e6));
   point.add_option("--footprint", options.footprint, "diameter at the surface, across the beam, m")
       ->required()

@@ -133,7 +133,7 @@ bool Meets(const BeamUncertainty& beam, double relative_error) {
 EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::uint64_t seed,
                          std::uint32_t cell) {
   assert(!encounter.beams.empty() && effort.realizations >= 2);
-  const SeaState sea(encounter.wind_speed_10m, encounter.fetch, Cosine2sSpreading(encounter.spreading));
+  const SeaState sea(encounter.sea);
   Discretization discretization =
       encounter.discretization ? *encounter.discretization : ChooseDiscretization(sea, encounter.beams);
   if (encounter.rays) discretization.rays = *encounter.rays;

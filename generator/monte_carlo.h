@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "generator/beam.h"
 #include "generator/discretization.h"
+#include "generator/sea_state.h"
 #include "generator/statistics.h"
 
 namespace albtpu {
@@ -23,9 +23,7 @@ inline constexpr int kBatch = 250;
 
 // Seas and beams that share their surfaces: one footprint and profile.
 struct Encounter {
-  double wind_speed_10m = 0;                               // m/s
-  double fetch = std::numeric_limits<double>::infinity();  // m
-  double spreading = 2;                                    // s of cosine-2S
+  SeaOptions sea;
   double refractive_index = 1.33;
   std::vector<BeamOptions> beams;                // not empty; the same footprint, profile and source
   std::vector<double> depths;                    // m, not negative

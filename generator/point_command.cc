@@ -17,8 +17,10 @@ constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
 Encounter EncounterAt(const PointOptions& options) {
   Encounter encounter;
-  encounter.wind_speed_10m = options.wind_speed;
-  encounter.fetch = options.fetch;
+  encounter.sea = {.wind_speed_10m = options.wind_speed,
+                   .fetch = options.fetch,
+                   .spectrum = *FindSpectrum(options.spectrum),
+                   .corrected_above = options.corrected_above};
   encounter.refractive_index = options.refractive_index;
   encounter.depths = options.depth;
   const std::vector<double> azimuths =

@@ -3,33 +3,67 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string_view>
 
-#include "generator/spreading.h"
 #include "generator/wave_spectrum.h"
 
 namespace albtpu {
 
-// Waves of one wind and one fetch. x is downwind, y crosswind.
+enum class SpectrumKind {
+  kApel,        // apel_spectrum.h
+  kElfouhaily,  // elfouhaily_spectrum.h
+};
+std::string_view Name(SpectrumKind spectrum);  // "apel", "elfouhaily"
+std::optional<SpectrumKind> FindSpectrum(std::string_view name);
+
+// The shortest fetch [m] at which a spectrum is taken as fully developed.
+double FullyDevelopedFetch(SpectrumKind spectrum, double wind_speed_10m);
+
+// The waves of one wind and one fetch.
+struct SeaOptions {
+  double wind_speed_10m = 0;                               // m/s, above 0
+  double fetch = std::numeric_limits<double>::infinity();  // m, above 0; infinity: fully developed
+  SpectrumKind spectrum = SpectrumKind::kApel;
+  double spreading = 2;  // s of the cosine-2S spreading of Apel's sea; Elfouhaily's has its own
+  // Waves longer than this [m] are gone: the surface's local slope was measured and the refraction corrected for it.
+  double corrected_above = std::numeric_limits<double>::infinity();
+  double height_scale = 1;  // of every wave, over what the spectrum says
+};
+
+// x is downwind, y crosswind. Immutable.
 class SeaState {
  public:
-  // wind_speed_10m [m/s] and fetch [m] above 0; a fetch of infinity is the fully developed sea.
-  SeaState(double wind_speed_10m, double fetch, Cosine2sSpreading spreading = Cosine2sSpreading());
+  explicit SeaState(const SeaOptions& options);
+  SeaState(double wind_speed_10m, double fetch);  // Apel's sea, whole
 
-  // The spectrum that a frozen surface sees, (Psi(k) + Psi(-k)) / 2 with Psi = S(k) D(psi) / k [m^4]
+  // Elevation spectrum over all directions, S(k) [m^3]; k [rad/m] above 0.
+  double S(double k) const { return k < longest_wave_ ? 0.0 : height_scale_squared_ * (*spectrum_)(k); }
+
+  // (D(k, psi) + D(k, psi + pi)) / 2 [1/rad]: a frozen surface does not tell a wave from the one that travels against
+  // it. `psi` [rad] from downwind.
+  double FrozenSpreading(double k, double psi) const;
+
+  // The spectrum that a frozen surface sees, (Psi(k) + Psi(-k)) / 2 with Psi = S(k) D(k, psi) / k [m^4]
   // (Birkebak et al. (2018), Eq. 16 with the Jacobian of polar wavenumbers). Its integral over the plane is
-  // the variance of elevation. `k` [rad/m] is the magnitude, above 0, `psi` [rad] the direction.
+  // the variance of elevation.
   double Psi(double k, double psi) const;
-  double FrozenSpreading(double psi) const;  // (D(psi) + D(psi + pi)) / 2, 1/rad
 
-  // The spectrum of waves that travel along psi, Psi itself: what a sea that evolves in time is made of.
+  // The spectrum of waves that travel along psi, Psi itself: what a sea that evolves in time is made of. Elfouhaily's
+  // does not tell the waves with the wind from those against it.
   double DirectionalPsi(double k, double psi) const;
 
-  const ApelSpectrum& spectrum() const { return spectrum_; }
-  WavenumberRange energetic_range() const { return EnergeticRange(spectrum_); }
+  const SeaOptions& options() const { return options_; }
+  const WaveSpectrum& spectrum() const { return *spectrum_; }  // of the whole sea at its own height
+  WavenumberRange energetic_range() const;                     // of what is left of it
 
  private:
-  ApelSpectrum spectrum_;
-  Cosine2sSpreading spreading_;
+  SeaOptions options_;
+  std::shared_ptr<const WaveSpectrum> spectrum_;
+  double longest_wave_;  // rad/m, the wavenumber of `corrected_above`
+  double height_scale_squared_;
 };
 
 // Integral of `weight(k, psi) k_i k_j Psi` over the plane, i and j in {x, y}: the covariance of the two

@@ -73,7 +73,10 @@ float AlongAxis(const Axis& axis, double t) {
 }
 
 SmallSlopeUncertainty ClosedFormOf(const Campaign& campaign, const Pulse& pulse) {
-  return ClosedForm(SeaState(pulse.wind_speed, pulse.fetch, Cosine2sSpreading(campaign.spreading)),
+  SeaOptions sea = campaign.sea;
+  sea.wind_speed_10m = pulse.wind_speed;
+  sea.fetch = pulse.fetch;
+  return ClosedForm(SeaState(sea),
                     {.incidence = RadiansOfDegrees(pulse.incidence),
                      .azimuth = RadiansOfDegrees(*pulse.azimuth),
                      .footprint = pulse.footprint,
@@ -108,7 +111,7 @@ absl::StatusOr<UncertaintyTable> MakeClosedFormTable(const Campaign& campaign) {
       false);
   tbb::parallel_for(std::size_t{0}, EncounterCount(campaign), [&](std::size_t i) {
     const Encounter encounter = EncounterOf(campaign, i);
-    const SeaState sea(encounter.wind_speed_10m, encounter.fetch, Cosine2sSpreading(encounter.spreading));
+    const SeaState sea(encounter.sea);
     for (std::size_t beam = 0; beam < encounter.beams.size(); ++beam) {
       const SmallSlopeUncertainty closed = ClosedForm(sea, encounter.beams[beam], encounter.refractive_index);
       grid.Set(Quantity::kRefractionAlongWind, i, beam, 0, InDegrees({closed.refraction_along_wind, 0}));

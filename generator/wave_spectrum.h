@@ -1,44 +1,35 @@
-// Omnidirectional elevation spectra S(k) of wind waves [m^3], k in rad/m, with
-//     integral of S(k) dk over (0, inf) = variance of elevation [m^2].
+// What a directional elevation spectrum of wind waves is: Psi(kx, ky) = S(k) D(k, psi) / k [m^4].
 #pragma once
 
 namespace albtpu {
 
-// Apel's spectrum: JONSWAP peak, high-pass roll-off, capillary-gravity resonance.
-//
-// Source: Birkebak et al. (2018), doi:10.3390/rs10030453, Eq. 1-14, after Apel (1994), doi:10.1029/94JC00846.
-// Eq. 2 is printed with k/k_p inverted, Eq. 14 with a lost decimal point and an inverted root; all are read
-// as in Apel.
-//
-// Against the sea: fully developed it has 0.95 of the significant wave height of Pierson and Moskowitz
-// and 1.6-2.7 times the mean square slope of Cox and Munk (1954); at fetches below some 10 km its waves are
-// 2-3 times lower than JONSWAP's, because A does not depend on fetch.
-//
-// Example: the significant wave height at 10 m/s, fully developed, is 4 * sqrt(integral of S) = 2.04 m.
-class ApelSpectrum {
- public:
-  // `fetch` in m, above 0; infinity means fully developed. Requires wind_speed_10m > 0 [m/s].
-  ApelSpectrum(double wind_speed_10m, double fetch);
+inline constexpr double kGravity = 9.80665;  // m/s^2, standard gravity, exact
 
-  double operator()(double k) const;                  // S(k), m^3; requires k > 0.
-  double peak_wavenumber() const { return k_p_; }     // rad/m, Eq. 3.
-  double inverse_wave_age() const { return omega_; }  // Eq. 5, at least 0.84.
+// Of inverse wave age (wind speed over the phase speed at the peak) in the fully developed sea; Elfouhaily et al.
+// (1997), doi:10.1029/97JC00467, and Birkebak et al. (2018), Eq. 7.
+inline constexpr double kFullyDevelopedOmega = 0.84;
 
- private:
-  double omega_, k_p_, gamma_, sigma_, s_;
-};
-
-// Wavenumbers between which all but 1e-4 of the elevation and of the slope variance of `spectrum` lies,
-// rad/m.
 struct WavenumberRange {
-  double lowest, highest;
+  double lowest, highest;  // rad/m
 };
-WavenumberRange EnergeticRange(const ApelSpectrum& spectrum);
 
-// The inverse wave age of Eq. 5, never below that of the fully developed sea.
-double InverseWaveAge(double wind_speed_10m, double fetch);
+// Immutable. Wavenumbers in rad/m, above 0.
+class WaveSpectrum {
+ public:
+  virtual ~WaveSpectrum() = default;
 
-// The shortest fetch [m] at which the sea is fully developed: Eq. 5 solved for the fetch at Omega = 0.84.
-double FullyDevelopedFetch(double wind_speed_10m);
+  // S(k) [m^3]; its integral over k is the variance of elevation [m^2].
+  virtual double operator()(double k) const = 0;
+
+  // D [1/rad] of the waves that travel at `psi` [rad] from downwind; its integral over a full turn is 1.
+  virtual double Spreading(double k, double psi) const = 0;
+  virtual bool spreading_varies_with_wavenumber() const = 0;
+
+  virtual double peak_wavenumber() const = 0;
+  virtual double inverse_wave_age() const = 0;
+
+  // Wavenumbers between which all but 1e-4 of the elevation and of the slope variance lies.
+  virtual WavenumberRange energetic_range() const = 0;
+};
 
 }  // namespace albtpu

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "generator/angle.h"
-#include "generator/wave_spectrum.h"
+#include "generator/apel_spectrum.h"
 #include "tests/tables/temporary_directory.h"
 
 namespace albtpu {
@@ -60,9 +60,9 @@ TEST(Campaign, ResolvesInfiniteFetchToFullDevelopmentOfTheStrongestWind) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
   ASSERT_TRUE(campaign.ok()) << campaign.status();
   const double last = campaign->nodes(AxisId::kFetch).back();
-  EXPECT_GE(last, FullyDevelopedFetch(6));
-  EXPECT_NEAR(last / FullyDevelopedFetch(6), 1, 1e-6);  // the next float
-  for (const double wind : {3.0, 6.0}) EXPECT_EQ(InverseWaveAge(wind, last), 0.84);
+  EXPECT_GE(last, ApelSpectrum::FullyDevelopedFetch(6));
+  EXPECT_NEAR(last / ApelSpectrum::FullyDevelopedFetch(6), 1, 1e-6);  // the next float
+  for (const double wind : {3.0, 6.0}) EXPECT_EQ(ApelSpectrum::InverseWaveAge(wind, last), 0.84);
 }
 
 TEST(Campaign, OrdersEncountersByWindFetchAndFootprint) {
@@ -70,8 +70,8 @@ TEST(Campaign, OrdersEncountersByWindFetchAndFootprint) {
   ASSERT_TRUE(campaign.ok()) << campaign.status();
   ASSERT_EQ(EncounterCount(*campaign), 8u);
   const Encounter encounter = EncounterOf(*campaign, 5);  // wind 1, fetch 0, footprint 1
-  EXPECT_EQ(encounter.wind_speed_10m, 6);
-  EXPECT_EQ(encounter.fetch, 1000);
+  EXPECT_EQ(encounter.sea.wind_speed_10m, 6);
+  EXPECT_EQ(encounter.sea.fetch, 1000);
   ASSERT_EQ(encounter.beams.size(), 4u);
   EXPECT_EQ(encounter.beams[3].footprint, 1);
   EXPECT_EQ(encounter.beams[3].incidence, RadiansOfDegrees(20));

@@ -19,7 +19,7 @@ constexpr double kDegree = 0.017453292519943295;
 
 Encounter ModerateSea(std::vector<BeamOptions> beams) {
   Encounter encounter;
-  encounter.wind_speed_10m = 4;
+  encounter.sea.wind_speed_10m = 4;
   encounter.beams = std::move(beams);
   encounter.depths = {0, 5, 20};
   return encounter;
@@ -131,9 +131,9 @@ TEST(MonteCarlo, SaysWhenTheErrorIsNotSmallEnough) {
 
 TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
   Encounter laboratory = ModerateSea({{.footprint = 0.25, .source_height = 4}});
-  laboratory.fetch = 1e4;
+  laboratory.sea.fetch = 1e4;
   Encounter survey = ModerateSea({{.footprint = 0.25}});
-  survey.fetch = 1e4;
+  survey.sea.fetch = 1e4;
   const BeamUncertainty diverging = Simulate(laboratory, Exactly(1500), 1, 0).beams[0];
   const BeamUncertainty collimated = Simulate(survey, Exactly(1500), 1, 1).beams[0];
   // The mean direction answers to the mean slope alike; a divergence of 0.03 rad changes it in second order.

@@ -62,8 +62,8 @@ std::vector<Ratio> SimulateAll() {
   for (std::size_t s = 0; s < kSeas.size(); ++s) {
     const Sea& sea = kSeas[s];
     Encounter encounter;
-    encounter.wind_speed_10m = sea.wind_speed;
-    encounter.fetch = sea.fetch;
+    encounter.sea.wind_speed_10m = sea.wind_speed;
+    encounter.sea.fetch = sea.fetch;
     encounter.depths = {kDepth};
     for (const Direction& direction : kDirections) {
       encounter.beams.push_back({.incidence = direction.incidence * kDegree,

@@ -70,8 +70,8 @@ Discretization WithTwiceTheRays(Discretization choice) {
 std::vector<BeamUncertainty> Simulated(const Case& c, const Discretization& discretization,
                                        std::uint32_t cell) {
   Encounter encounter;
-  encounter.wind_speed_10m = c.wind_speed;
-  encounter.fetch = c.fetch;
+  encounter.sea.wind_speed_10m = c.wind_speed;
+  encounter.sea.fetch = c.fetch;
   encounter.beams = Beams(c);
   encounter.depths = {10};
   encounter.discretization = discretization;

@@ -1,4 +1,4 @@
-#include "generator/wave_spectrum.h"
+#include "generator/apel_spectrum.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,14 +8,12 @@
 namespace albtpu {
 namespace {
 
-constexpr double kGravity = 9.80665;           // m/s^2, standard gravity, exact
-constexpr double kSaturation = 0.00195;        // A of Eq. 1, as given below it
-constexpr double kFullyDevelopedOmega = 0.84;  // Elfouhaily et al. (1997), doi:10.1029/97JC00467
-constexpr double kRollOff = 100;               // rad/m, Eq. 10
-constexpr double kResonance = 400;             // rad/m, Eq. 11
-constexpr double kResonanceWidth = 450;        // rad/m, Eq. 11
-constexpr double kResonanceGain = 0.8;         // a of Eq. 11, m
-constexpr double kDissipation = 6283;          // rad/m, Eq. 13
+constexpr double kSaturation = 0.00195;  // A of Eq. 1, as given below it
+constexpr double kRollOff = 100;         // rad/m, Eq. 10
+constexpr double kResonance = 400;       // rad/m, Eq. 11
+constexpr double kResonanceWidth = 450;  // rad/m, Eq. 11
+constexpr double kResonanceGain = 0.8;   // a of Eq. 11, m
+constexpr double kDissipation = 6283;    // rad/m, Eq. 13
 
 double Square(double x) { return x * x; }
 
@@ -30,18 +28,18 @@ double DirectionalIntegral(double k_over_k_p) {
 
 }  // namespace
 
-double InverseWaveAge(double wind_speed_10m, double fetch) {
+double ApelSpectrum::InverseWaveAge(double wind_speed_10m, double fetch) {
   const double k_0 = kGravity / Square(wind_speed_10m);  // Eq. 4
   return std::max(kFullyDevelopedOmega, 22 * std::pow(k_0 * fetch, -0.33));
 }
 
-double FullyDevelopedFetch(double wind_speed_10m) {
+double ApelSpectrum::FullyDevelopedFetch(double wind_speed_10m) {
   const double k_0 = kGravity / Square(wind_speed_10m);
   return std::pow(22 / kFullyDevelopedOmega, 1 / 0.33) / k_0;
 }
 
-ApelSpectrum::ApelSpectrum(double wind_speed_10m, double fetch)
-    : omega_(InverseWaveAge(wind_speed_10m, fetch)) {
+ApelSpectrum::ApelSpectrum(double wind_speed_10m, double fetch, Cosine2sSpreading spreading)
+    : omega_(InverseWaveAge(wind_speed_10m, fetch)), spreading_(spreading) {
   assert(wind_speed_10m > 0 && fetch > 0);
   k_p_ = kGravity / Square(wind_speed_10m) * Square(omega_);                // Eq. 3
   gamma_ = PeakEnhancement(omega_);                                         // Eq. 7
@@ -61,9 +59,9 @@ double ApelSpectrum::operator()(double k) const {
          DirectionalIntegral(ratio);  // Eq. 1
 }
 
-WavenumberRange EnergeticRange(const ApelSpectrum& spectrum) {
+WavenumberRange ApelSpectrum::energetic_range() const {
   // Below 0.3 k_p Eq. 2 is under exp(-13.9); above 2 k_dis Eq. 13 is under exp(-4) and Eq. 11 under 1e-10.
-  return {0.3 * spectrum.peak_wavenumber(), 2 * kDissipation};
+  return {0.3 * k_p_, 2 * kDissipation};
 }
 
 }  // namespace albtpu

@@ -1,4 +1,4 @@
-#include "generator/wave_spectrum.h"
+#include "generator/apel_spectrum.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@ namespace albtpu {
 namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
-constexpr double kGravity = 9.80665;
 
 // Integral of k^power S dk between two wavenumbers: trapezoids in log k, fine enough to count as exact.
 double Moment(const ApelSpectrum& spectrum, int power, double lowest, double highest) {
@@ -101,7 +100,7 @@ TEST(ApelSpectrum, EnhancesThePeakOfAYoungSea) {
 }
 
 TEST(ApelSpectrum, ChangesNothingBeyondTheFullyDevelopedFetch) {
-  const double full = FullyDevelopedFetch(7);
+  const double full = ApelSpectrum::FullyDevelopedFetch(7);
   const ApelSpectrum unlimited(7, kFullyDeveloped), just(7, full * (1 + 1e-12)), far(7, 10 * full);
   for (double k = 0.05; k < 1e4; k *= 1.7) {
     EXPECT_EQ(just(k), unlimited(k));
@@ -111,32 +110,32 @@ TEST(ApelSpectrum, ChangesNothingBeyondTheFullyDevelopedFetch) {
 
 TEST(ApelSpectrum, GrowsWithFetchUntilItIsFullyDeveloped) {
   double before = 0;
-  for (const double fetch : {100.0, 1e3, 1e4, 0.9 * FullyDevelopedFetch(7)}) {
+  for (const double fetch : {100.0, 1e3, 1e4, 0.9 * ApelSpectrum::FullyDevelopedFetch(7)}) {
     const double variance = Moment(ApelSpectrum(7, fetch), 0);
     EXPECT_GT(variance, before) << fetch;
     before = variance;
   }
 }
 
-TEST(InverseWaveAge, IsTheFetchLawAndNeverBelowTheFullyDevelopedSea) {
-  EXPECT_NEAR(InverseWaveAge(5, 25 / kGravity), 22, 1e-12);  // k0 x = 1
-  EXPECT_NEAR(InverseWaveAge(5, FetchOf(3, 5)), 3, 1e-12);
-  EXPECT_EQ(InverseWaveAge(5, kFullyDeveloped), 0.84);
+TEST(ApelInverseWaveAge, IsTheFetchLawAndNeverBelowTheFullyDevelopedSea) {
+  EXPECT_NEAR(ApelSpectrum::InverseWaveAge(5, 25 / kGravity), 22, 1e-12);  // k0 x = 1
+  EXPECT_NEAR(ApelSpectrum::InverseWaveAge(5, FetchOf(3, 5)), 3, 1e-12);
+  EXPECT_EQ(ApelSpectrum::InverseWaveAge(5, kFullyDeveloped), 0.84);
 }
 
-TEST(FullyDevelopedFetch, InvertsTheFetchLaw) {
+TEST(ApelFullyDevelopedFetch, InvertsTheFetchLaw) {
   for (const double wind_speed : {1.0, 5.0, 15.0}) {
-    const double fetch = FullyDevelopedFetch(wind_speed);
-    EXPECT_NEAR(InverseWaveAge(wind_speed, fetch), 0.84, 1e-12);
-    EXPECT_NEAR(InverseWaveAge(wind_speed, 0.5 * fetch), 0.84 * std::pow(2, 0.33), 1e-12);
+    const double fetch = ApelSpectrum::FullyDevelopedFetch(wind_speed);
+    EXPECT_NEAR(ApelSpectrum::InverseWaveAge(wind_speed, fetch), 0.84, 1e-12);
+    EXPECT_NEAR(ApelSpectrum::InverseWaveAge(wind_speed, 0.5 * fetch), 0.84 * std::pow(2, 0.33), 1e-12);
   }
 }
 
-TEST(EnergeticRange, HoldsAllButOnePartInTenThousand) {
+TEST(ApelEnergeticRange, HoldsAllButOnePartInTenThousand) {
   for (const double wind_speed : {1.0, 5.0, 15.0}) {
     for (const double fetch : {100.0, 1e4, kFullyDeveloped}) {
       const ApelSpectrum spectrum(wind_speed, fetch);
-      const auto [lowest, highest] = EnergeticRange(spectrum);
+      const auto [lowest, highest] = spectrum.energetic_range();
       for (const int power : {0, 2}) {
         EXPECT_NEAR(Moment(spectrum, power, lowest, highest) / Moment(spectrum, power), 1, 1e-4)
             << wind_speed << " m/s, " << fetch << " m, moment " << power;
