@@ -5,11 +5,15 @@
 
 namespace albtpu {
 
-std::filesystem::path DefaultTablesDirectory() {
-  if (const char* folder = std::getenv("ALBTPU_TABLES"); folder != nullptr && *folder != '\0') return folder;
+std::filesystem::path InstalledDataDirectory() {
   std::error_code error;  // Without /proc, relative to the current folder.
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return program.parent_path().parent_path() / "share" / "albtpu" / "tables";
+  return program.parent_path().parent_path() / "share" / "albtpu";
+}
+
+std::filesystem::path DefaultTablesDirectory() {
+  if (const char* folder = std::getenv("ALBTPU_TABLES"); folder != nullptr && *folder != '\0') return folder;
+  return InstalledDataDirectory() / "tables";
 }
 
 }  // namespace albtpu

@@ -1,4 +1,4 @@
-// Where the tables of an installation are.
+// Where the tables and other data of an installation are.
 #pragma once
 
 #include <filesystem>
@@ -8,5 +8,8 @@ namespace albtpu {
 // The environment variable `ALBTPU_TABLES` unless it is empty; else PREFIX/share/albtpu/tables of the program
 // that runs as PREFIX/bin/NAME. The folder need not exist.
 std::filesystem::path DefaultTablesDirectory();
+
+// PREFIX/share/albtpu of the program that runs as PREFIX/bin/NAME. The folder need not exist.
+std::filesystem::path InstalledDataDirectory();
 
 }  // namespace albtpu

@@ -4,9 +4,10 @@
 
 A figure is a function of the same name in one of the modules beside this file. It gets `read`, which gives a CSV
 file by its name without ending as a NumPy record array (numbers where a column holds numbers, text elsewhere), and
-returns a matplotlib Figure.
+returns a matplotlib Figure. One that fails keeps none of the others from being drawn.
 """
 
+import csv
 import importlib
 import pathlib
 import sys
@@ -36,16 +37,34 @@ def modules():
     return [importlib.import_module(name) for name in names]
 
 
+def column(cells):
+    try:
+        return numpy.array([float(cell or "nan") for cell in cells])
+    except ValueError:
+        return numpy.array(cells)
+
+
+def read_csv(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
+    return numpy.rec.fromarrays([column(cells) for cells in zip(*rows)], names=names)
+
+
 def main(csv_folder, svg_folder, figures):
     def read(name):
-        return numpy.genfromtxt(pathlib.Path(csv_folder) / f"{name}.csv", delimiter=",", names=True,
-                                dtype=None, encoding="utf-8")
+        return read_csv(pathlib.Path(csv_folder) / f"{name}.csv")
 
     drawers = {name: function for module in modules() for name, function in vars(module).items()}
     matplotlib.rcParams.update(STYLE)
+    failed = []
     for figure in figures:
-        drawn = drawers[figure](read)
-        drawn.savefig(pathlib.Path(svg_folder) / f"{figure}.svg", metadata={"Date": None})
+        try:
+            drawn = drawers[figure](read)
+            drawn.savefig(pathlib.Path(svg_folder) / f"{figure}.svg", metadata={"Date": None})
+        except Exception as error:  # whatever it is, the others are drawn
+            failed.append(f"{figure}: {error!r}")
+    if failed:
+        sys.exit("draw.py: " + "; ".join(failed))
 
 
 if __name__ == "__main__":
