@@ -1,0 +1,56 @@
+// The laboratory of Birkebak et al. (2018), section 2.2: a laser above a wave tank, photodiodes in its water.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "generator/beam.h"
+#include "generator/refraction.h"
+#include "generator/sea_state.h"
+#include "generator/validation/photodiode_array.h"
+
+namespace albtpu {
+
+// The elevations of the water in one frame: a periodic square patch, ix slow.
+using WaterOfFrame = std::function<std::vector<double>(int frame)>;
+
+struct TankGrid {
+  double length = 1.024;  // m, side of the patch
+  int size = 512;         // points along it, even: 2 mm apart
+};
+
+// Frames of water that have nothing to do with each other.
+WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
+                               std::uint32_t cell);
+// Frames of one evolving water, `rate` [Hz] of them in a second.
+WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
+                              std::uint32_t cell);
+
+struct TankExperiment {
+  // From a point 4 m above the water: 60 mrad make 0.24 m there, printed as 0.25 m.
+  std::vector<BeamOptions> beams = {{.footprint = 0.25, .source_height = 4}};
+  std::vector<PhotodiodeArrayOptions> arrays = {{}};  // each in the same light
+  double depth = 0.25;                                // m, of the arrays below the mean surface
+  int rays = 40000;
+  double refractive_index = kRefractiveIndex;
+  TankGrid grid;
+  int frames = 400;  // 20 s at 20 Hz
+};
+
+// Eq. 18 and 19 to the letter, atan(shift of a centroid / depth) against still water: rad, frame by frame. Frames in
+// which nothing was lit are left out.
+struct CentroidAngles {
+  Eigen::ArrayXd along_wind, cross_wind;
+};
+
+struct TankReading {                   // of one beam
+  CentroidAngles full_beam;            // of all its light
+  std::vector<CentroidAngles> arrays;  // of the samples of each array
+};
+
+// The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB arena.
+std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFrame& water);
+
+}  // namespace albtpu
