@@ -13,7 +13,6 @@
 #include <functional>
 #include <limits>
 #include <ostream>
-#include <string_view>
 #include <vector>
 
 #include "generator/discretization.h"
@@ -125,11 +124,9 @@ TEST(Convergence, DoublingThePatchMovesNothingByMoreThanAPercent) {
 
 // Runs every case as chosen and as `refined`, on the same waves. What is left to chance is what one of the two
 // does not see, up to 1.5 % of the variance (discretization.h); its product with the rest averages out as one over
-// the root of the realizations. Vertical errors at nadir are of second order in slope and rest on shorter waves
-// than all else: a finer grid adds up to 2 % to them, which is within their own standard error of 2-3 % here and is
-// held to no more than that.
+// the root of the realizations.
 void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(Discretization)>& refined) {
-  const double three_standard_errors = 3 * std::sqrt(0.015 / kRealizations);
+  const double chance = 3 * std::sqrt(0.015 / kRealizations);  // three standard errors
   for (std::size_t i = 0; i < kCases.size(); ++i) {
     const Case& c = kCases[i];
     const Discretization chosen = Chosen(c);
@@ -139,8 +136,6 @@ void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(D
     for (const std::size_t beam : {0, 1}) {
       for (const Quantity& quantity : kQuantities) {
         const Estimate before = quantity.of(coarse[beam]), after = quantity.of(fine[beam]);
-        const bool second_order = beam == 0 && quantity.name == std::string_view("TVU");
-        const double chance = second_order ? before.standard_error / before.value : three_standard_errors;
         EXPECT_NEAR(after.value / before.value, 1, kAllowed + chance)
             << quantity.name << (beam == 0 ? " at nadir, " : " at slant, ") << c;
       }
