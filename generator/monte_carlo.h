@@ -32,7 +32,7 @@ struct Encounter {
 };
 
 // What one beam of an encounter comes to. Refraction in rad, the others in m, one for each depth.
-// docs/method.md has the definitions.
+// docs/physics.md has the definitions.
 struct BeamUncertainty {
   Estimate refraction_along_wind, refraction_cross_wind;
   std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
