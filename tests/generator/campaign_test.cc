@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 
 #include "generator/angle.h"
 #include "generator/apel_spectrum.h"
+#include "generator/elfouhaily_spectrum.h"
 #include "tests/tables/temporary_directory.h"
 
 namespace albtpu {
@@ -63,6 +65,33 @@ TEST(Campaign, ResolvesInfiniteFetchToFullDevelopmentOfTheStrongestWind) {
   EXPECT_GE(last, ApelSpectrum::FullyDevelopedFetch(6));
   EXPECT_NEAR(last / ApelSpectrum::FullyDevelopedFetch(6), 1, 1e-6);  // the next float
   for (const double wind : {3.0, 6.0}) EXPECT_EQ(ApelSpectrum::InverseWaveAge(wind, last), 0.84);
+}
+
+TEST(Campaign, TakesTheSeaThatItsFileNames) {
+  const absl::StatusOr<Campaign> apel = ParseCampaign(kSmall);
+  ASSERT_TRUE(apel.ok()) << apel.status();
+  EXPECT_EQ(EncounterOf(*apel, 0).sea.spectrum, SpectrumKind::kApel);
+  EXPECT_TRUE(std::isinf(EncounterOf(*apel, 0).sea.corrected_above));
+
+  const absl::StatusOr<Campaign> other =
+      ParseCampaign(std::string(kSmall) + "[sea]\nspectrum = \"elfouhaily\"\ncorrected_above = 30\n");
+  ASSERT_TRUE(other.ok()) << other.status();
+  EXPECT_EQ(EncounterOf(*other, 0).sea.spectrum, SpectrumKind::kElfouhaily);
+  EXPECT_EQ(EncounterOf(*other, 0).sea.corrected_above, 30);
+  // Its sea develops over a longer fetch; the last node is the sea that has.
+  EXPECT_NEAR(other->nodes(AxisId::kFetch).back() / ElfouhailySpectrum::FullyDevelopedFetch(6), 1, 1e-6);
+  EXPECT_TRUE(std::isinf(EncounterOf(*other, 7).sea.fetch));
+}
+
+TEST(Campaign, NamesWhatIsWrongWithItsSea) {
+  const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),
+              HasSubstr("'sea.spectrum' must be \"apel\" or \"elfouhaily\""));
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = 3\n")), HasSubstr("'sea.spectrum' in line 15 must be a text"));
+  EXPECT_THAT(ErrorOf(with_sea("corrected_above = 0\n")),
+              HasSubstr("'sea.corrected_above' in line 15 must be"));
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"elfouhaily\"\nspreading = 2\n")),
+              HasSubstr("'sea.spreading' is that of Apel's sea"));
 }
 
 TEST(Campaign, OrdersEncountersByWindFetchAndFootprint) {

@@ -71,5 +71,19 @@ TEST(ClosedForm, FallsWithTheFootprint) {
   }
 }
 
+TEST(ClosedForm, FallsWithTheWavesThatAreCorrectedFor) {
+  const BeamOptions beam{.incidence = 0.3, .footprint = 0.5};
+  for (const SpectrumKind spectrum : {SpectrumKind::kApel, SpectrumKind::kElfouhaily}) {
+    SeaOptions options{.wind_speed_10m = 8, .spectrum = spectrum};
+    double before = ClosedForm(SeaState(options), beam, kRefractiveIndex).thu_per_depth;
+    for (const double corrected_above : {100.0, 30.0, 10.0, 3.0, 1.0, 0.5}) {
+      options.corrected_above = corrected_above;
+      const double thu = ClosedForm(SeaState(options), beam, kRefractiveIndex).thu_per_depth;
+      EXPECT_LT(thu, before) << Name(spectrum) << ", " << corrected_above << " m";
+      before = thu;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace albtpu

@@ -95,6 +95,14 @@ class Table(unittest.TestCase):
             self.assertGreater(low, 0.99)
             self.assertLess(high, 1.01)
 
+    def test_says_which_sea_it_is_of(self):
+        self.campaign = self.path("other.toml", CAMPAIGN +
+                                  '[sea]\nspectrum = "elfouhaily"\ncorrected_above = 30\n')
+        with h5py.File(self.make("other.h5")) as data:
+            self.assertIn("Elfouhaily", data.attrs["spectrum"])
+            self.assertIn("longer than 30 m", data.attrs["spectrum"])
+            self.assertIn("Cox and Munk", data.attrs["spectrum_departures"])
+
     def test_prints_nothing_that_depends_on_path_or_time(self):
         first = generate("table", "--campaign", self.campaign, "--output", self.path("a.h5"))
         second = generate("table", "--campaign", self.campaign, "--output", self.path("b.h5"), "--threads", "1")
@@ -162,11 +170,19 @@ class Point(unittest.TestCase):
         self.assertEqual(absent.stdout, infinite.stdout)
         self.assertEqual(absent.returncode, 0)
 
+    def test_takes_another_spectrum_and_leaves_out_what_is_corrected(self):
+        def thu(*flags):
+            return json.loads(generate(*POINT, "--json", *flags).stdout)["thu"][0]
+        self.assertNotEqual(thu(), thu("--spectrum", "elfouhaily"))
+        self.assertEqual(thu(), thu("--spectrum", "apel"))
+        self.assertLess(thu("--corrected-above", "1"), 0.5 * thu())
+
     def test_refuses_bad_flags_as_usage(self):
         for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"), ("--wind-speed", "0"),
                             ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
                             ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
                             ("--fetch", "0"), ("--azimuth", "inf"), ("--profile", "square"),
+                            ("--spectrum", "phillips"), ("--corrected-above", "0"), ("--corrected-above", "nan"),
                             ("--relative-error", "0"), ("--seed", "-1"), ("--seed", "18446744073709551616"),
                             ("--refractive-index", "nan"), ("--speed", "3")):
             arguments = list(POINT)
