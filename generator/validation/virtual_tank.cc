@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "generator/angle.h"
 #include "generator/cross_fade.h"
 #include "generator/height_field.h"
 #include "generator/validation/evolving_patch.h"
@@ -91,6 +92,12 @@ CentroidAngles AnglesOf(const std::vector<std::optional<Eigen::Vector2d>>& centr
 
 }  // namespace
 
+SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
+  SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = 30};
+  options.height_scale = significant_wave_height / (4 * std::sqrt(ElevationVariance(SeaState(options))));
+  return SeaState(options);
+}
+
 WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
                                std::uint32_t cell) {
   // The tank's waves are much shorter than the patch, so it takes all of them.
@@ -105,6 +112,14 @@ WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double 
   const auto patch =
       std::make_shared<const EvolvingPatch>(sea, grid.length, grid.size, NormalStream(seed, cell, 0));
   return [patch, rate](int frame) { return patch->HeightsAt(frame / rate); };
+}
+
+CentroidScatter ScatterOf(const CentroidAngles& angles) {
+  const auto two_sigma = [](const Eigen::ArrayXd& sample) {
+    const Estimate radians = TwoSigma(sample);
+    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+  };
+  return {two_sigma(angles.along_wind), two_sigma(angles.cross_wind)};
 }
 
 std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFrame& water) {
@@ -136,6 +151,14 @@ std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFram
     readings.push_back(std::move(reading));
   }
   return readings;
+}
+
+std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment,
+                                          const std::vector<double>& water) {
+  const PreparedBeam beam(experiment.beams.front(), experiment);
+  const int points = PointsToHold({beam}, experiment.grid.length / experiment.grid.size);
+  return SpotsAtDepth(beam.rays, WindowOf(water, experiment.grid, points), experiment.refractive_index,
+                      experiment.depth);
 }
 
 }  // namespace albtpu

@@ -9,9 +9,15 @@
 #include "generator/beam.h"
 #include "generator/refraction.h"
 #include "generator/sea_state.h"
+#include "generator/statistics.h"
 #include "generator/validation/photodiode_array.h"
 
 namespace albtpu {
+
+// The sea that the paper fitted to its tank, Apel's at 30 m of fetch, with all waves scaled to a significant wave
+// height [m]: its own is 1.6 mm at 2 m/s and 3.9 mm at 5.25 m/s, Table 2 measured 8 to 11 mm.
+inline constexpr double kTankWaveHeight = 0.009;  // m, Table 2 at 6.5 to 8.5 m from the fan
+SeaState TankSea(double wind_speed_10m, double significant_wave_height);
 
 // The elevations of the water in one frame: a periodic square patch, ix slow.
 using WaterOfFrame = std::function<std::vector<double>(int frame)>;
@@ -28,11 +34,16 @@ WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::u
 WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
                               std::uint32_t cell);
 
+// A uniform beam of 0.25 m on the water, from a point 4 m above it. (60 mrad make 0.24 m.)
+inline BeamOptions LaboratoryBeam(double incidence) {  // rad
+  return {.incidence = incidence, .footprint = 0.25, .source_height = 4};
+}
+
 struct TankExperiment {
-  // From a point 4 m above the water: 60 mrad make 0.24 m there, printed as 0.25 m.
-  std::vector<BeamOptions> beams = {{.footprint = 0.25, .source_height = 4}};
-  std::vector<PhotodiodeArrayOptions> arrays = {{}};  // each in the same light
-  double depth = 0.25;                                // m, of the arrays below the mean surface
+  std::vector<BeamOptions> beams = std::vector<BeamOptions>(1, LaboratoryBeam(0));
+  std::vector<PhotodiodeArrayOptions> arrays =  // each in the same light
+      std::vector<PhotodiodeArrayOptions>(1);
+  double depth = 0.25;  // m, of the arrays below the mean surface
   int rays = 40000;
   double refractive_index = kRefractiveIndex;
   TankGrid grid;
@@ -45,6 +56,12 @@ struct CentroidAngles {
   Eigen::ArrayXd along_wind, cross_wind;
 };
 
+struct
+    CentroidScatter {  // 2 sigma, in degrees, as tables have it; standard errors hold for independent frames
+  Estimate along_wind, cross_wind;
+};
+CentroidScatter ScatterOf(const CentroidAngles& angles);
+
 struct TankReading {                   // of one beam
   CentroidAngles full_beam;            // of all its light
   std::vector<CentroidAngles> arrays;  // of the samples of each array
@@ -52,5 +69,8 @@ struct TankReading {                   // of one beam
 
 // The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB arena.
 std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFrame& water);
+
+// Where the light of the first beam falls in one frame: the picture that its arrays sample.
+std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment, const std::vector<double>& water);
 
 }  // namespace albtpu

@@ -1,0 +1,74 @@
+"""Figures of the laboratory study, Table 4."""
+
+import numpy
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+
+def table_4(read):
+    cells = read("table_4")
+    incidences = numpy.unique(cells["incidence_deg"])
+    figure = Figure(figsize=(7, 2.4 * len(incidences) + 0.6))
+    rows = figure.subplots(len(incidences), 2, sharex=True, sharey=True, squeeze=False)
+    for row, incidence in zip(rows, incidences):
+        at = cells[cells["incidence_deg"] == incidence]
+        wind = at["wind_speed_m_s"]
+        for axes, axis in zip(row, ("along", "cross")):
+            axes.plot(wind, at[f"published_{axis}_wind_deg"], "o", color="tab:red", label="measured")
+            axes.errorbar(wind, at[f"{axis}_wind_deg"], 2 * at[f"{axis}_wind_standard_error_deg"], fmt=".-",
+                          color="tab:blue", capsize=3, label="virtual array")
+            axes.plot(wind, at[f"full_beam_{axis}_wind_deg"], ".-", color="0.5", label="full beam")
+            axes.set_title(f"{axis} wind, incidence {incidence:g}°", fontsize=10)
+            axes.set_ylim(bottom=0)
+        row[0].set_ylabel("2σ (degrees)")
+    for axes in rows[-1]:
+        axes.set_xlabel("wind (m/s)")
+    rows[0][0].legend(loc=(0.02, 0.1), fontsize=8)
+    return figure
+
+
+def table_4_light(read):
+    light = read("table_4_light")
+    x, y = (numpy.unique(light[name]) * 100 for name in ("along_wind_m", "cross_wind_m"))
+    figure = Figure(figsize=(6, 5))
+    axes = figure.subplots()
+    picture = axes.imshow(light["irradiance"].reshape(len(x), len(y)).T, origin="lower", cmap="gray",
+                          extent=(x[0], x[-1], y[0], y[-1]), vmin=0, vmax=6, interpolation="nearest")
+    for column in numpy.arange(-12.5, 13, 5):
+        for row in numpy.arange(-12.5, 13, 5):
+            axes.add_patch(Circle((column, row), 0.5, fill=False, color="tab:red", linewidth=1))
+    axes.grid(False)
+    axes.set_xlabel("along wind (cm)")
+    axes.set_ylabel("cross wind (cm)")
+    figure.colorbar(picture, label="irradiance over its mean on the water")
+    return figure
+
+
+def table_4_sensitivity(read):
+    found = read("table_4_sensitivity")
+    figure = Figure(figsize=(7, 7.2))
+    apertures, detectors, heights = figure.subplots(3, 1)
+
+    def draw(axes, parameter, label, **style):
+        at = found[found["parameter"] == parameter]
+        if len(at):
+            order = numpy.argsort(at["value"])
+            axes.errorbar(at["value"][order], at["along_wind_deg"][order],
+                          2 * at["along_wind_standard_error_deg"][order], fmt=".-", capsize=3, label=label, **style)
+
+    draw(apertures, "aperture (cm)", "uniform beam", color="tab:blue")
+    draw(apertures, "aperture, gaussian beam (cm)", "gaussian beam", color="tab:orange")
+    apertures.set_xlabel("aperture (cm)")
+    draw(detectors, "detectors along 0.30 m", "apertures of 1 cm", color="tab:blue")
+    detectors.set_xlabel("detectors along 0.30 m")
+    draw(heights, "wave height, 2 m/s (mm)", "2 m/s", color="tab:blue")
+    draw(heights, "wave height, 5.25 m/s (mm)", "5.25 m/s", color="tab:green")
+    heights.set_xlabel("significant wave height (mm)")
+    full_beam = found["full_beam_along_wind_deg"][0]
+    for axes in (apertures, detectors):
+        axes.axhline(full_beam, color="0.5", linestyle="--", label="full beam")
+    for axes in (apertures, detectors, heights):
+        axes.set_ylim(bottom=0)
+        axes.set_ylabel("2σ along wind\n(degrees)")
+        axes.legend(fontsize=9)
+    return figure

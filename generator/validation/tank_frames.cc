@@ -1,0 +1,78 @@
+#include "generator/validation/tank_frames.h"
+
+#include <numbers>
+
+#include "generator/validation/virtual_tank.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kFrameRate = 20;  // Hz
+
+// The correlation of a sample with itself one frame later.
+double CorrelationWithNext(const Eigen::ArrayXd& sample) {
+  const Eigen::Index n = sample.size();
+  const Eigen::ArrayXd deviation = sample - sample.mean();
+  return (deviation.head(n - 1) * deviation.tail(n - 1)).sum() / deviation.square().sum();
+}
+
+}  // namespace
+
+DataTable LightUnderWaves(std::uint64_t seed) {
+  constexpr double kBin = 0.002;  // m
+  constexpr int kBins = 150;
+  TankExperiment experiment;
+  experiment.rays = 1'000'000;
+  const WaterOfFrame water = IndependentFrames(TankSea(2, kTankWaveHeight), experiment.grid, seed, 0);
+  std::vector<double> light(kBins * kBins, 0.0);
+  for (const Eigen::Vector2d& spot : LightOfFrame(experiment, water(0))) {
+    const Eigen::Array2d bin = (spot.array() / kBin + 0.5 * kBins).floor();
+    if ((bin < 0).any() || (bin >= kBins).any()) continue;
+    light[static_cast<int>(bin.x()) * kBins + static_cast<int>(bin.y())] += 1;
+  }
+  DataTable table{
+      "table_4_light",
+      "Where the light of one frame falls at the depth of the array, 2 m/s, nadir; irradiance over its mean "
+      "on the water.",
+      {"along_wind_m", "cross_wind_m", "irradiance"},
+      {},
+      false};
+  const double footprint = experiment.beams.front().footprint;
+  const double rays_of_bin =
+      experiment.rays * kBin * kBin / (0.25 * std::numbers::pi * footprint * footprint);
+  for (int i = 0; i < kBins; ++i) {
+    for (int j = 0; j < kBins; ++j) {
+      table.rows.push_back({(i + 0.5 - 0.5 * kBins) * kBin, (j + 0.5 - 0.5 * kBins) * kBin,
+                            light[i * kBins + j] / rays_of_bin});
+    }
+  }
+  return table;
+}
+
+DataTable SuccessiveFramesByWind(const std::vector<double>& winds, int frames, std::uint64_t seed) {
+  DataTable table{
+      "table_4_evolving",
+      "The array at nadir in a water that evolves in time, 20 frames a second: standard errors as if "
+      "frames were independent, and how alike one is to the next.",
+      {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
+       "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
+       "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},
+      {}};
+  for (std::size_t i = 0; i < winds.size(); ++i) {
+    TankExperiment experiment;
+    experiment.frames = frames;
+    const TankReading reading =
+        Run(experiment, SuccessiveFrames(TankSea(winds[i], kTankWaveHeight), experiment.grid, kFrameRate,
+                                         seed, static_cast<std::uint32_t>(i)))
+            .front();
+    const CentroidScatter array = ScatterOf(reading.arrays.front());
+    const CentroidScatter full_beam = ScatterOf(reading.full_beam);
+    table.rows.push_back({winds[i], array.along_wind.value, array.along_wind.standard_error,
+                          array.cross_wind.value, array.cross_wind.standard_error, full_beam.along_wind.value,
+                          full_beam.cross_wind.value, CorrelationWithNext(reading.arrays.front().along_wind),
+                          CorrelationWithNext(reading.full_beam.along_wind)});
+  }
+  return table;
+}
+
+}  // namespace albtpu
