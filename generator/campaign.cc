@@ -88,6 +88,12 @@ Effort ReadEffort(TomlReader& toml) {
   Effort effort;
   effort.realizations = static_cast<int>(toml.Integer("effort", "realizations", 2, kMost).value_or(1000));
   effort.relative_error = toml.Number("effort", "relative_error", 1e-4, 0.5, 0);
+  const std::string estimator = toml.Text("effort", "estimator", Name(effort.estimator));
+  if (const std::optional<Estimator> found = FindEstimator(estimator)) {
+    effort.estimator = *found;
+  } else {
+    toml.Fail("'effort.estimator' must be \"control_variate\" or \"plain\"");
+  }
   const int most =
       effort.relative_error > 0 ? std::max(effort.realizations, kMostUnlessSaid) : effort.realizations;
   effort.most_realizations = static_cast<int>(

@@ -43,6 +43,7 @@ namespace albtpu {
 //   realizations = 1000
 //   most_realizations = 40000     # the end even where relative_error is not met
 //   relative_error = 0.02         # go on until every value has it; absent: `realizations` it is
+//   estimator = "control_variate" # or "plain": tracing alone
 //   rays = 10000                  # of each beam; chosen from spectrum and footprint where absent
 struct Campaign {
   std::string text;  // the file, as it is

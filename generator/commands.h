@@ -35,6 +35,7 @@ struct PointOptions {
   std::string profile = "uniform";                                   // or "gaussian"
   double refractive_index = 1.33;
   double relative_error = 0.01;
+  std::string estimator = "control_variate";  // or "plain"
   std::uint64_t seed = 1;
   bool json = false;
 };

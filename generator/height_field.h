@@ -41,8 +41,10 @@ class HeightField {
   Facet FacetOf(const Triangle& triangle) const;
   Facet FacetAt(const Eigen::Vector2d& x) const { return FacetOf(TriangleAt(x)); }
 
-  double reach() const { return (points_ - 1) / 2 * spacing_; }  // m from the centre to each side
-  double spacing() const { return spacing_; }                    // m
+  const std::vector<double>& heights() const { return heights_; }  // m, as given
+  int points() const { return points_; }                           // along a side
+  double reach() const { return (points_ - 1) / 2 * spacing_; }    // m from the centre to each side
+  double spacing() const { return spacing_; }                      // m
 
  private:
   std::vector<double> heights_;

@@ -6,14 +6,10 @@
 #include <mutex>
 #include <new>
 
+#include "generator/fftw_planner.h"
+
 namespace albtpu {
 namespace {
-
-// The planner of FFTW is not thread-safe; executing a plan is.
-std::mutex& PlannerMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 struct FreeReal {
   void operator()(double* memory) const { fftw_free(memory); }
@@ -34,13 +30,13 @@ fftw_complex* AsFftw(const InverseFft::Modes& modes) { return reinterpret_cast<f
 
 struct InverseFft::Plan {
   Plan(int size, fftw_complex* modes, double* heights) {
-    const std::lock_guard lock(PlannerMutex());
+    const std::lock_guard lock(FftwPlanner());
     // FFTW_ESTIMATE picks the same plan each time; a measured plan can differ from run to run in the last
     // bit.
     plan = fftw_plan_dft_c2r_2d(size, size, modes, heights, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   }
   ~Plan() {
-    const std::lock_guard lock(PlannerMutex());
+    const std::lock_guard lock(FftwPlanner());
     fftw_destroy_plan(plan);
   }
   Plan(const Plan&) = delete;

@@ -91,6 +91,8 @@ void AddPoint(CLI::App& point, PointOptions& options) {
       .add_option("--relative-error", options.relative_error,
                   "to go on to, of refraction, THU and TVU (default 0.01)")
       ->check(NumberIn(1e-4, 0.5));
+  point.add_option("--estimator", options.estimator, "control_variate (default) or plain: tracing alone")
+      ->check(CLI::IsMember({"control_variate", "plain"}));
   point.add_option("--seed", options.seed, "of the random numbers, a whole number (default 1)")
       ->check(Seed());
   point.add_flag("--json", options.json, "print one JSON object");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "generator/beam.h"
@@ -12,12 +13,20 @@
 
 namespace albtpu {
 
+enum class Estimator {
+  kControlVariate,  // the closed form of each surface's mean slope, and by tracing what differs from it
+  kPlain,           // tracing alone: the slow twin
+};
+std::string_view Name(Estimator estimator);  // "control_variate", "plain"
+std::optional<Estimator> FindEstimator(std::string_view name);
+
 // How long to go on. Realizations are counted in whole batches of `kBatch`.
 struct Effort {
   int realizations = 1000;       // at least so many, 2 or more
   int most_realizations = 1000;  // and no more
   // Go on until refraction, THU and TVU have this standard error over their value; 0: don't.
   double relative_error = 0;
+  Estimator estimator = Estimator::kControlVariate;
 };
 inline constexpr int kBatch = 250;
 

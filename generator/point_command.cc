@@ -108,7 +108,8 @@ void PrintText(const PointOptions& options, const EncounterResult& result) {
 absl::Status RunPoint(const PointOptions& options) {
   const Effort effort{.realizations = kLeastRealizations,
                       .most_realizations = kMostRealizations,
-                      .relative_error = options.relative_error};
+                      .relative_error = options.relative_error,
+                      .estimator = *FindEstimator(options.estimator)};
   const auto start = std::chrono::steady_clock::now();
   const EncounterResult result = Simulate(EncounterAt(options), effort, options.seed, 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

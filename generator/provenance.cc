@@ -89,6 +89,7 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
        "the mean "
        "of refraction over their slopes. Ranges are the least and the greatest over winds, fetches and "
        "footprints."},
+      {"estimator", std::string(Name(campaign.effort.estimator))},
       {"realizations", Range(results, &EncounterResult::realizations)},
       {"rays", Range(results, &EncounterResult::rays)},
       {"domain", Range(results, &EncounterResult::patch_length)},

@@ -75,16 +75,32 @@ std::array<double, 4> CubicWeights(double t) {
           (t + 1) * t * (t - 1) / 6};
 }
 
+// The matrix that takes values at 2 half_nodes + 1 nodes to the points between them, `stride` from node to node,
+// without the outermost intervals, by cubic Lagrange interpolation.
+Eigen::MatrixXd CubicRefinement(int half_nodes, int stride) {
+  const int intervals = 2 * (half_nodes - 1);
+  Eigen::MatrixXd refinement = Eigen::MatrixXd::Zero(intervals * stride + 1, 2 * half_nodes + 1);
+  for (int i = 0; i < refinement.rows(); ++i) {
+    const int node = std::min(i / stride, intervals - 1);
+    const std::array<double, 4> weights = CubicWeights(static_cast<double>(i - node * stride) / stride);
+    for (int n = 0; n < 4; ++n) refinement(i, node + n) = weights[n];
+  }
+  return refinement;
+}
+
 }  // namespace
 
 SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
                            const Discretization& discretization)
     : patch_(MakePatch(sea, widest, discretization)), long_waves_(sea, PatchShare(patch_.length())) {
-  stride_ = std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
-  const double node_spacing = stride_ * patch_.spacing();
-  half_nodes_ = static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;  // one for the cubic
-  phase_x_ = Phases(long_waves_, half_nodes_, node_spacing, 0);
-  phase_y_ = Phases(long_waves_, half_nodes_, node_spacing, 1);
+  const int stride =
+      std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
+  const double node_spacing = stride * patch_.spacing();
+  const int half_nodes =
+      static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;  // one for the cubic
+  refine_ = CubicRefinement(half_nodes, stride);
+  phase_x_ = Phases(long_waves_, half_nodes, node_spacing, 0);
+  phase_y_ = Phases(long_waves_, half_nodes, node_spacing, 1);
 }
 
 Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
@@ -92,19 +108,35 @@ Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
   return patch_.FacetSlopeCovariance(weight) + long_waves_.SlopeCovariance(weight);
 }
 
-Eigen::MatrixXd SurfaceModel::RefineLongWaves(const Eigen::MatrixXd& at_nodes) const {
-  const int points = 2 * (half_nodes_ - 1) * stride_ + 1;
-  const auto refine_rows = [&](const Eigen::MatrixXd& coarse) {
-    Eigen::MatrixXd fine(points, coarse.cols());
-    for (int i = 0; i < points; ++i) {
-      const int node = std::min(i / stride_, 2 * (half_nodes_ - 1) - 1);
-      const auto w = CubicWeights(static_cast<double>(i - node * stride_) / stride_);
-      fine.row(i) = w[0] * coarse.row(node) + w[1] * coarse.row(node + 1) + w[2] * coarse.row(node + 2) +
-                    w[3] * coarse.row(node + 3);
+SurfaceModel::Moments SurfaceModel::MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights,
+                                              const Eigen::Vector2d& per_height) const {
+  // The patch repeats: weights a period apart fall on the same point.
+  std::array<Eigen::MatrixXd, 2> on_patch;
+  for (int f = 0; f < 2; ++f) {
+    on_patch[f] = Eigen::MatrixXd::Zero(patch_.size(), patch_.size());
+    for (Eigen::Index i = 0; i < weights[f].rows(); ++i) {
+      for (Eigen::Index j = 0; j < weights[f].cols(); ++j) {
+        on_patch[f](i % patch_.size(), j % patch_.size()) += weights[f](i, j);
+      }
     }
-    return fine;
-  };
-  return refine_rows(refine_rows(at_nodes).transpose()).transpose();
+  }
+  Moments moments{Eigen::Vector2d::Zero(), patch_.Covariance(on_patch)};
+
+  // A functional of the long waves is the real part of the sum of A c, A their amplitudes about the meeting.
+  std::array<Eigen::VectorXcd, 2> of_wave;
+  for (int f = 0; f < 2; ++f) {
+    const Eigen::MatrixXd at_nodes = refine_.transpose() * weights[f] * refine_;
+    of_wave[f] = (at_nodes * phase_y_).cwiseProduct(phase_x_).colwise().sum().transpose();
+  }
+  for (Eigen::Index m = 0; m < of_wave[0].size(); ++m) {
+    const LongWaveModel::Wave& wave = long_waves_.waves()[m];
+    const Eigen::Vector2cd c(of_wave[0][m], of_wave[1][m]);
+    moments.covariance += wave.variance * (c * c.adjoint()).real();
+    moments.mean -= wave.variance * wave.wavenumber.dot(per_height) * c.imag();
+  }
+  // The third moments of a Gaussian field vanish: the weight leaves the mean of squares alone.
+  moments.covariance -= moments.mean * moments.mean.transpose();
+  return moments;
 }
 
 SeaSurface::SeaSurface(const SurfaceModel& model, NormalStream stream)
@@ -122,7 +154,7 @@ SeaSurface::Window SeaSurface::WindowUnder(const Beam& beam) const {
                              weighted.imag() * model_.phase_y_.imag().transpose();
   at_nodes.array() -= elevation;
 
-  const Eigen::MatrixXd long_waves = model_.RefineLongWaves(at_nodes);
+  const Eigen::MatrixXd long_waves = model_.refine_ * at_nodes * model_.refine_.transpose();
   const int points = static_cast<int>(long_waves.rows());
   const int size = model_.patch_.size();
   const int first = ((-(points - 1) / 2) % size + size) % size;  // the patch repeats

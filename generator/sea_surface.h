@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -30,19 +31,26 @@ class SurfaceModel {
 
   // Covariance of the slopes of the facets of the surface, waves weighted by `weight(k, psi)`.
   Eigen::Matrix2d FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const;
+
+  // Mean and covariance over all surfaces of two linear functionals of the heights of SeaSurface::Window under a beam
+  // whose axis has `per_height`, each the sum of its weights (as the heights of the window, ix the row) times the
+  // heights. The weights of a functional sum to zero. Exact: the waves are a Gaussian field, but a line through
+  // them meets places with the weight 1 - per_height . slope of the long waves, which gives the mean.
+  struct Moments {
+    Eigen::Vector2d mean;
+    Eigen::Matrix2d covariance;
+  };
+  Moments MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights, const Eigen::Vector2d& per_height) const;
+  int window_points() const { return static_cast<int>(refine_.rows()); }  // along a side
+
   double elevation_variance() const { return patch_.elevation_variance() + long_waves_.elevation_variance(); }
 
  private:
   friend class SeaSurface;
 
-  // Values at the points of the window, by cubic Lagrange interpolation, from those at the nodes of the long
-  // waves.
-  Eigen::MatrixXd RefineLongWaves(const Eigen::MatrixXd& at_nodes) const;
-
   WavePatchModel patch_;
   LongWaveModel long_waves_;
-  int stride_;                          // points of the grid from node to node of the long waves
-  int half_nodes_;                      // nodes of the long waves from the centre of the window to its side
+  Eigen::MatrixXd refine_;  // from values at the nodes of the long waves to the points of the window
   Eigen::MatrixXcd phase_x_, phase_y_;  // exp(i k x) at the nodes (rows) for each wave (columns)
 };
 

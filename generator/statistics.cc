@@ -17,6 +17,32 @@ Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares) {
   return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
 }
 
+constexpr Eigen::Index kFewestToFit = 32;  // realizations
+
+// The slope of a straight line through (x, y), zero where x does not scatter.
+double Slope(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
+  const Eigen::ArrayXd deviation = x - x.mean();
+  const double scatter = deviation.square().sum();
+  return scatter > 0 ? (deviation * y).sum() / scatter : 0;
+}
+
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& of_control,
+                           double variance_of_control) {
+  const Eigen::Index n = squares.size(), half = n / 2;
+  if (n < kFewestToFit) return TwoSigmaOfSquares(squares);
+  double variance = 0, scatter = 0;
+  for (const bool first : {true, false}) {
+    const Eigen::Index begin = first ? 0 : half, count = first ? half : n - half;
+    const Eigen::Index other = first ? half : 0, others = n - count;
+    const double b = Slope(of_control.segment(other, others), squares.segment(other, others));
+    const Eigen::ArrayXd rest = squares.segment(begin, count) - b * of_control.segment(begin, count);
+    variance += rest.sum() / (n - 1) + b * variance_of_control * count / n;
+    scatter += (rest - rest.mean()).square().sum() / (n - 2);
+  }
+  if (variance <= 0) return TwoSigmaOfSquares(squares);
+  return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
+}
+
 }  // namespace
 
 Estimate Mean(const Eigen::ArrayXd& sample) {
@@ -32,6 +58,23 @@ Estimate TwoSigma(const Eigen::ArrayXd& sample) {
 
 Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   return TwoSigmaOfSquares((x - x.mean()).square() + (y - y.mean()).square());
+}
+
+Estimate TwoSigma(const Eigen::ArrayXd& sample, const Control& control) {
+  return TwoSigmaOfSquares((sample - sample.mean()).square(),
+                           (control.sample - control.sample.mean()).square(), control.variance);
+}
+
+Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const Control& control) {
+  return TwoSigmaOfSquares(
+      (x - x.mean()).square() + (y - y.mean()).square(),
+      (control.sample - control.sample.mean()).square() + (control.second - control.second.mean()).square(),
+      control.variance);
+}
+
+Estimate Mean(const Eigen::ArrayXd& sample, const Control& control) {
+  const Estimate difference = Mean(sample - control.sample);
+  return {difference.value + control.mean, difference.standard_error};
 }
 
 }  // namespace albtpu

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -31,6 +32,10 @@ class WavePatchModel {
   // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through an FFT. A finer grid of the same
   // length draws the same amplitudes for the modes that both have.
   std::vector<double> Draw(const NormalStream& stream) const;
+
+  // The covariance of two linear functionals of the heights, each the sum of its weights (size x size) times the
+  // heights, exactly.
+  Eigen::Matrix2d Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const;
 
   double elevation_variance() const;
   // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle

@@ -83,6 +83,15 @@ TEST(Campaign, TakesTheSeaThatItsFileNames) {
   EXPECT_TRUE(std::isinf(EncounterOf(*other, 7).sea.fetch));
 }
 
+TEST(Campaign, MayAskForTracingAlone) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(std::string(kSmall) + "estimator = \"plain\"\n");
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  EXPECT_EQ(campaign->effort.estimator, Estimator::kPlain);
+  EXPECT_EQ(ParseCampaign(kSmall)->effort.estimator, Estimator::kControlVariate);
+  EXPECT_THAT(ErrorOf(std::string(kSmall) + "estimator = \"none\"\n"),
+              HasSubstr("'effort.estimator' must be \"control_variate\" or \"plain\""));
+}
+
 TEST(Campaign, NamesWhatIsWrongWithItsSea) {
   const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
   EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),

@@ -109,10 +109,37 @@ TEST(MonteCarlo, TurnsRefractionIntoHorizontalUncertainty) {
   EXPECT_NEAR(beam.thu[0].value / 100 / both, 1, 0.003);  // tan for the angle, and waves within the footprint
 }
 
+// The same surfaces, with and without what is known of their mean slopes.
+TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
+  const Encounter encounter =
+      ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
+  Effort effort = Exactly(1000);
+  const EncounterResult controlled = Simulate(encounter, effort, 3, 0);
+  effort.estimator = Estimator::kPlain;
+  const EncounterResult plain = Simulate(encounter, effort, 3, 1);
+  for (std::size_t b = 0; b < encounter.beams.size(); ++b) {
+    const BeamUncertainty &c = controlled.beams[b], &p = plain.beams[b];
+    ExpectWithinErrors(c.refraction_along_wind, p.refraction_along_wind);
+    ExpectWithinErrors(c.refraction_cross_wind, p.refraction_cross_wind);
+    EXPECT_LT(c.refraction_along_wind.standard_error, 0.1 * p.refraction_along_wind.standard_error);
+    for (const std::size_t d : {1, 2}) {
+      ExpectWithinErrors(c.thu[d], p.thu[d]);
+      ExpectWithinErrors(c.tvu[d], p.tvu[d]);
+      ExpectWithinErrors(c.bias_along_beam[d], p.bias_along_beam[d]);
+      ExpectWithinErrors(c.bias_vertical[d], p.bias_vertical[d]);
+      EXPECT_LT(c.thu[d].standard_error, 0.1 * p.thu[d].standard_error);
+    }
+  }
+}
+
 TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
   const Encounter encounter = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
-  const EncounterResult result =
-      Simulate(encounter, {.realizations = 50, .most_realizations = 20000, .relative_error = 0.03}, 1, 0);
+  const EncounterResult result = Simulate(encounter,
+                                          {.realizations = 50,
+                                           .most_realizations = 20000,
+                                           .relative_error = 0.03,
+                                           .estimator = Estimator::kPlain},
+                                          1, 0);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ((result.realizations - 50) % kBatch, 0);
   EXPECT_GT(result.realizations, 300);  // 1 / sqrt(2 n) is 0.03 at n = 556

@@ -66,5 +66,39 @@ TEST(Statistics, OfRepeatedSamplesScatterAsTheirStandardErrorsSay) {
   EXPECT_NEAR(0.5 * TwoSigma(of_square).value / claimed_of_square, 1, 0.15);
 }
 
+TEST(Statistics, OfAMultipleOfTheControlAreKnownExactly) {
+  const Eigen::ArrayXd c = Normals(100, 0), other = Normals(100, 1);
+  const Control control{c, {}, 0, 1};
+  EXPECT_NEAR(TwoSigma(3 * c + 5, control).value, 6, 1e-12);
+  EXPECT_NEAR(TwoSigma(3 * c + 5, control).standard_error, 0, 1e-12);
+  EXPECT_NEAR(TwoSigma(3 * c, 3 * other, {c, other, 0, 2}).value, 6 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(Mean(c + 5, control).value, 5, 1e-12);
+  EXPECT_NEAR(Mean(c + 5, control).standard_error, 0, 1e-12);
+}
+
+TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
+  constexpr int kRepetitions = 2000, kCount = 64;
+  Eigen::ArrayXd variances(kRepetitions), values(kRepetitions), means(kRepetitions);
+  double claimed = 0, claimed_of_mean = 0, claimed_without = 0;
+  for (int i = 0; i < kRepetitions; ++i) {
+    const Eigen::ArrayXd c = Normals(kCount, 2 * i), rest = 0.1 * Normals(kCount, 2 * i + 1);
+    const Eigen::ArrayXd sample = 0.97 * c + rest + 0.02 * (c.square() - 1);
+    const Estimate spread = TwoSigma(sample, {c, {}, 0, 1}), mean = Mean(sample, {c, {}, 0, 1});
+    variances[i] = spread.value * spread.value / 4;
+    values[i] = spread.value;
+    means[i] = mean.value;
+    claimed += spread.standard_error / kRepetitions;
+    claimed_of_mean += mean.standard_error / kRepetitions;
+    claimed_without += TwoSigma(sample).standard_error / kRepetitions;
+  }
+  const double truth = 0.97 * 0.97 + 0.01 + 2 * 0.02 * 0.02;
+  EXPECT_NEAR(variances.mean(), truth, 4 * Mean(variances).standard_error);
+  EXPECT_NEAR(means.mean(), 0, 4 * Mean(means).standard_error);
+  // 2000 values know their scatter to 1.6 %; 64 realizations their own to 9 % and a little skewed.
+  EXPECT_NEAR(0.5 * TwoSigma(values).value / claimed, 1, 0.06);
+  EXPECT_NEAR(0.5 * TwoSigma(means).value / claimed_of_mean, 1, 0.06);
+  EXPECT_LT(claimed, 0.25 * claimed_without);
+}
+
 }  // namespace
 }  // namespace albtpu

