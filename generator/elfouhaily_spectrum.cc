@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/wind_profile.h"
+
 namespace albtpu {
 namespace {
 
@@ -21,11 +23,6 @@ double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + Square(k / kG
 // Eq. 3. Logarithms are written "ln" in Eq. 44 and "log" here, which is Donelan's, of base 10. Given for Omega up to
 // 5, held beyond.
 double PeakEnhancement(double omega) { return 1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0)); }
-
-// The drag law of Wu (1982), m/s.
-double FrictionVelocity(double wind_speed_10m) {
-  return std::sqrt(1e-3 * (0.8 + 0.065 * wind_speed_10m)) * wind_speed_10m;
-}
 
 // Eq. 44, natural logarithms; never negative.
 double ShortWaveLevel(double friction_velocity) {

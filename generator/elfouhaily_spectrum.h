@@ -9,8 +9,8 @@ namespace albtpu {
 // and Munk (1954), with a spreading of its own, alike for waves with and against the wind.
 //
 // Source: Elfouhaily, Chapron, Katsaros and Vandemark (1997), doi:10.1029/97JC00467; equation numbers are theirs.
-// The friction velocity follows from the drag law of Wu (1982), doi:10.1029/JC087iC12p09704, C = (0.8 + 0.065 U10)
-// 1e-3, as is usual with this spectrum since McDaniel (2001), Waves in Random Media 11, 343-360.
+// The friction velocity is that of wind_profile.h, Wu's, as is usual with this spectrum since McDaniel (2001), Waves in
+// Random Media 11, 343-360.
 //
 // Below a wind of some 2.75 m/s Eq. 44 would make the short waves' curvature negative: there are none.
 class ElfouhailySpectrum final : public WaveSpectrum {

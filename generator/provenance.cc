@@ -46,7 +46,7 @@ SpectrumDescription ApelsDescription() {
 SpectrumDescription ElfouhailysDescription() {
   return {"Elfouhaily et al. (1997) with its own spreading, drag law of Wu (1982)",
           "Elfouhaily et al. (1997), doi:10.1029/97JC00467; Wu (1982), doi:10.1029/JC087iC12p09704",
-          "Fully developed, the significant wave height is 1.13 to 1.16 of Pierson-Moskowitz, the mean "
+          "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz, the mean "
           "square slope 1.0 to 1.25 times Cox and Munk (1954) from 3 m/s on, 1.5 times at 2 m/s and 2.2 "
           "times at 1 m/s. Below 2.75 m/s the model has no short waves: all slope is in its long ones."};
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "generator/wind_profile.h"
+
 namespace albtpu {
 namespace {
 
@@ -61,7 +63,7 @@ TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatter) {
   int winds = 0;
   for (double wind_speed = 3; wind_speed <= 14; ++wind_speed, ++winds) {
     const ElfouhailySpectrum spectrum(wind_speed, kFullyDeveloped);
-    const double at_12_5 = wind_speed + spectrum.friction_velocity() / 0.4 * std::log(12.5 / 10);
+    const double at_12_5 = WindSpeedAt(12.5, wind_speed);
     const double departure = Moment(spectrum, 2) - (0.003 + 5.12e-3 * at_12_5);
     EXPECT_LT(std::abs(departure), 2 * kScatter) << wind_speed;  // 95 % of observations
     squares += departure * departure;
@@ -69,12 +71,11 @@ TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatter) {
   EXPECT_LT(std::sqrt(squares / winds), kScatter);
 }
 
-// The peak of a fully developed sea scales with the wind alone, and most of its height is there: m0 of Pierson and
-// Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5 m, 1.026 of that at 10 m; the height goes with
-// its root. That of Elfouhaily et al. is higher by the peak enhancement of 1.7.
+// The variance of elevation of Pierson and Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5 m. That
+// of Elfouhaily et al. is higher by no more than their peak enhancement, 1.7.
 TEST(ElfouhailySpectrum, IsSomewhatHigherThanPiersonAndMoskowitz) {
   for (const double wind_speed : {5.0, 10.0, 15.0}) {
-    const double at_19_5 = 1.026 * wind_speed;
+    const double at_19_5 = WindSpeedAt(19.5, wind_speed);
     const double pierson_moskowitz = 2 * std::sqrt(8.1e-3 / 0.74) * at_19_5 * at_19_5 / kGravity;
     const double ratio =
         4 * std::sqrt(Moment(ElfouhailySpectrum(wind_speed, kFullyDeveloped), 0)) / pierson_moskowitz;
