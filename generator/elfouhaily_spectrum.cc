@@ -20,8 +20,8 @@ double Square(double x) { return x * x; }
 // Gravity and capillarity, Eq. 24.
 double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + Square(k / kGravityCapillary))); }
 
-// Eq. 3. Logarithms are written "ln" in Eq. 44 and "log" here, which is Donelan's, of base 10. Given for Omega up to
-// 5, held beyond.
+// Eq. 3. Logarithms are written "ln" in Eq. 44 and "log" here, which is Donelan's, of base 10. Given for
+// Omega up to 5, held beyond.
 double PeakEnhancement(double omega) { return 1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0)); }
 
 // Eq. 44, natural logarithms; never negative.
@@ -60,17 +60,17 @@ double ElfouhailySpectrum::operator()(double k) const {
   const double jonswap = std::pow(gamma_, std::exp(-Square(root) / (2 * Square(sigma_))));  // Eq. 3
   const double long_waves = 0.5 * alpha_p_ * c_p_ / c * pierson_moskowitz * jonswap *
                             std::exp(-omega_ / std::sqrt(10.0) * root);  // Eq. 31, 32
-  // Eq. 40, 41. As printed B_h has no cut-off below the peak, and the integral of S diverges at k = 0: it gets that
-  // of Pierson and Moskowitz, as in McDaniel (2001). The peak enhancement, which some put here too, would change S
-  // where B_h is next to nothing.
+  // Eq. 40, 41. As printed B_h has no cut-off below the peak, and the integral of S diverges at k = 0: it
+  // gets that of Pierson and Moskowitz, as in McDaniel (2001). The peak enhancement, which some put here too,
+  // would change S where B_h is next to nothing.
   const double short_waves = 0.5 * alpha_m_ * kLeastPhaseSpeed / c * pierson_moskowitz *
                              std::exp(-0.25 * Square(k / kGravityCapillary - 1));
   return (long_waves + short_waves) / (k * k * k);
 }
 
 double ElfouhailySpectrum::Delta(double k) const {
-  // Eq. 57 with the constants of Eq. 59. Far from the peak and from k_m the first term is left: waves along and
-  // across the wind stand as exp(ln(2) / 2) = sqrt(2) to 1.
+  // Eq. 57 with the constants of Eq. 59. Far from the peak and from k_m the first term is left: waves along
+  // and across the wind stand as exp(ln(2) / 2) = sqrt(2) to 1.
   const double c = PhaseSpeed(k);
   const double a_m = 0.13 * friction_velocity_ / kLeastPhaseSpeed;
   return std::tanh(std::numbers::ln2 / 4 + 4 * std::pow(c / c_p_, 2.5) +
@@ -82,8 +82,8 @@ double ElfouhailySpectrum::Spreading(double k, double psi) const {
 }
 
 WavenumberRange ElfouhailySpectrum::energetic_range() const {
-  // Below 0.3 k_p Eq. 2 is under exp(-13.9). Above, short waves end by Eq. 41, exp(-16) at 9 k_m; where there are
-  // none (light wind) long ones by Eq. 32, here at exp(-8).
+  // Below 0.3 k_p Eq. 2 is under exp(-13.9). Above, short waves end by Eq. 41, exp(-16) at 9 k_m; where there
+  // are none (light wind) long ones by Eq. 32, here at exp(-8).
   const double end_of_long_waves = k_p_ * Square(1 + 8 * std::sqrt(10.0) / omega_);
   return {0.3 * k_p_, std::max(9 * kGravityCapillary, end_of_long_waves)};
 }

@@ -5,12 +5,12 @@
 
 namespace albtpu {
 
-// S(k) = k^-3 (B_l + B_h): curvature spectra of long waves after JONSWAP and of short ones after the slopes of Cox
-// and Munk (1954), with a spreading of its own, alike for waves with and against the wind.
+// S(k) = k^-3 (B_l + B_h): curvature spectra of long waves after JONSWAP and of short ones after the slopes
+// of Cox and Munk (1954), with a spreading of its own, alike for waves with and against the wind.
 //
-// Source: Elfouhaily, Chapron, Katsaros and Vandemark (1997), doi:10.1029/97JC00467; equation numbers are theirs.
-// The friction velocity is that of wind_profile.h, Wu's, as is usual with this spectrum since McDaniel (2001), Waves in
-// Random Media 11, 343-360.
+// Source: Elfouhaily, Chapron, Katsaros and Vandemark (1997), doi:10.1029/97JC00467; equation numbers are
+// theirs. The friction velocity is that of wind_profile.h, Wu's, as is usual with this spectrum since
+// McDaniel (2001), Waves in Random Media 11, 343-360.
 //
 // Below a wind of some 2.75 m/s Eq. 44 would make the short waves' curvature negative: there are none.
 class ElfouhailySpectrum final : public WaveSpectrum {
@@ -33,8 +33,8 @@ class ElfouhailySpectrum final : public WaveSpectrum {
   // Eq. 37.
   static double InverseWaveAge(double wind_speed_10m, double fetch);
 
-  // The fetch [m] beyond which the sea is taken as fully developed: Eq. 37 gets there only in the limit, here Omega
-  // is within 1 % of 0.84.
+  // The fetch [m] beyond which the sea is taken as fully developed: Eq. 37 gets there only in the limit, here
+  // Omega is within 1 % of 0.84.
   static double FullyDevelopedFetch(double wind_speed_10m);
 
  private:

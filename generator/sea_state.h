@@ -28,7 +28,8 @@ struct SeaOptions {
   double fetch = std::numeric_limits<double>::infinity();  // m, above 0; infinity: fully developed
   SpectrumKind spectrum = SpectrumKind::kApel;
   double spreading = 2;  // s of the cosine-2S spreading of Apel's sea; Elfouhaily's has its own
-  // Waves longer than this [m] are gone: the surface's local slope was measured and the refraction corrected for it.
+  // Waves longer than this [m] are gone: the surface's local slope was measured and the refraction corrected
+  // for it.
   double corrected_above = std::numeric_limits<double>::infinity();
   double height_scale = 1;  // of every wave, over what the spectrum says
 };
@@ -42,8 +43,8 @@ class SeaState {
   // Elevation spectrum over all directions, S(k) [m^3]; k [rad/m] above 0.
   double S(double k) const { return k < longest_wave_ ? 0.0 : height_scale_squared_ * (*spectrum_)(k); }
 
-  // (D(k, psi) + D(k, psi + pi)) / 2 [1/rad]: a frozen surface does not tell a wave from the one that travels against
-  // it. `psi` [rad] from downwind.
+  // (D(k, psi) + D(k, psi + pi)) / 2 [1/rad]: a frozen surface does not tell a wave from the one that travels
+  // against it. `psi` [rad] from downwind.
   double FrozenSpreading(double k, double psi) const;
 
   // The spectrum that a frozen surface sees, (Psi(k) + Psi(-k)) / 2 with Psi = S(k) D(k, psi) / k [m^4]
@@ -51,8 +52,8 @@ class SeaState {
   // the variance of elevation.
   double Psi(double k, double psi) const;
 
-  // The spectrum of waves that travel along psi, Psi itself: what a sea that evolves in time is made of. Elfouhaily's
-  // does not tell the waves with the wind from those against it.
+  // The spectrum of waves that travel along psi, Psi itself: what a sea that evolves in time is made of.
+  // Elfouhaily's does not tell the waves with the wind from those against it.
   double DirectionalPsi(double k, double psi) const;
 
   const SeaOptions& options() const { return options_; }

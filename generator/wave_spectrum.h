@@ -5,8 +5,8 @@ namespace albtpu {
 
 inline constexpr double kGravity = 9.80665;  // m/s^2, standard gravity, exact
 
-// Of inverse wave age (wind speed over the phase speed at the peak) in the fully developed sea; Elfouhaily et al.
-// (1997), doi:10.1029/97JC00467, and Birkebak et al. (2018), Eq. 7.
+// Of inverse wave age (wind speed over the phase speed at the peak) in the fully developed sea; Elfouhaily et
+// al. (1997), doi:10.1029/97JC00467, and Birkebak et al. (2018), Eq. 7.
 inline constexpr double kFullyDevelopedOmega = 0.84;
 
 struct WavenumberRange {

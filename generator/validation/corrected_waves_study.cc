@@ -126,8 +126,8 @@ DataTable ByMonteCarlo(const StudyOptions& options, Study& study) {
                           closed_thu, tvu.value, tvu.standard_error, kDepth * closed.tvu_per_depth,
                           nadir_tvu.value, nadir_tvu.standard_error});
 
-    // closed_form.h: rays stay under the small-slope theory by 0.5-1.5 %, 0.3 of the mean square slope, and some 2 %
-    // more at 20 degrees.
+    // closed_form.h: rays stay under the small-slope theory by 0.5-1.5 %, 0.3 of the mean square slope, and
+    // some 2 % more at 20 degrees.
     const double slopes = SlopeCovariance(SeaState(SeaOf(c, length))).trace();
     const double least = 1 - (0.015 + 0.3 * slopes + 0.02), most = 1 - 0.005;
     const double ratio = thu.value / closed_thu, error = thu.standard_error / closed_thu;

@@ -8,25 +8,25 @@ struct ObservedSlope {
   double mean_square, scatter;
 };
 
-// Cox and Munk (1954), J. Opt. Soc. Am. 44, 838-850, doi:10.1364/JOSA.44.000838, clean surface: along the wind 0.000 +
-// 3.16e-3 U +- 0.004, across 0.003 + 1.92e-3 U +- 0.002, together 0.003 + 5.12e-3 U +- 0.004. Their anemometer stood
-// 12.5 m (41 feet) above the water: the wind at 10 m [m/s] that is given here is taken there by wind_profile.h.
-// Observed from 1 to 14 m/s.
+// Cox and Munk (1954), J. Opt. Soc. Am. 44, 838-850, doi:10.1364/JOSA.44.000838, clean surface: along the
+// wind 0.000 + 3.16e-3 U +- 0.004, across 0.003 + 1.92e-3 U +- 0.002, together 0.003 + 5.12e-3 U +- 0.004.
+// Their anemometer stood 12.5 m (41 feet) above the water: the wind at 10 m [m/s] that is given here is taken
+// there by wind_profile.h. Observed from 1 to 14 m/s.
 ObservedSlope CoxMunkAlongWind(double wind_speed_10m);
 ObservedSlope CoxMunkCrossWind(double wind_speed_10m);
 ObservedSlope CoxMunkTotal(double wind_speed_10m);
 
 // Significant wave height [m] of the fully developed sea of Pierson and Moskowitz (1964),
-// doi:10.1029/JZ069i024p05181: four times the root of the integral of their spectrum, 2 sqrt(alpha / beta) U^2 / g with
-// alpha = 8.1e-3, beta = 0.74 and U the wind at 19.5 m: 0.21 U^2 / g.
+// doi:10.1029/JZ069i024p05181: four times the root of the integral of their spectrum, 2 sqrt(alpha / beta)
+// U^2 / g with alpha = 8.1e-3, beta = 0.74 and U the wind at 19.5 m: 0.21 U^2 / g.
 double PiersonMoskowitzWaveHeight(double wind_speed_19_5m);
 
 // The same from the wind at 10 m by wind_profile.h. Some leave the wind as it is, which makes 9 to 15 % less.
 double PiersonMoskowitzWaveHeightOf(double wind_speed_10m);
 
 // Significant wave height [m] after a fetch [m] by JONSWAP, Hasselmann et al. (1973): variance of elevation
-// 1.6e-7 (U^2 / g)^2 (g x / U^2), U the wind at 10 m. The law has no end: here it ends where it meets the fully
-// developed sea.
+// 1.6e-7 (U^2 / g)^2 (g x / U^2), U the wind at 10 m. The law has no end: here it ends where it meets the
+// fully developed sea.
 double JonswapWaveHeight(double wind_speed_10m, double fetch);
 
 }  // namespace albtpu

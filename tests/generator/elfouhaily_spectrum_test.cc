@@ -31,7 +31,8 @@ double Moment(const ElfouhailySpectrum& spectrum, int power) {
   return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
 }
 
-// Values of a Python script that holds nothing but the printed equations (NumPy, double precision), ten digits.
+// Values of a Python script that holds nothing but the printed equations (NumPy, double precision), ten
+// digits.
 TEST(ElfouhailySpectrum, IsWhatItsEquationsSay) {
   struct Case {
     double wind_speed, fetch, k, s, delta;
@@ -55,8 +56,9 @@ TEST(ElfouhailySpectrum, IsWhatItsEquationsSay) {
 }
 
 // Cox and Munk (1954), clean surface: 0.003 + 5.12e-3 U +- 0.004, the last the standard deviation of their
-// observations about the line. U stood 12.5 m above the water, where a logarithmic profile has some 2 % more wind.
-// Their winds went from 1 to 14 m/s; below 3 m/s the long waves of the model alone are steeper than the line.
+// observations about the line. U stood 12.5 m above the water, where a logarithmic profile has some 2 % more
+// wind. Their winds went from 1 to 14 m/s; below 3 m/s the long waves of the model alone are steeper than the
+// line.
 TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatter) {
   constexpr double kScatter = 0.004;
   double squares = 0;
@@ -71,8 +73,8 @@ TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatter) {
   EXPECT_LT(std::sqrt(squares / winds), kScatter);
 }
 
-// The variance of elevation of Pierson and Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5 m. That
-// of Elfouhaily et al. is higher by no more than their peak enhancement, 1.7.
+// The variance of elevation of Pierson and Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5
+// m. That of Elfouhaily et al. is higher by no more than their peak enhancement, 1.7.
 TEST(ElfouhailySpectrum, IsSomewhatHigherThanPiersonAndMoskowitz) {
   for (const double wind_speed : {5.0, 10.0, 15.0}) {
     const double at_19_5 = WindSpeedAt(19.5, wind_speed);
@@ -104,8 +106,8 @@ TEST(ElfouhailySpectrum, EndsAtBothEnds) {
   EXPECT_NEAR(spectrum.Delta(1e-9), 1, 1e-12);  // the longest waves go with the wind
 }
 
-// Where Eq. 44 turns negative, u* under c_m / e, the tail of the long waves is all there is: far above the peak Eq. 31
-// and 32 are 1/2 alpha_p (c_p / c) exp(-Omega / sqrt(10) (sqrt(k / k_p) - 1)).
+// Where Eq. 44 turns negative, u* under c_m / e, the tail of the long waves is all there is: far above the
+// peak Eq. 31 and 32 are 1/2 alpha_p (c_p / c) exp(-Omega / sqrt(10) (sqrt(k / k_p) - 1)).
 TEST(ElfouhailySpectrum, HasNoShortWavesInLightWind) {
   const ElfouhailySpectrum light(2, kFullyDeveloped);
   ASSERT_LT(light.friction_velocity(), 0.23 / std::numbers::e);
@@ -117,8 +119,8 @@ TEST(ElfouhailySpectrum, HasNoShortWavesInLightWind) {
   EXPECT_NEAR(std::pow(370, 3) * light(370) / tail, 1, 1e-4);
 }
 
-// The closed form of Eq. 57 where it has one: along to across (1 + Delta) / (1 - Delta) = exp(2 x) of the argument x,
-// sqrt(2) from the first term alone, times exp(8) at the peak where c = c_p.
+// The closed form of Eq. 57 where it has one: along to across (1 + Delta) / (1 - Delta) = exp(2 x) of the
+// argument x, sqrt(2) from the first term alone, times exp(8) at the peak where c = c_p.
 TEST(ElfouhailySpectrum, SpreadsWidelyButAtThePeakAndInTheGravityCapillaryRange) {
   const ElfouhailySpectrum spectrum(10, kFullyDeveloped);
   const auto along_to_across = [&](double k) {

@@ -1,4 +1,5 @@
-// The studies of the sea, quick: each verdict that physics promises, and those where it promises a difference.
+// The studies of the sea, quick: each verdict that physics promises, and those where it promises a
+// difference.
 
 #include <gtest/gtest.h>
 
@@ -54,8 +55,8 @@ TEST(RealSeaStudy, FindsElfouhailysSlopesWhereCoxAndMunkSawThemAndApelsBeyond) {
     EXPECT_EQ(c.verdict, Has(c.quantity, "Elfouhaily") ? Verdict::kAgrees : Verdict::kDiffers) << c.quantity;
   }
   EXPECT_EQ(judged, 2 * (3 * 2 + 1));
-  // The Monte Carlo sees the two spectra differ as the closed form does, but for the non-linearity of each, up to
-  // 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
+  // The Monte Carlo sees the two spectra differ as the closed form does, but for the non-linearity of each,
+  // up to 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
   const DataTable& simulated = TableOf(*study, "spectra_monte_carlo");
   for (std::size_t row = 0; row < simulated.rows.size(); ++row) {
     EXPECT_NEAR(

@@ -51,8 +51,8 @@ def corrected_waves_thu(read):
     figure = Figure()
     axes = figure.subplots()
     winds = (3, 6, 10, 15)
-    lines(axes, table, "thu_per_depth", [lambda t, w=w: (t["wind_speed_m_s"] == w) & (t["footprint_m"] == 0.25)
-                                         for w in winds], [f"{w} m/s" for w in winds])
+    cases = [lambda t, w=w: (t["wind_speed_m_s"] == w) & (t["footprint_m"] == 0.25) for w in winds]
+    lines(axes, table, "thu_per_depth", cases, [f"{w} m/s" for w in winds])
     depth = 20  # m
     axes.errorbar(length(simulated["corrected_above_m"]), simulated["thu_m"] / depth,
                   2 * simulated["thu_standard_error_m"] / depth, fmt="o", color="black", capsize=3, zorder=3,

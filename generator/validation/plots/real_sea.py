@@ -12,7 +12,8 @@ def real_sea_slopes(read):
     for axes, direction, title, scatter in zip(figure.subplots(1, 2, sharey=True), ("along", "cross"),
                                                ("along the wind", "across the wind"), (0.004, 0.002)):
         observed = table[f"cox_munk_{direction}"]
-        axes.fill_between(wind, observed - scatter, observed + scatter, color="tab:gray", alpha=0.35, linewidth=0)
+        axes.fill_between(wind, observed - scatter, observed + scatter, color="tab:gray", alpha=0.35,
+                          linewidth=0)
         axes.plot(wind, observed, color="black", label="Cox and Munk (1954)")
         for name, label, colour in SPECTRA:
             axes.plot(wind, table[f"{name}_{direction}"], color=colour, label=label)
@@ -27,14 +28,16 @@ def real_sea_heights(read):
     by_fetch = by_fetch[by_fetch["wind_speed_m_s"] == 10]
     figure = Figure(figsize=(7, 4))
     left, right = figure.subplots(1, 2)
-    left.plot(by_wind["wind_speed_m_s"], by_wind["pierson_moskowitz_m"], color="black", label="Pierson, Moskowitz (1964)")
+    left.plot(by_wind["wind_speed_m_s"], by_wind["pierson_moskowitz_m"], color="black",
+              label="Pierson, Moskowitz (1964)")
     left.plot(by_wind["wind_speed_m_s"], by_wind["pierson_moskowitz_wind_as_it_is_m"], ":", color="black",
               label="same, wind of 10 m as it is")
     right.loglog(by_fetch["fetch_km"], by_fetch["jonswap_m"], color="black", label="JONSWAP")
     for name, label, colour in SPECTRA:
         left.plot(by_wind["wind_speed_m_s"], by_wind[f"{name}_m"], color=colour, label=label)
         right.loglog(by_fetch["fetch_km"], by_fetch[f"{name}_m"], color=colour, label=label)
-    left.set(xlabel="wind at 10 m / m s$^{-1}$", ylabel="significant wave height / m", xlim=(1, 15), ylim=(0, None))
+    left.set(xlabel="wind at 10 m / m s$^{-1}$", ylabel="significant wave height / m", xlim=(1, 15),
+             ylim=(0, None))
     right.set(xlabel="fetch / km", title="10 m/s")
     left.set_title("fully developed")
     left.legend(fontsize="small")
@@ -50,10 +53,10 @@ def spectra_thu(read):
     for footprint in (0.25, 0.5, 1, 2):
         rows = table[(table["footprint_m"] == footprint) & (table["fetch_km"] == "fully developed")]
         left.plot(rows["wind_speed_m_s"], rows["thu_ratio"], ".-", label=f"{footprint:g} m")
-    for fetch, label in (("1", "1 km"), ("10", "10 km"), ("100", "100 km"), ("fully developed", "fully developed")):
+    for fetch in ("1", "10", "100", "fully developed"):
         rows = table[(table["footprint_m"] == 0.5) & (table["fetch_km"] == fetch)]
-        right.plot(rows["wind_speed_m_s"], rows["thu_ratio"], ".-", label=label)
-    for axes, title in ((left, "footprint"), (right, "fetch")):
+        right.plot(rows["wind_speed_m_s"], rows["thu_ratio"], ".-", label=fetch)
+    for axes, title in ((left, "footprint"), (right, "fetch / km")):
         axes.axhline(1, color="black", linewidth=0.8)
         axes.set(xlabel="wind at 10 m / m s$^{-1}$", xlim=(2, 15))
         axes.legend(title=title, fontsize="small")

@@ -11,25 +11,27 @@ def grid(table, x, y, value):
 
 def figure_2(read):
     spectrum, spreading = read("figure_2_spectrum"), read("figure_2_spreading")
-    figure = Figure(figsize=(7, 7))
-    panels = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=(1, 1.4))
+    figure = Figure(figsize=(7, 6.4))
+    panels = figure.subplot_mosaic([["a", "b"], ["c", "c"]], height_ratios=(1, 1.3))
     s, d, psi = panels["a"], panels["b"], panels["c"]
 
     s.loglog(spectrum["k_rad_per_m"], spectrum["s_m3"])
-    s.axvline(2 * numpy.pi / spectrum["wavelength_m"][numpy.argmax(spectrum["s_m3"])], linestyle=":", color="tab:gray")
+    peak = spectrum["k_rad_per_m"][numpy.argmax(spectrum["s_m3"])]
+    s.axvline(peak, linestyle=":", color="tab:gray")
     s.set(xlabel="wavenumber / rad m$^{-1}$", ylabel="S(k) / m$^3$", title="(a)",
           ylim=(spectrum["s_m3"].max() * 1e-9, spectrum["s_m3"].max() * 3))
 
     d.plot(spreading["direction_deg"], spreading["spreading_per_rad"], label="travelling waves")
     d.plot(spreading["direction_deg"], spreading["frozen_per_rad"], "--", label="frozen surface")
-    d.set(xlabel="direction from downwind / degree", ylabel="D / rad$^{-1}$", title="(b)", xticks=range(-180, 181, 90),
-          ylim=(0, 0.58))
+    d.set(xlabel="direction from downwind / degree", ylabel="D / rad$^{-1}$", title="(b)",
+          xticks=range(-180, 181, 90), ylim=(0, 0.58))
     d.legend(loc="upper right", fontsize="small")
 
     kx, ky, value = grid(read("figure_2_directional"), "kx_rad_per_m", "ky_rad_per_m", "psi_m4")
     image = psi.pcolormesh(kx, ky, numpy.maximum(value, value.max() * 1e-4), cmap="viridis", rasterized=True,
                            norm=LogNorm(value.max() * 1e-4, value.max()))
-    psi.set(xlabel="downwind wavenumber / rad m$^{-1}$", ylabel="crosswind / rad m$^{-1}$", title="(c)", aspect="equal")
+    psi.set(xlabel="downwind wavenumber / rad m$^{-1}$", ylabel="crosswind / rad m$^{-1}$", title="(c)",
+            aspect="equal", ylim=(0.55 * ky.min(), 0.55 * ky.max()))
     psi.grid(False)
     figure.colorbar(image, ax=psi, label="$\\Psi$ / m$^4$")
     return figure
@@ -41,19 +43,22 @@ def figure_3(read):
     figure = Figure(figsize=(7, 6))
     axes = figure.add_subplot(projection="3d", computed_zorder=False)
     for ray in rays:
-        for upper, lower, colour, order in (("above", "surface", "tab:red", 3), ("surface", "bottom", "tab:green", 1)):
+        for upper, lower, colour, order in (("above", "surface", "tab:red", 3),
+                                            ("surface", "bottom", "tab:green", 1)):
             axes.plot(*([ray[f"{axis}_{upper}_m"], ray[f"{axis}_{lower}_m"]] for axis in "xyz"), color=colour,
                       linewidth=0.7, zorder=order)
     axes.scatter(rays["x_bottom_m"], rays["y_bottom_m"], rays["z_bottom_m"], s=5, color="tab:green", zorder=1)
-    shade = LightSource(azdeg=300, altdeg=25).hillshade(z.T, dx=x[1, 0] - x[0, 0], dy=y[0, 1] - y[0, 0], vert_exag=1).T
+    light = LightSource(azdeg=300, altdeg=25)
+    shade = light.hillshade(z.T, dx=x[1, 0] - x[0, 0], dy=y[0, 1] - y[0, 0]).T
     shade = (shade - shade.min()) / (shade.max() - shade.min())
-    colours = numpy.stack([0.15 + 0.6 * shade, 0.4 + 0.5 * shade, 0.6 + 0.4 * shade, 0.85 * numpy.ones_like(shade)], -1)
+    opaque = numpy.full_like(shade, 0.85)
+    colours = numpy.stack([0.15 + 0.6 * shade, 0.4 + 0.5 * shade, 0.6 + 0.4 * shade, opaque], -1)
     surface = axes.plot_surface(x, y, z, facecolors=colours, rcount=110, ccount=110, shade=False, linewidth=0,
                                 antialiased=False, zorder=2)
     surface.set_rasterized(True)
     axes.set(xlabel="downwind / m", ylabel="crosswind / m", zlabel="elevation / m",
              zticks=(-0.2, -0.1, 0, 0.1))
-    axes.set_box_aspect((x.max() - x.min(), y.max() - y.min(), 0.35), zoom=1.05)
+    axes.set_box_aspect((x.max() - x.min(), y.max() - y.min(), 0.35), zoom=0.9)
     axes.view_init(elev=22, azim=-65)
     axes.zaxis.labelpad = 12
     axes.locator_params(axis="x", nbins=5)
