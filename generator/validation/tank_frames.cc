@@ -23,6 +23,7 @@ DataTable LightUnderWaves(std::uint64_t seed) {
   constexpr int kBins = 150;
   TankExperiment experiment;
   experiment.rays = 1'000'000;
+  experiment.grid.size = 2048;  // 0.5 mm: facets that do not show
   const WaterOfFrame water = IndependentFrames(TankSea(2, kTankWaveHeight), experiment.grid, seed, 0);
   std::vector<double> light(kBins * kBins, 0.0);
   for (const Eigen::Vector2d& spot : LightOfFrame(experiment, water(0))) {
@@ -49,7 +50,25 @@ DataTable LightUnderWaves(std::uint64_t seed) {
   return table;
 }
 
-DataTable SuccessiveFramesByWind(const std::vector<double>& winds, int frames, std::uint64_t seed) {
+std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, int frames,
+                                            std::uint64_t seed) {
+  std::vector<EvolvingTank> tanks;
+  for (const double wind : winds) {
+    TankExperiment experiment;
+    experiment.frames = frames;
+    const auto draw = static_cast<std::uint32_t>(tanks.size());
+    const WaterOfFrame water =
+        SuccessiveFrames(TankSea(wind, kTankWaveHeight), experiment.grid, kFrameRate, seed, draw);
+    const TankReading reading = ObserveTank(experiment, water).front();
+    const CentroidAngles& array = reading.arrays.front();
+    tanks.push_back({wind, ScatterOf(array), ScatterOf(reading.full_beam),
+                     CorrelationWithNext(array.along_wind),
+                     CorrelationWithNext(reading.full_beam.along_wind)});
+  }
+  return tanks;
+}
+
+DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
   DataTable table{
       "table_4_evolving",
       "The array at nadir in a water that evolves in time, 20 frames a second: standard errors as if "
@@ -58,19 +77,11 @@ DataTable SuccessiveFramesByWind(const std::vector<double>& winds, int frames, s
        "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
        "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},
       {}};
-  for (std::size_t i = 0; i < winds.size(); ++i) {
-    TankExperiment experiment;
-    experiment.frames = frames;
-    const TankReading reading =
-        Run(experiment, SuccessiveFrames(TankSea(winds[i], kTankWaveHeight), experiment.grid, kFrameRate,
-                                         seed, static_cast<std::uint32_t>(i)))
-            .front();
-    const CentroidScatter array = ScatterOf(reading.arrays.front());
-    const CentroidScatter full_beam = ScatterOf(reading.full_beam);
-    table.rows.push_back({winds[i], array.along_wind.value, array.along_wind.standard_error,
-                          array.cross_wind.value, array.cross_wind.standard_error, full_beam.along_wind.value,
-                          full_beam.cross_wind.value, CorrelationWithNext(reading.arrays.front().along_wind),
-                          CorrelationWithNext(reading.full_beam.along_wind)});
+  for (const EvolvingTank& t : tanks) {
+    table.rows.push_back({t.wind_speed, t.array.along_wind.value, t.array.along_wind.standard_error,
+                          t.array.cross_wind.value, t.array.cross_wind.standard_error,
+                          t.full_beam.along_wind.value, t.full_beam.cross_wind.value, t.array_correlation,
+                          t.full_beam_correlation});
   }
   return table;
 }

@@ -1,5 +1,6 @@
 #include "generator/validation/tank_sensitivity.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +50,7 @@ class Variations {
     experiment.arrays.clear();
     for (const VariedArray& v : varied) experiment.arrays.push_back(v.array);
     const TankReading reading =
-        albtpu::Run(experiment, IndependentFrames(sea, experiment.grid, seed_, draw)).front();
+        ObserveTank(experiment, IndependentFrames(sea, experiment.grid, seed_, draw)).front();
     for (std::size_t i = 0; i < varied.size(); ++i) {
       found_.push_back(
           {varied[i].parameter, varied[i].value, ScatterOf(reading.arrays[i]), ScatterOf(reading.full_beam)});
@@ -81,22 +82,27 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
   gaussian.beams.front().profile = BeamProfile::kGaussian;
   variations.Run(gaussian, sea, Apertures("aperture, gaussian beam (cm)"));
 
-  for (const double millimetres :
-       quick ? std::vector<double>{2, 5, 11} : std::vector<double>{1.6, 2, 3, 4, 5, 6.5, 8, 9, 11}) {
+  for (const double wind : {kWind, kStrongWind}) {
+    const double own_height = 4 * std::sqrt(ElevationVariance(SeaState(wind, kTankFetch)));
+    variations.Run(TankExperiment(), TankSea(wind, own_height),
+                   "wind, waves of the spectrum's own height (m/s)", wind);
+  }
+  const std::vector<double> heights =
+      quick ? std::vector<double>{3, 5, 11} : std::vector<double>{1.6, 2, 3, 4, 5, 6.5, 8, 9, 11};
+  for (const double millimetres : heights) {
     variations.Run(TankExperiment(), TankSea(kWind, millimetres / 1000), "wave height, 2 m/s (mm)",
                    millimetres);
-    if (!quick) {
-      variations.Run(TankExperiment(), TankSea(kStrongWind, millimetres / 1000), "wave height, 5.25 m/s (mm)",
-                     millimetres);
-    }
+    if (quick) continue;
+    variations.Run(TankExperiment(), TankSea(kStrongWind, millimetres / 1000), "wave height, 5.25 m/s (mm)",
+                   millimetres);
   }
-  for (const int rays : quick ? std::vector<int>{10000} : std::vector<int>{10000, 20000, 40000, 160000}) {
+  for (const int rays : quick ? std::vector<int>{10000} : std::vector<int>{10000, 20000, 160000}) {
     TankExperiment experiment;
     experiment.rays = rays;
     variations.Run(experiment, sea, "rays", rays);
   }
   if (!quick) {
-    for (const int size : {256, 512, 1024, 2048}) {
+    for (const int size : {256, 1024, 2048}) {
       TankExperiment experiment;
       experiment.grid.size = size;
       variations.Run(experiment, sea, "grid (mm)", 1000 * experiment.grid.length / size);
@@ -104,8 +110,9 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
     TankExperiment wide;
     wide.grid = {2 * wide.grid.length, 2 * wide.grid.size};
     variations.Run(wide, sea, "side of the patch (m)", wide.grid.length);
-    for (std::uint32_t draw = 1; draw <= 3; ++draw)
+    for (const std::uint32_t draw : {1, 2, 3}) {
       variations.Run(TankExperiment(), sea, "other waves", draw, draw);
+    }
   }
   return variations.Take();
 }

@@ -93,7 +93,7 @@ CentroidAngles AnglesOf(const std::vector<std::optional<Eigen::Vector2d>>& centr
 }  // namespace
 
 SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
-  SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = 30};
+  SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch};
   options.height_scale = significant_wave_height / (4 * std::sqrt(ElevationVariance(SeaState(options))));
   return SeaState(options);
 }
@@ -122,7 +122,7 @@ CentroidScatter ScatterOf(const CentroidAngles& angles) {
   return {two_sigma(angles.along_wind), two_sigma(angles.cross_wind)};
 }
 
-std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFrame& water) {
+std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water) {
   assert(experiment.frames >= 2);
   std::vector<PreparedBeam> beams;
   for (const BeamOptions& options : experiment.beams) beams.emplace_back(options, experiment);

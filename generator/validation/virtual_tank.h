@@ -16,6 +16,7 @@ namespace albtpu {
 
 // The sea that the paper fitted to its tank, Apel's at 30 m of fetch, with all waves scaled to a significant wave
 // height [m]: its own is 1.6 mm at 2 m/s and 3.9 mm at 5.25 m/s, Table 2 measured 8 to 11 mm.
+inline constexpr double kTankFetch = 30;          // m, of the spectrum of Fig. 7
 inline constexpr double kTankWaveHeight = 0.009;  // m, Table 2 at 6.5 to 8.5 m from the fan
 SeaState TankSea(double wind_speed_10m, double significant_wave_height);
 
@@ -68,7 +69,7 @@ struct TankReading {                   // of one beam
 };
 
 // The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB arena.
-std::vector<TankReading> Run(const TankExperiment& experiment, const WaterOfFrame& water);
+std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water);
 
 // Where the light of the first beam falls in one frame: the picture that its arrays sample.
 std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment, const std::vector<double>& water);

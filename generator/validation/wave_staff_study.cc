@@ -260,7 +260,8 @@ std::vector<std::string> Paragraphs(const Table2& published, const std::vector<W
           "one level "
           "of saturation for all fetches, as mature seas have, and young waves are steeper. But the "
           "measured heights are %.2f to %.2f of the measured wavelengths, and a gravity wave breaks at 0.14 "
-          "(Michell 1893): at the short fetches they cannot be the height of the peak's waves alone. Something "
+          "(Michell 1893): at the short fetches they cannot be the height of the peak's waves alone. "
+          "Something "
           "else, longer waves or the noise that the paper mentions, is in that record.",
           height.least, height.most, steepness.least, steepness.most),
       absl::StrFormat("The published wavelengths follow from the published frequencies by gravity alone, g / "
@@ -311,7 +312,8 @@ absl::StatusOr<Study> WaveStaffStudy(const StudyOptions& options) {
        "of the paper."},
       {"table_2_spectrum",
        "The spectrum over frequency at 5.25 m/s, and as a staff finds it at 30 Hz in five "
-       "minutes. The dashed lines are the measured peak frequencies."}};
+       "minutes. Its floor is waves above 15 Hz that fold into the record. The dashed lines are "
+       "the measured peak frequencies."}};
   return study;
 }
 

@@ -38,7 +38,8 @@ def table_2_spectrum(read):
                       label=f"staff, fetch {fetch:g} m")
         peak = measured["published_peak_frequency_hz"][measured["fetch_m"] == fetch][0]
         axes.axvline(peak, color=color, linestyle="--", linewidth=1)
-    axes.set_ylim(bottom=spectra["spectrum_m2_per_hz"].max() * 1e-5)
+    highest = spectra["spectrum_m2_per_hz"].max()
+    axes.set_ylim(1e-4 * highest, 3 * highest)
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("elevation (m²/Hz)")
     axes.legend()
