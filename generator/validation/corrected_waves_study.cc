@@ -100,7 +100,7 @@ DataTable Summary() {
 // THU of a beam at a depth where wave heights no longer matter, and the closed form beside it.
 DataTable ByMonteCarlo(const StudyOptions& options, Study& study) {
   constexpr double kDepth = 20;  // m
-  const int realizations = options.quick ? 500 : 6000;
+  const int realizations = options.quick ? 500 : 3000;
   const Effort effort{.realizations = realizations, .most_realizations = realizations};
   DataTable table{.name = "corrected_waves_monte_carlo",
                   .title = "By Monte Carlo, 2-sigma at a depth of 20 m, 20 degrees and nadir",

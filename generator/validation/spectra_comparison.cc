@@ -120,8 +120,8 @@ RatioSummary CompareInClosedForm(Study& study) {
 
 void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
   constexpr double kDepth = 10;  // m
-  const Effort effort{.realizations = options.quick ? 400 : 6000,
-                      .most_realizations = options.quick ? 400 : 6000};
+  const Effort effort{.realizations = options.quick ? 400 : 3000,
+                      .most_realizations = options.quick ? 400 : 3000};
   DataTable table{
       .name = "spectra_monte_carlo",
       .title =
