@@ -94,6 +94,18 @@ std::string ListNames(std::span<const TableFile> tables) {
   return names.empty() ? "none" : names;
 }
 
+// The newest version of the only name among the tables that `counts`; nothing if there are several, or none.
+template <typename Predicate>
+std::optional<std::size_t> OnlyName(std::span<const TableFile> tables, Predicate counts) {
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (!counts(tables[i])) continue;
+    if (!only.has_value()) only = i;
+    if (tables[*only].name != tables[i].name) return std::nullopt;
+  }
+  return only;
+}
+
 bool IsMeant(const TableFile& table, std::string_view request) {
   return table.name == request || table.FullName() == request;
 }
@@ -155,7 +167,9 @@ absl::StatusOr<std::size_t> FindTable(std::span<const TableFile> tables, std::st
     return absl::NotFoundError(
         absl::StrCat("there is no table ", Quoted(request), ": there are ", ListNames(tables)));
   }
-  if (!tables.empty() && tables.front().name == tables.back().name) return 0;
+  std::optional<std::size_t> only = OnlyName(tables, [](const TableFile&) { return true; });
+  if (!only.has_value()) only = OnlyName(tables, [](const TableFile& table) { return !table.published; });
+  if (only.has_value()) return *only;
   return absl::FailedPreconditionError(
       absl::StrCat("no table is named, and there is no default: name one of ", ListNames(tables)));
 }

@@ -53,6 +53,7 @@ class UncertaintyTable {
   // Null when the table does not hold the quantity (biases of published tables).
   const Variable* variable(Quantity quantity) const;
   const Provenance& provenance() const { return provenance_; }
+  bool is_published() const { return provenance_.campaign.empty(); }  // numbers of others, not of a campaign
 
   // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not
   // over date, version, commit or other attributes. Two tables with one digest answer alike.

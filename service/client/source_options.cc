@@ -39,10 +39,21 @@ absl::StatusOr<std::vector<TableFile>> InstalledTables() {
   return tables;
 }
 
+// Where no name decides, what the files hold may.
+absl::StatusOr<std::size_t> ChooseTable(std::vector<TableFile> tables, const std::string& name) {
+  absl::StatusOr<std::size_t> chosen = FindTable(tables, name);
+  if (chosen.ok() || !name.empty()) return chosen;
+  for (TableFile& file : tables) {
+    const absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
+    file.published = table.ok() && table->is_published();
+  }
+  return FindTable(tables, name);
+}
+
 absl::StatusOr<std::vector<TableSummary>> ListInstalledTables() {
   const absl::StatusOr<std::vector<TableFile>> files = InstalledTables();
   if (!files.ok()) return files.status();
-  const absl::StatusOr<std::size_t> standard = FindTable(*files, "");
+  const absl::StatusOr<std::size_t> standard = ChooseTable(*files, "");
   std::vector<TableSummary> tables;
   for (std::size_t i = 0; i < files->size(); ++i) {
     const absl::StatusOr<UncertaintyTable> table = ReadTable((*files)[i].path);
@@ -70,7 +81,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOption
   }
   const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
   if (!tables.ok()) return tables.status();
-  const absl::StatusOr<std::size_t> chosen = FindTable(*tables, options.name);
+  const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);
   if (!chosen.ok()) return Advised(chosen.status());
   return OpenFile((*tables)[*chosen].FullName(), (*tables)[*chosen].path);
 }

@@ -23,9 +23,10 @@ absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& fol
     }
   }
   std::vector<Entry> entries;
-  for (const TableFile& file : *files) {
+  for (TableFile& file : *files) {
     absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
     if (!table.ok()) return table.status();
+    file.published = table->is_published();
     entries.push_back({file.FullName(), *std::move(table)});
   }
   return TableCatalog(*std::move(files), std::move(entries), default_table);

@@ -134,6 +134,15 @@ TEST(FindTable, ThenTheOnlyName) {
   EXPECT_EQ(*FindTable(Named({{"a", "2"}, {"a", "1"}}), ""), 0u);
 }
 
+TEST(FindTable, ThenTheOnlyNameThatIsNotPublished) {
+  auto tables = Named({{"a", ""}, {"b", "2"}, {"b", "1"}, {"c", ""}});
+  tables[0].published = tables[3].published = true;
+  EXPECT_EQ(*FindTable(tables, ""), 1u);
+  EXPECT_EQ(*FindTable(tables, "c"), 3u);
+  tables[1].published = tables[2].published = true;
+  EXPECT_EQ(FindTable(tables, "").status().code(), absl::StatusCode::kFailedPrecondition);
+}
+
 TEST(FindTable, ElseAsksForAName) {
   const absl::Status status = FindTable(Named({{"a", ""}, {"b", ""}}), "").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);

@@ -21,11 +21,11 @@ class SourceOptionsTest : public ::testing::Test {
   SourceOptionsTest() { setenv("ALBTPU_TABLES", (folder_ / "").c_str(), 1); }
   ~SourceOptionsTest() override { unsetenv("ALBTPU_TABLES"); }
 
-  void Install(const std::string& name, const std::string& version, double factor) {
+  void Install(const std::string& name, const std::string& version, double factor, bool published = false) {
     std::filesystem::create_directories((folder_ / name).parent_path());
-    const absl::Status status =
-        WriteTable(albtpu::testing::SyntheticTable({.version = version, .factor = factor}), folder_ / name,
-                   Existing::kKeep);
+    const absl::Status status = WriteTable(
+        albtpu::testing::SyntheticTable({.version = version, .factor = factor, .published = published}),
+        folder_ / name, Existing::kKeep);
     ASSERT_TRUE(status.ok()) << status;
   }
 
@@ -51,6 +51,18 @@ TEST_F(SourceOptionsTest, PrefersSurveyAndTheNewestVersion) {
   EXPECT_TRUE(tables[1].is_default);
   EXPECT_FALSE(tables[2].is_default);
   EXPECT_EQ(ListTables({.name = "survey"}).value().size(), 2u);
+}
+
+TEST_F(SourceOptionsTest, TakesAPublishedTableOnlyWhenNamed) {
+  Install("bay.h5", "1", 1);
+  Install("article.h5", "1", 2, true);
+  Install("book.h5", "1", 2, true);
+  EXPECT_EQ(OpenSource({}).value()->table().name, "bay");
+  EXPECT_EQ(OpenSource({.name = "book"}).value()->table().name, "book");
+  const std::vector<TableSummary> tables = ListTables({}).value();
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_FALSE(tables[0].is_default);
+  EXPECT_TRUE(tables[1].is_default);
 }
 
 TEST_F(SourceOptionsTest, ListsTheNamesWhereNoneIsTheDefault) {

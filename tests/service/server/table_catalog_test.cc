@@ -55,6 +55,14 @@ TEST_F(Catalog, MayHaveNoDefault) {
   EXPECT_EQ(OrDie(Load()).Find("").status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
+TEST_F(Catalog, TakesAPublishedTableOnlyWhenNamed) {
+  WriteOrDie(testing::SyntheticTable({.published = true}), folder_ / "article.h5");
+  WriteOrDie(testing::SyntheticTable(), folder_ / "bay.h5");
+  const TableCatalog catalog = OrDie(Load());
+  EXPECT_EQ(OrDie(catalog.Find(""))->name, "bay");
+  EXPECT_EQ(OrDie(catalog.Find("article"))->name, "article");
+}
+
 TEST_F(Catalog, NeedsATable) {
   const absl::Status status = Load().status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
