@@ -1,6 +1,6 @@
 """What `cmake --install` puts under a prefix runs from there, and finds its tables there.
 
-Usage: installed_test.py CMAKE BUILD_FOLDER ALBTPU_SYNTHETIC_TABLE
+Usage: installed_test.py CMAKE BUILD_FOLDER
 """
 
 import json
@@ -15,7 +15,7 @@ import unittest
 
 from serving import Server
 
-CMAKE, BUILD, SYNTHETIC_TABLE = sys.argv[1:4]
+CMAKE, BUILD = sys.argv[1:3]
 PROGRAMS = ("albtpu-generate", "albtpu-serve", "albtpu-query")
 PULSE = ("--wind-speed", "6", "--incidence", "12.5", "--azimuth", "0", "--footprint", "0.7", "--depth", "5")
 # Nothing of the shell that started the test may help the programs find their files.
@@ -30,10 +30,6 @@ class Installation(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.prefix = pathlib.Path(folder.name)
         subprocess.run([CMAKE, "--install", BUILD, "--prefix", cls.prefix], check=True, capture_output=True)
-        cls.tables = cls.prefix / "share/albtpu/tables"
-        cls.tables.mkdir(exist_ok=True)
-        if not (cls.tables / "survey.h5").exists():
-            subprocess.run([SYNTHETIC_TABLE, cls.tables / "survey.h5"], check=True)
 
     def run_program(self, name, *arguments):
         result = subprocess.run([self.prefix / "bin" / name, *arguments], env=CLEAN, capture_output=True,
@@ -55,6 +51,18 @@ class Installation(unittest.TestCase):
         pulse = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
         self.assertEqual(pulse["outcome"], "INTERPOLATED")
         self.assertGreater(pulse["thu"], 0)
+
+    def test_published_numbers_answer_by_name_and_stand_behind_computed_ones(self):
+        published = ("--table-name", "birkebak2018_measured", "--wind-speed", "5.25", "--incidence", "20",
+                     "--azimuth", "0", "--footprint", "0.25", "--depth", "10", "--json")
+        pulse = json.loads(self.run_program("albtpu-query", "pulse", *published))
+        self.assertEqual(pulse["outcome"], "INTERPOLATED")
+        self.assertAlmostEqual(pulse["refraction_along_wind"], 4.58, places=5)  # Table 4
+        self.assertAlmostEqual(pulse["thu"], 1.05, delta=0.01)  # Table 5
+        self.assertAlmostEqual(pulse["tvu"], 0.27, delta=0.01)
+        self.assertIsNone(pulse["bias_vertical"])  # the paper gives none
+        unnamed = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
+        self.assertNotIn("birkebak2018", unnamed["table"])
 
     def test_the_service_serves_the_installed_tables(self):
         inside = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
