@@ -1,0 +1,47 @@
+"""Where the small-slope theory holds: Monte Carlo over closed form."""
+
+import numpy
+from matplotlib.figure import Figure
+
+
+def closed_form_map(read):
+    table = read("closed_form_map_mean")
+    table = table[table["azimuth_deg"] == 0]
+    winds, incidences = numpy.unique(table["wind_speed_m_s"]), numpy.unique(table["incidence_deg"])
+    figure = Figure(figsize=(7, 7))
+    panels = figure.subplots(2, 1)
+    for axes, column, title, colours in zip(
+            panels, ("thu_ratio", "thu_ratio_se"),
+            ("THU, Monte Carlo / closed form", "its standard error"), ("RdBu", "Greys")):
+        values = table[column].reshape(len(winds), len(incidences)).T
+        limits = {"vmin": 0.9, "vmax": 1.1} if column == "thu_ratio" else {"vmin": 0, "vmax": 2 * values.max()}
+        image = axes.imshow(values, origin="lower", aspect="auto", cmap=colours, **limits)
+        for i, row in enumerate(values):
+            for w, value in enumerate(row):
+                axes.text(w, i, f"{value:.3f}", ha="center", va="center", fontsize=9)
+        axes.set_xticks(range(len(winds)), [f"{wind:g}" for wind in winds])
+        axes.set_yticks(range(len(incidences)), [f"{incidence:g}" for incidence in incidences])
+        axes.set(title=title, xlabel="wind speed / (m/s)", ylabel="incidence / degree")
+        axes.grid(False)
+        figure.colorbar(image, ax=axes)
+    return figure
+
+
+def closed_form_departure(read):
+    table = read("closed_form_map")
+    table = table[(table["judged"] == "yes") & (table["azimuth_deg"] == 0)]
+    figure = Figure(figsize=(7, 6))
+    panels = figure.subplots(2, 1, sharex=True, sharey=True)
+    for axes, incidence in zip(panels, (0, 25)):
+        rows = table[table["incidence_deg"] == incidence]
+        rows = rows[numpy.argsort(rows["mean_square_slope"])]
+        slope = rows["mean_square_slope"]
+        axes.fill_between(slope, 1 - rows["allowed_departure"], 1 + rows["allowed_departure"], color="tab:green",
+                          alpha=0.15, label="what Snell's law explains")
+        axes.errorbar(slope, rows["thu_ratio"], rows["thu_ratio_se"], fmt="o", markersize=3,
+                      label="a sea and a footprint, ± 1 standard error")
+        axes.axhline(1, color="tab:gray")
+        axes.set(title=f"incidence {incidence}°", ylabel="THU, Monte Carlo / closed form")
+    panels[0].legend()
+    panels[1].set_xlabel("mean square slope of the sea")
+    return figure
