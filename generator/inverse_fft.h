@@ -21,10 +21,10 @@ class InverseFft {
   using Modes = std::unique_ptr<std::complex<double>[], Free>;
   Modes Allocate() const;
 
-  // Heights at the points (ix, iy), ix slow: the sum of modes times exp(2 pi i (i ix + j iy) / size). Mode (i, j) is
-  // `modes[row * (size / 2 + 1) + j]` with i = SignedIndex(row, size) and j from 0 to size / 2; the other half
-  // is its mirror, conj(mode(-i, -j)). Of the columns j = 0 and j = size / 2 both halves are stored, and must be
-  // mirrors already. The transform overwrites the modes.
+  // Heights at the points (ix, iy), ix slow: the sum of modes times exp(2 pi i (i ix + j iy) / size). Mode
+  // (i, j) is `modes[row * (size / 2 + 1) + j]` with i = SignedIndex(row, size) and j from 0 to size / 2;
+  // the other half is its mirror, conj(mode(-i, -j)). Of the columns j = 0 and j = size / 2 both halves are
+  // stored, and must be mirrors already. The transform overwrites the modes.
   std::vector<double> operator()(Modes modes) const;
 
  private:

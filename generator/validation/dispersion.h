@@ -2,8 +2,8 @@
 //
 //     omega^2 = g k + (T / rho) k^3
 //
-// A finite depth h multiplies both terms by tanh(k h). In the tank of Birkebak et al. (2018), 2.4 m deep, that is
-// below 1 by 1e-9 for waves of 1.4 m and by less for shorter ones.
+// A finite depth h multiplies both terms by tanh(k h). In the tank of Birkebak et al. (2018), 2.4 m deep,
+// that is below 1 by 1e-9 for waves of 1.4 m and by less for shorter ones.
 #pragma once
 
 namespace albtpu {

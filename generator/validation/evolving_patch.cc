@@ -18,7 +18,7 @@ double DirectionalPsi(const SeaState& sea, double k, double psi) {
 }  // namespace
 
 EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const NormalStream& stream)
-    : size_(size), transform_(size) {
+    : transform_(size) {
   assert(length > 0);
   const int half = size / 2 + 1;
   const double dk = 2 * std::numbers::pi / length;

@@ -17,7 +17,7 @@ namespace albtpu {
 // a(k) exp(i (k . x - omega t)). At any instant that is a frozen surface with the spectrum SeaState::Psi.
 class EvolvingPatch {
  public:
-  // `length` [m] of a side; `size` points along it, even. Modes at half the sampling wavenumber are left empty.
+  // `length` [m] of a side, `size` points along it, even. Modes at half the sampling wavenumber stay empty.
   EvolvingPatch(const SeaState& sea, double length, int size, const NormalStream& stream);
 
   // Elevations [m] at the points (ix, iy), ix slow, `time` [s] after the beginning.
@@ -29,7 +29,6 @@ class EvolvingPatch {
     std::complex<double> forth, back;  // half of a(k), and of the conjugate of a(-k)
   };
 
-  int size_;
   InverseFft transform_;
   std::vector<Mode> modes_;
 };

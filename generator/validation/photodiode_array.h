@@ -23,9 +23,9 @@ class PhotodiodeArray {
  public:
   PhotodiodeArray(const PhotodiodeArrayOptions& options, const Eigen::Vector2d& centre);
 
-  // The centroid of the samples, sum(x I) / sum(I), the intensity I of a photodiode being the number of spots
-  // within its aperture. (Eq. 20 and 21 as M10 / M00 and M01 / M00: as printed, the denominator is a signed sum that
-  // can vanish.) None in the dark.
+  // The centroid of the samples, sum(x I) / sum(I), the intensity I of a photodiode being the number of
+  // spots within its aperture. (Eq. 20 and 21 as M10 / M00 and M01 / M00: as printed, the denominator is a
+  // signed sum that can vanish.) None in the dark.
   std::optional<Eigen::Vector2d> Centroid(const std::vector<Eigen::Vector2d>& spots) const;
 
  private:
@@ -33,8 +33,8 @@ class PhotodiodeArray {
   Eigen::Vector2d corner_;  // the centre of the photodiode of least x and y
 };
 
-// Where the rays, refracted by the water, pass the plane `depth` [m] below the mean surface. Rays, water and spots
-// are in the same coordinates. Every ray carries the same power.
+// Where the rays, refracted by the water, pass the plane `depth` [m] below the mean surface. Rays, water
+// and spots are in the same coordinates. Every ray carries the same power.
 std::vector<Eigen::Vector2d> SpotsAtDepth(const std::vector<Ray>& rays, const HeightField& water,
                                           double refractive_index, double depth);
 

@@ -1,6 +1,5 @@
 #include "generator/validation/tank_sensitivity.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,8 +82,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
   variations.Run(gaussian, sea, Apertures("aperture, gaussian beam (cm)"));
 
   for (const double wind : {kWind, kStrongWind}) {
-    const double own_height = 4 * std::sqrt(ElevationVariance(SeaState(wind, kTankFetch)));
-    variations.Run(TankExperiment(), TankSea(wind, own_height),
+    variations.Run(TankExperiment(), TankSea(wind, OwnTankWaveHeight(wind)),
                    "wind, waves of the spectrum's own height (m/s)", wind);
   }
   const std::vector<double> heights =

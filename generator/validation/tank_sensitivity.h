@@ -16,8 +16,9 @@ struct TankVariation {
   CentroidScatter array, full_beam;
 };
 
-// The array of Table 4 at nadir in 2 m/s and waves of 9 mm with one thing changed at a time: aperture, pitch, number of
-// detectors, profile, wave height (also at 5.25 m/s), and what is ours: rays, grid, patch, other random waves.
+// The array of Table 4 at nadir in 2 m/s and waves of 9 mm with one thing changed at a time: aperture,
+// pitch, number of detectors, profile, wave height (also at 5.25 m/s), and what is ours: rays, grid, patch,
+// other random waves.
 std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed);
 
 DataTable TableOf(const std::vector<TankVariation>& variations);

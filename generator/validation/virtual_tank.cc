@@ -64,8 +64,8 @@ HeightField WindowOf(const std::vector<double>& patch, const TankGrid& grid, int
   return HeightField(std::move(heights), points, grid.length / grid.size);
 }
 
-// Points along a window that holds every ray, an odd number. Waves of a few centimetres move the meeting by less
-// than the margin.
+// Points along a window that holds every ray, an odd number. Waves of a few centimetres move the meeting by
+// less than the margin.
 int PointsToHold(const std::vector<PreparedBeam>& beams, double spacing) {
   constexpr double kMargin = 0.02;  // m
   double reach = 0;
@@ -92,9 +92,13 @@ CentroidAngles AnglesOf(const std::vector<std::optional<Eigen::Vector2d>>& centr
 
 }  // namespace
 
+double OwnTankWaveHeight(double wind_speed_10m) {
+  return 4 * std::sqrt(ElevationVariance(SeaState(wind_speed_10m, kTankFetch)));
+}
+
 SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
   SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch};
-  options.height_scale = significant_wave_height / (4 * std::sqrt(ElevationVariance(SeaState(options))));
+  options.height_scale = significant_wave_height / OwnTankWaveHeight(wind_speed_10m);
   return SeaState(options);
 }
 

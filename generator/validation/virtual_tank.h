@@ -14,11 +14,11 @@
 
 namespace albtpu {
 
-// The sea that the paper fitted to its tank, Apel's at 30 m of fetch, with all waves scaled to a significant wave
-// height [m]: its own is 1.6 mm at 2 m/s and 3.9 mm at 5.25 m/s, Table 2 measured 8 to 11 mm.
+// The sea that the paper fitted to its tank, Apel's, with all waves scaled to a significant wave height [m].
 inline constexpr double kTankFetch = 30;          // m, of the spectrum of Fig. 7
 inline constexpr double kTankWaveHeight = 0.009;  // m, Table 2 at 6.5 to 8.5 m from the fan
 SeaState TankSea(double wind_speed_10m, double significant_wave_height);
+double OwnTankWaveHeight(double wind_speed_10m);  // m, the spectrum's own
 
 // The elevations of the water in one frame: a periodic square patch, ix slow.
 using WaterOfFrame = std::function<std::vector<double>(int frame)>;
@@ -51,8 +51,8 @@ struct TankExperiment {
   int frames = 400;  // 20 s at 20 Hz
 };
 
-// Eq. 18 and 19 to the letter, atan(shift of a centroid / depth) against still water: rad, frame by frame. Frames in
-// which nothing was lit are left out.
+// Eq. 18 and 19 to the letter, atan(shift of a centroid / depth) against still water: rad, frame by frame.
+// Frames in which nothing was lit are left out.
 struct CentroidAngles {
   Eigen::ArrayXd along_wind, cross_wind;
 };
@@ -68,7 +68,8 @@ struct TankReading {                   // of one beam
   std::vector<CentroidAngles> arrays;  // of the samples of each array
 };
 
-// The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB arena.
+// The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB
+// arena.
 std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water);
 
 // Where the light of the first beam falls in one frame: the picture that its arrays sample.

@@ -13,13 +13,13 @@ struct RecordSpectrum {
   double SignificantWaveHeight() const;  // m, four times the root of the variance
 };
 
-// Welch's method: the mean of the periodograms of segments of `segment` samples (a power of two) under Hann's
-// window, each half over the last, without their means. A record of elevations [m] at `rate` [Hz], at least one
-// segment long.
+// Welch's method: the mean of the periodograms of segments of `segment` samples (a power of two) under
+// Hann's window, each half over the last, without their means. A record of elevations [m] at `rate` [Hz],
+// at least one segment long.
 RecordSpectrum WelchSpectrum(const std::vector<double>& record, double rate, int segment);
 
-// The mean height [m], trough to crest, of the highest third of the waves between upward crossings of the mean.
-// At least three waves.
+// The mean height [m], trough to crest, of the highest third of the waves between upward crossings of the
+// mean. At least three waves.
 double HighestThird(const std::vector<double>& record);
 
 }  // namespace albtpu

@@ -8,9 +8,10 @@
 
 namespace albtpu {
 
-// Immutable; draws from one staff may run on many threads. Records are exactly Gaussian, with the sea's spectrum over
-// frequency: at one point the directions of waves do not matter. Each is cut from a periodic one twice as long, so that
-// it does not repeat. The staff is quick: waves above half the rate are not filtered out but fold into the record.
+// Immutable; draws from one staff may run on many threads. Records are exactly Gaussian, with the sea's
+// spectrum over frequency: at one point the directions of waves do not matter. Each is cut from a periodic
+// one twice as long, so that it does not repeat. The staff is quick: waves above half the rate are not
+// filtered out but fold into the record.
 class WaveStaff {
  public:
   WaveStaff(const SeaState& sea, int samples, double rate);  // rate in Hz

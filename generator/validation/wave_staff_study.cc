@@ -220,8 +220,8 @@ Range RangeOf(std::size_t rows, const Value& value) {
   return range;
 }
 
-// Whether gravity alone makes the published wavelength of the published frequency: 0.05 Hz and 0.5 mm are lost in
-// rounding.
+// Whether gravity alone makes the published wavelength of the published frequency: rounding hides 0.05 Hz
+// and 0.5 mm.
 bool GravityExplains(double wavelength, double frequency) {
   return wavelength + 0.0005 >= GravityWavelength(frequency + 0.05) &&
          wavelength - 0.0005 <= GravityWavelength(frequency - 0.05);
@@ -251,36 +251,29 @@ std::vector<std::string> Paragraphs(const Table2& published, const std::vector<W
   }
   return {
       absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest of the paper, the peak "
-                      "wavelengths of Apel's "
-                      "spectrum are %+.0f to %+.0f %% off the published ones; weaker winds make shorter "
-                      "waves (second table).",
+                      "wavelengths of Apel's spectrum are %+.0f to %+.0f %% off the published ones; weaker "
+                      "winds make shorter waves (second table).",
                       100 * length.least, 100 * length.most),
       absl::StrFormat(
-          "Its significant wave heights at 5.25 m/s are only %.2f to %.2f of the measured: this spectrum has "
-          "one level "
-          "of saturation for all fetches, as mature seas have, and young waves are steeper. But the "
-          "measured heights are %.2f to %.2f of the measured wavelengths, and a gravity wave breaks at 0.14 "
-          "(Michell 1893): at the short fetches they cannot be the height of the peak's waves alone. "
-          "Something "
-          "else, longer waves or the noise that the paper mentions, is in that record.",
+          "Its significant wave heights at 5.25 m/s are only %.2f to %.2f of the measured: this spectrum "
+          "has one level of saturation for all fetches, as mature seas have, and young waves are steeper. "
+          "But the measured heights are %.2f to %.2f of the measured wavelengths, and a gravity wave "
+          "breaks at 0.14 (Michell 1893): at the short fetches they cannot be the height of the peak's "
+          "waves alone. Something else, longer waves or the noise that the paper mentions, is in that "
+          "record.",
           height.least, height.most, steepness.least, steepness.most),
-      absl::StrFormat("The published wavelengths follow from the published frequencies by gravity alone, g / "
-                      "(2 pi f^2), in %d "
-                      "of %d rows within the rounding of both. With surface tension the wavelengths of these "
-                      "frequencies are "
-                      "%.0f to %.0f %% longer.",
+      absl::StrFormat("The published wavelengths follow from the published frequencies by gravity alone, g "
+                      "/ (2 pi f^2), in %d of %d rows within the rounding of both. With surface tension "
+                      "the wavelengths of these frequencies are %.0f to %.0f %% longer.",
                       explained, static_cast<int>(rows), 100 * lengthening.least, 100 * lengthening.most),
       absl::StrFormat(
-          "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the paper's "
-          "did "
-          "(means of %d records). Waves above 15 Hz fold into its record. The paper does not tell how its "
-          "spectrum was "
-          "estimated; here it is the mean of periodograms of 8.5 s under Hann's window, half overlapping, "
-          "0.12 Hz "
-          "apart. The significant wave height is four times the root of the spectrum's integral. The paper "
-          "takes "
-          "the mean of the highest third of the waves: on the same records %.2f to %.2f of that. In a narrow "
-          "spectrum both are one; short waves on longer ones, and five samples to a period, part them.",
+          "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the "
+          "paper's did (means of %d records). Waves above 15 Hz fold into its record. The paper does not "
+          "tell how its spectrum was estimated; here it is the mean of periodograms of 8.5 s under Hann's "
+          "window, half overlapping, 0.12 Hz apart. The significant wave height is four times the root of "
+          "the spectrum's integral. The paper takes the mean of the highest third of the waves: on the "
+          "same records %.2f to %.2f of that. In a narrow spectrum both are one; short waves on longer "
+          "ones, and five samples to a period, part them.",
           records, highest_third.least, highest_third.most)};
 }
 

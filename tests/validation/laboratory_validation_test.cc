@@ -18,7 +18,8 @@
 namespace albtpu {
 namespace {
 
-// 6 x 6 photodiodes of 1 cm on a pitch of 5 cm under a uniform beam of 0.25 m, 40 000 rays, a grid of 2 mm, 400 frames.
+// 6 x 6 photodiodes of 1 cm on a pitch of 5 cm under a uniform beam of 0.25 m, 40 000 rays, a grid of 2 mm,
+// 400 frames.
 TankReading PhotodiodesAtNadir(double wind_speed) {
   const TankExperiment experiment;
   return ObserveTank(experiment,
@@ -28,10 +29,11 @@ TankReading PhotodiodesAtNadir(double wind_speed) {
 
 class Photodiodes : public ::testing::TestWithParam<double> {};
 
-// Table 4 prints 3.33 and 3.11 degrees along and across the wind at 2 m/s, 3.58 and 3.50 at 3 m/s. The aperture that
-// gave them is not published: 2.5 to 4.5 degrees is what apertures from 0.6 to 2 cm make of it, give or take a standard
-// error. The beam itself moves as the theory of small slopes has it, within 3 standard errors and 3 % for slopes that
-// are not small (0.3 of their mean square, 0.07) and a depth that is no larger than the footprint.
+// Table 4 prints 3.33 and 3.11 degrees along and across the wind at 2 m/s, 3.58 and 3.50 at 3 m/s. The
+// aperture that gave them is not published: 2.5 to 4.5 degrees is what apertures from 0.6 to 2 cm make of
+// it, give or take a standard error. The beam itself moves as the theory of small slopes has it, within 3
+// standard errors and 3 % for slopes that are not small (0.3 of their mean square, 0.07) and a depth that
+// is no larger than the footprint.
 TEST_P(Photodiodes, SeeAnglesOfTheMeasuredSizeUnderABeamThatHardlyMoves) {
   const double wind_speed = GetParam();
   const TankReading reading = PhotodiodesAtNadir(wind_speed);
@@ -60,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Winds, Photodiodes, ::testing::Values(2.0, 3.0), [](con
   return std::to_string(static_cast<int>(wind.param)) + "MetresASecond";
 });
 
-// 20 s of one water, 20 frames a second: the bright lines have moved from window to window by the next frame, so that 400
-// frames are as good as independent.
+// 20 s of one water, 20 frames a second: the bright lines have moved from window to window by the next
+// frame, so that 400 frames are as good as independent.
 TEST(PhotodiodesInTime, ScatterAlikeInAWaterThatEvolves) {
   const TankExperiment experiment;
   const auto evolving = SuccessiveFrames(TankSea(2, kTankWaveHeight), experiment.grid, 20, 1, 0);
@@ -74,8 +76,8 @@ TEST(PhotodiodesInTime, ScatterAlikeInAWaterThatEvolves) {
   expect_alike(successive.cross_wind, independent.cross_wind);
 }
 
-// Records of five minutes at 30 Hz, as in the paper, in the sea of 8.5 m of fetch: what comes out of the processing is what
-// went in. The spectrum of a record is resolved to 0.12 Hz.
+// Records of five minutes at 30 Hz, as in the paper, in the sea of 8.5 m of fetch: what comes out of the
+// processing is what went in. The spectrum of a record is resolved to 0.12 Hz.
 TEST(WaveStaffRecords, GiveBackPeakAndHeightOfTheSpectrum) {
   constexpr int kRecords = 40;
   const SeaState sea(5.25, 8.5);

@@ -52,9 +52,9 @@ def table_4_sensitivity(read):
     def draw(axes, parameter, label, **style):
         at = found[found["parameter"] == parameter]
         if len(at):
-            order = numpy.argsort(at["value"])
-            axes.errorbar(at["value"][order], at["along_wind_deg"][order],
-                          2 * at["along_wind_standard_error_deg"][order], fmt=".-", capsize=3, label=label, **style)
+            at = at[numpy.argsort(at["value"])]
+            axes.errorbar(at["value"], at["along_wind_deg"], 2 * at["along_wind_standard_error_deg"], fmt=".-",
+                          capsize=3, label=label, **style)
 
     draw(apertures, "aperture (cm)", "uniform beam", color="tab:blue")
     draw(apertures, "aperture, gaussian beam (cm)", "gaussian beam", color="tab:orange")

@@ -11,12 +11,13 @@ def table_2(read):
     shades = iter(numpy.linspace(0.75, 0, 6))
     for wind in numpy.unique(winds["wind_speed_m_s"]):
         sea = winds[(winds["wind_speed_m_s"] == wind) & (winds["fetch_m"] < 10)]
-        color = str(next(shades))
-        wavelength.plot(sea["fetch_m"], 100 * sea["peak_wavelength_m"], color=color, label=f"Apel, {wind:g} m/s")
-        height.plot(sea["fetch_m"], 1000 * sea["significant_wave_height_m"], color=color)
-    wavelength.plot(measured["fetch_m"], 100 * measured["published_peak_wavelength_m"], "o", color="tab:red",
-                    label="measured")
-    height.plot(measured["fetch_m"], 1000 * measured["published_significant_wave_height_m"], "o", color="tab:red")
+        style = {"color": str(next(shades)), "label": f"Apel, {wind:g} m/s"}
+        wavelength.plot(sea["fetch_m"], 100 * sea["peak_wavelength_m"], **style)
+        height.plot(sea["fetch_m"], 1000 * sea["significant_wave_height_m"], **style)
+    for axes, quantity, scale in ((wavelength, "peak_wavelength_m", 100),
+                                  (height, "significant_wave_height_m", 1000)):
+        axes.plot(measured["fetch_m"], scale * measured[f"published_{quantity}"], "o", color="tab:red",
+                  label="measured")
     wavelength.set_ylabel("peak wavelength (cm)")
     height.set_ylabel("significant wave\nheight (mm)")
     height.set_xlabel("fetch (m)")
@@ -33,7 +34,8 @@ def table_2_spectrum(read):
     fetches = numpy.unique(spectra["fetch_m"])
     for fetch, color in zip((fetches[0], fetches[-1]), ("tab:blue", "tab:orange")):
         at = spectra[spectra["fetch_m"] == fetch]
-        axes.semilogy(at["frequency_hz"], at["spectrum_m2_per_hz"], color=color, label=f"spectrum, fetch {fetch:g} m")
+        axes.semilogy(at["frequency_hz"], at["spectrum_m2_per_hz"], color=color,
+                      label=f"spectrum, fetch {fetch:g} m")
         axes.semilogy(at["frequency_hz"], at["staff_m2_per_hz"], ".", markersize=4, color=color,
                       label=f"staff, fetch {fetch:g} m")
         peak = measured["published_peak_frequency_hz"][measured["fetch_m"] == fetch][0]

@@ -52,8 +52,9 @@ TEST(EvolvingPatch, HasAtAnyInstantTheVarianceOfAStillOne) {
   EXPECT_LT(error, 0.03 * mean);
 }
 
-// h(k, t + tau) h*(k, t) is (Psi(k) exp(-i omega tau) + Psi(-k) exp(i omega tau)) / 2 in the mean, Psi directional:
-// for tau = 0 the power of a frozen surface, for others what tells the waves that go from those that come.
+// h(k, t + tau) h*(k, t) is (Psi(k) exp(-i omega tau) + Psi(-k) exp(i omega tau)) / 2 in the mean, Psi
+// directional: for tau = 0 the power of a frozen surface, for others what tells the waves that go from
+// those that come.
 TEST(EvolvingPatch, CarriesWavesAlongAndAgainstTheWindByTheirSpectrum) {
   constexpr int kModes[][2] = {{1, 0}, {2, 1}, {1, 2}, {0, 3}, {-2, 2}, {-3, 0}, {5, 4}};
   for (const double lag : {0.0, 0.06}) {

@@ -67,8 +67,8 @@ TEST(SpotsAtDepth, FollowSnellsLawThroughStillWater) {
   }
 }
 
-// Vertical light meets a plane of slope m at alpha = atan(m), and leaves it at alpha - asin(sin(alpha) / n) from the
-// vertical, towards the higher water.
+// Vertical light meets a plane of slope m at alpha = atan(m), and leaves it at alpha - asin(sin(alpha) / n)
+// from the vertical, towards the higher water.
 TEST(SpotsAtDepth, FollowTheClosedFormUnderATiltedPlane) {
   const double m = 0.2, alpha = std::atan(m);
   const double tangent = std::tan(alpha - std::asin(std::sin(alpha) / kN));
@@ -81,15 +81,12 @@ TEST(SpotsAtDepth, FollowTheClosedFormUnderATiltedPlane) {
   }
 }
 
-// The tilted plane shifts the light by 1 cm of its 25 cm. Between the photodiodes of the still centroid's line and the
-// shifted one the array sees the shift of the beam's edges only, by whole columns: with the pitch of the lattice and
-// apertures that touch, it sees the beam itself.
 TEST(PhotodiodeArray, FollowsABeamWhenItsPhotodiodesLeaveNoGaps) {
   const double m = 0.16, alpha = std::atan(m);
   const double tangent = std::tan(alpha - std::asin(std::sin(alpha) / kN));
   const auto spots = SpotsAtDepth(VerticalRays(), TiltedPlane(m), kN, kDepth);
   const PhotodiodeArray dense({.per_side = 300, .pitch = 0.001, .aperture = 0.001}, kOrigin);
-  // Mean of x + (d + m x) t over a beam that is symmetrical in x; a spot is read to within half a pitch.
+  // The mean of x + (d + m x) t over a beam that is symmetrical in x. A spot is read to half a pitch.
   EXPECT_NEAR(dense.Centroid(spots)->x(), kDepth * tangent, 0.0005);
   EXPECT_NEAR(dense.Centroid(spots)->y(), 0, 1e-12);
 }

@@ -37,7 +37,8 @@ TEST(VirtualTank, SeesNoMotionOfStillWater) {
   }
 }
 
-// Water that lies deeper by h and has no slope moves no vertical beam, and a slanted one by h (tan - tan refracted).
+// Water that lies deeper by h and has no slope moves no vertical beam, and a slanted one by h (tan - tan
+// refracted).
 TEST(VirtualTank, ReadsWaterLevelAsRefractionOfASlantedBeamToTheLetterOfThePaper) {
   const TankExperiment experiment = Small();
   const double h = 0.005;
