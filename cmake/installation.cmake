@@ -6,3 +6,5 @@ install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(FILES service/client/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY generator/validation/paper generator/validation/plots DESTINATION ${data}/validation
+        PATTERN "__pycache__" EXCLUDE)

@@ -41,4 +41,12 @@ struct PointOptions {
 };
 absl::Status RunPoint(const PointOptions& options);
 
+struct ValidateOptions {
+  std::filesystem::path output;  // a folder
+  bool quick = false;
+  std::uint64_t seed = 1;
+  bool overwrite = false;
+};
+absl::Status RunValidate(const ValidateOptions& options);
+
 }  // namespace albtpu

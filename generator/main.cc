@@ -20,6 +20,7 @@ namespace {
 using albtpu::PlanOptions;
 using albtpu::PointOptions;
 using albtpu::TableOptions;
+using albtpu::ValidateOptions;
 
 constexpr int kFailure = 1, kBadUsage = 2;
 
@@ -130,7 +131,17 @@ int Run(int argc, char** argv) {
   CLI::App* point = app.add_subcommand("point", "the uncertainty of one beam over one sea");
   AddPoint(*point, point_options);
 
-  for (CLI::App* command : {table, plan, point}) {
+  ValidateOptions validate_options;
+  CLI::App* validate =
+      app.add_subcommand("validate", "the paper's tables and figures, ours beside them, as a report");
+  validate->add_option("--output", validate_options.output, "folder for report.html, CSV files and figures")
+      ->required();
+  validate->add_flag("--quick", validate_options.quick, "fewer surfaces: minutes on two cores");
+  validate->add_option("--seed", validate_options.seed, "of the random numbers, a whole number (default 1)")
+      ->check(Seed());
+  validate->add_flag("--overwrite", validate_options.overwrite, "replace the files of an earlier report");
+
+  for (CLI::App* command : {table, plan, point, validate}) {
     command->add_option("--threads", threads, "all cores unless given")->check(CLI::Range(1, 4096));
   }
 
@@ -147,6 +158,7 @@ int Run(int argc, char** argv) {
   if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
   if (*table) return ExitCode(RunTable(table_options));
   if (*plan) return ExitCode(RunPlan(plan_options));
+  if (*validate) return ExitCode(RunValidate(validate_options));
   return ExitCode(RunPoint(point_options));
 }
 

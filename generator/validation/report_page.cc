@@ -25,14 +25,15 @@ table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabu
 caption { text-align: left; font-weight: 600; padding: .3rem 0; }
 th, td { padding: .25rem .6rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 td.number { text-align: right; white-space: nowrap; }
+.quantity::first-letter { text-transform: uppercase; } tr.study th { padding-top: 1.2rem; font-size: 1rem; }
 .agrees { color: #14692f; } .differs { color: #a32014; font-weight: 600; } .reported { color: var(--faint); }
 @media (max-width: 48rem) {
-  .summary thead { display: none; } .summary, .summary tbody, .summary tr, .summary td, .summary caption { display: block; }
+  .summary thead { display: none; } .summary, .summary tbody, .summary tr, .summary td, .summary th { display: block; }
   .summary tr { border: 1px solid var(--line); border-radius: .4rem; margin: .6rem 0; padding: .3rem .5rem; }
   .summary td, .summary td.number { border: 0; text-align: left; padding: .05rem .2rem; white-space: normal; }
-  .summary td:empty { display: none; }
+  .summary tr.study { border: 0; padding: 0; } .summary td:empty { display: none; }
   .summary td::before { content: attr(data-label) ": "; color: var(--faint); }
-  .summary td.quantity { font-weight: 600; } .summary td.quantity::before { content: ""; }
+  .summary td.quantity { font-weight: 600; } .summary td.quantity::before { content: none; }
 }
 )";
 
@@ -71,13 +72,16 @@ std::string SummaryHtml(const std::vector<Study>& studies) {
       "<table class=\"summary\"><thead><tr><th>quantity</th><th>unit</th><th>published</th><th>ours</th>"
       "<th>standard error</th><th>difference</th><th>verdict</th><th>basis</th></tr></thead>\n<tbody>\n";
   for (const Study& study : studies) {
+    if (study.comparisons.empty()) continue;
+    absl::StrAppend(&html, "<tr class=\"study\"><th colspan=\"8\"><a href=\"#", study.id, "\">",
+                    Escaped(study.title), "</a></th></tr>\n");
     for (const Comparison& c : study.comparisons) {
       const auto number = [](const char* label, double value) {
         return absl::StrCat("<td class=\"number\" data-label=\"", label, "\">", NumberText(value), "</td>");
       };
       const std::string verdict(Name(c.verdict));
-      absl::StrAppend(&html, "<tr><td class=\"quantity\"><a href=\"#", study.id, "\">", Escaped(c.quantity),
-                      "</a></td><td data-label=\"unit\">", Escaped(c.unit), "</td>");
+      absl::StrAppend(&html, "<tr><td class=\"quantity\">", Escaped(c.quantity),
+                      "</td><td data-label=\"unit\">", Escaped(c.unit), "</td>");
       absl::StrAppend(&html, number("published", c.published), number("ours", c.ours),
                       number("standard error", c.standard_error), number("difference", c.ours - c.published));
       absl::StrAppend(&html, "<td data-label=\"verdict\" class=\"", verdict, "\">", verdict,

@@ -1,0 +1,72 @@
+#include <iostream>
+
+#include "absl/strings/str_cat.h"
+#include "generator/commands.h"
+#include "generator/validation/angle_method_study.h"
+#include "generator/validation/closed_form_map_study.h"
+#include "generator/validation/corrected_waves_study.h"
+#include "generator/validation/laboratory_study.h"
+#include "generator/validation/paper_monte_carlo_study.h"
+#include "generator/validation/real_sea_study.h"
+#include "generator/validation/report.h"
+#include "generator/validation/spectrum_study.h"
+#include "generator/validation/wave_staff_study.h"
+#include "tables/default_tables.h"
+#include "tables/version.h"
+
+namespace albtpu {
+namespace {
+
+struct NamedStudy {
+  const char* name;
+  StudyFunction run;
+};
+
+// In the order of the paper; what goes beyond it comes last.
+constexpr NamedStudy kStudies[] = {
+    {"Figures 2 and 3, the spectrum", SpectrumStudy},
+    {"Table 2, the wave staff", WaveStaffStudy},
+    {"Table 3, the Monte Carlo", PaperMonteCarloStudy},
+    {"Table 4, the laboratory", LaboratoryStudy},
+    {"Table 5, the angle method", AngleMethodStudy},
+    {"the closed form", ClosedFormMapStudy},
+    {"the real sea", RealSeaStudy},
+    {"waves that are corrected away", CorrectedWavesStudy},
+};
+
+std::string MadeBy(const ValidateOptions& options) {
+  return absl::StrCat("Made by albtpu-generate validate", options.quick ? " --quick" : "", ", version ",
+                      std::string(Version()), " (", std::string(Commit()), "), seed ", options.seed, ".");
+}
+
+}  // namespace
+
+absl::Status RunValidate(const ValidateOptions& options) {
+  const std::filesystem::path data = InstalledDataDirectory() / "validation";
+  const ReportOptions report{options.output, data / "plots", MadeBy(options), options.overwrite};
+  if (const absl::Status status = PrepareReport(report); !status.ok()) return status;
+
+  std::vector<Study> studies;
+  for (const NamedStudy& study : kStudies) {
+    std::cerr << "albtpu-generate: study " << studies.size() + 1 << " of " << std::size(kStudies) << ": "
+              << study.name << '\n';
+    absl::StatusOr<Study> found = study.run({data / "paper", options.quick, options.seed});
+    if (!found.ok()) return found.status();
+    studies.push_back(*std::move(found));
+  }
+  const absl::StatusOr<std::string> why_figures_are_missing = WriteReport(studies, report);
+  if (!why_figures_are_missing.ok()) return why_figures_are_missing.status();
+  if (!why_figures_are_missing->empty()) {
+    std::cerr << "albtpu-generate: figures are missing: " << *why_figures_are_missing
+              << ": install python3-matplotlib to have them\n";
+  }
+
+  int count[3] = {};
+  for (const Study& study : studies) {
+    for (const Comparison& c : study.comparisons) ++count[static_cast<int>(c.verdict)];
+  }
+  std::cout << "agrees " << count[0] << "\ndiffers " << count[1] << "\nreported " << count[2] << '\n';
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu
