@@ -53,8 +53,8 @@ def table_4_sensitivity(read):
         at = found[found["parameter"] == parameter]
         if len(at):
             at = at[numpy.argsort(at["value"])]
-            axes.errorbar(at["value"], at["along_wind_deg"], 2 * at["along_wind_standard_error_deg"], fmt=".-",
-                          capsize=3, label=label, **style)
+            axes.errorbar(at["value"], at["along_wind_deg"], 2 * at["along_wind_standard_error_deg"],
+                          fmt=".-", capsize=3, label=label, **style)
 
     draw(apertures, "aperture (cm)", "uniform beam", color="tab:blue")
     draw(apertures, "aperture, gaussian beam (cm)", "gaussian beam", color="tab:orange")
