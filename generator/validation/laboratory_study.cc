@@ -198,7 +198,7 @@ std::string SizeParagraph(const std::vector<TankCell>& cells) {
       "measured %.1f to %.1f. Along over cross wind it is %.2f to %.2f. The centroid of the whole beam in "
       "the same frames moves by %.2f to %.2f degrees only: the array shows %.0f to %.0f times that. The "
       "waves of the tank are shorter than the footprint and average out over it, but each of them focuses "
-      "light, and 36 small windows catch some of the bright lines and miss others. So the published angles "
+      "light, and 36 small windows catch some of the bright patches and miss others. So the published angles "
       "can be explained, in size and in isotropy, by the sampling of caustics, without a motion of the "
       "beam.",
       ours.least, ours.most, published.least, published.most, shape.least, shape.most, beam.least, beam.most,
@@ -274,7 +274,7 @@ std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const s
       "In a water that evolves in time, 20 frames a second for 20 s as in the laboratory, the 2 sigma "
       "along the wind at nadir is between %.2f and %.2f of that of independent frames (winds in the "
       "table). The centroid hardly remembers the frame before (correlation at most %.2f in magnitude): "
-      "within 50 ms the bright lines have moved from window to window.",
+      "within 50 ms the bright patches have moved from window to window.",
       least, most, alike);
 }
 

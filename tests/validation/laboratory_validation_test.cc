@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Winds, Photodiodes, ::testing::Values(2.0, 3.0), [](con
   return std::to_string(static_cast<int>(wind.param)) + "MetresASecond";
 });
 
-// 20 s of one water, 20 frames a second: the bright lines have moved from window to window by the next
+// 20 s of one water, 20 frames a second: the bright patches have moved from window to window by the next
 // frame, so that 400 frames are as good as independent.
 TEST(PhotodiodesInTime, ScatterAlikeInAWaterThatEvolves) {
   const TankExperiment experiment;

@@ -19,10 +19,10 @@ def table_4(read):
                           color="tab:blue", capsize=3, label="virtual array")
             axes.plot(wind, at[f"full_beam_{axis}_wind_deg"], ".-", color="0.5", label="full beam")
             axes.set_title(f"{axis} wind, incidence {incidence:g}°", fontsize=10)
-            axes.set_ylim(bottom=0)
         row[0].set_ylabel("2σ (degrees)")
     for axes in rows[-1]:
         axes.set_xlabel("wind (m/s)")
+    rows[0][0].set_ylim(bottom=0)  # of all: the axis is shared, and fits what is drawn until it is set
     rows[0][0].legend(loc=(0.02, 0.1), fontsize=8)
     return figure
 
