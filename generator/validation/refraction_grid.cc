@@ -93,6 +93,23 @@ RefractionGrid GridOf(const PublishedAngles& published) {
   return grid;
 }
 
+Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis) {
+  Estimate mean;
+  double variance = 0;
+  const double winds = static_cast<double>(grid.options.wind_speeds.size());
+  const double incidences = static_cast<double>(grid.options.incidences.size());
+  for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w) {
+    double error = 0;
+    for (std::size_t i = 0; i < grid.options.incidences.size(); ++i) {
+      mean.value += (grid.At(w, i).*axis).value / (winds * incidences);
+      error += (grid.At(w, i).*axis).standard_error / incidences;
+    }
+    variance += error * error / (winds * winds);
+  }
+  mean.standard_error = std::sqrt(variance);
+  return mean;
+}
+
 std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid) {
   std::vector<LineFit> fits;
   for (std::size_t i = 0; i < grid.options.incidences.size(); ++i) {
@@ -102,6 +119,12 @@ std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid) {
     fits.push_back(FitLine(grid.options.wind_speeds, angles));
   }
   return fits;
+}
+
+double LowestRSquared(const RefractionGrid& grid) {
+  double lowest = 1;
+  for (const LineFit& fit : FitAlongWindByIncidence(grid)) lowest = std::min(lowest, fit.r_squared);
+  return lowest;
 }
 
 std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid) {

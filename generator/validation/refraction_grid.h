@@ -42,8 +42,8 @@ struct SimulationSize {
   Estimator estimator = Estimator::kControlVariate;
 };
 
-// All incidences of a wind see the same surfaces; each wind and footprint draws its own, which do not depend on
-// `height_scale`.
+// All incidences of a wind see the same surfaces; each wind and footprint draws its own, which do not depend
+// on `height_scale`.
 RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& size, std::uint64_t seed);
 
 // Of the along-wind angles.
@@ -52,8 +52,13 @@ double GreatestRelativeStandardError(const RefractionGrid& grid);
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);
 
+// The mean over all winds and incidences of one axis of the cells, as Figure 9 takes it. The incidences of a
+// wind share their surfaces, so their errors are taken as one.
+Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis);
+
 // Line through the along-wind angles over wind, one for each incidence.
 std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid);
+double LowestRSquared(const RefractionGrid& grid);  // of these lines
 
 // Angles as samples to fit the paper's model to.
 std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid);

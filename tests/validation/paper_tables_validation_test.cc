@@ -2,7 +2,6 @@
 // errors; that ours is what it was yesterday is no matter of this test.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -59,13 +58,6 @@ class Table3 : public ::testing::Test {
   const PublishedAngles paper_ = ReadTable3(PAPER_FOLDER).value();
   const GridOptions conditions_ = {paper_.wind_speeds, paper_.incidences};
 };
-
-double LowestRSquared(const RefractionGrid& grid) {
-  const std::vector<LineFit> fits = FitAlongWindByIncidence(grid);
-  return std::min_element(fits.begin(), fits.end(),
-                          [](const LineFit& a, const LineFit& b) { return a.r_squared < b.r_squared; })
-      ->r_squared;
-}
 
 // The cells scatter by 3.2 % for the paper's 500 surfaces alone.
 TEST_F(Table3, IsTheClosedFormTimesSqrt2AlongTheWind) {
