@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "generator/angle.h"
+#include "generator/refraction.h"
 #include "generator/validation/closed_form_ratio.h"
 
 namespace albtpu {
@@ -115,6 +116,16 @@ std::vector<Estimate> FitDepartureWithErrors(const std::vector<MapPart>& map) {
       {fit[0], std::sqrt(variance[0])}, {fit[1], std::sqrt(variance[1])}, {fit[2], std::sqrt(variance[2])}};
 }
 
+// The same at nadir as the slopes vanish, per unit of mean square slope. Snell's law turns a ray on a slope m
+// by the tangent g m - c m |m|^2, so that Gaussian slopes with the variances sx^2, sy^2 of a wind sea lower
+// the gain along x by (3 sx^2 + sy^2) c / g and along y by (sx^2 + 3 sy^2) c / g; they stand as 7 to 5.
+double ThirdOrderAtNadir(double n) {
+  const double g = 1 - 1 / n;
+  const double c = 1.0 / 3 - 1 / (2 * n) + 1 / (6 * n * n * n) - g * g * g / 3;
+  const double x = 7.0 / 12, y = 5.0 / 12;
+  return (x * (3 * x + y) + y * (x + 3 * y)) * c / g;
+}
+
 struct Tally {
   int within = 0, all = 0;
   double greatest_excess = -std::numeric_limits<double>::infinity();  // in standard errors
@@ -203,7 +214,7 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
                       ? Verdict::kAgrees
                       : Verdict::kDiffers,
        .basis = "zero within 0.005, to which grid, patch and rays are chosen, and three standard errors"});
-  const auto coefficient = [&](const char* quantity, const Estimate& ours, const char* basis) {
+  const auto coefficient = [&](const char* quantity, const Estimate& ours, const std::string& basis) {
     study.comparisons.push_back({.quantity = absl::StrCat("THU under the closed form, ", quantity),
                                  .unit = "1",
                                  .ours = ours.value,
@@ -212,7 +223,8 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
                                  .basis = basis});
   };
   coefficient("for each unit of mean square slope at nadir", fit[1],
-              "Snell's law to the third order in slope gives 0.19 as the slopes vanish");
+              absl::StrFormat("Snell's law to the third order in slope gives %.3f as the slopes vanish",
+                              ThirdOrderAtNadir(kRefractiveIndex)));
   coefficient("for each unit of mean square slope more at 20 degrees", fit[2],
               "a fit in the square of the incidence; the standard error is jackknifed");
 
@@ -250,8 +262,8 @@ absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options) {
           domain.realizations, map.size()),
       absl::StrFormat(
           "The theory fails slowly and to one side: it is linear in slope, and Snell's law bends. Over all "
-          "seas and footprints the THU of the Monte Carlo lies under the theory by %.2f (+- %.2f) times the "
-          "mean square slope at nadir and %.2f (+- %.2f) times it more at 20 degrees, growing with the "
+          "seas and footprints the THU of the Monte Carlo lies under the theory by %.3f (+- %.3f) times the "
+          "mean square slope at nadir and %.3f (+- %.3f) times it more at 20 degrees, growing with the "
           "square of the incidence. The first per cent is lost at a mean square slope of %.3f at nadir and "
           "of %.3f at 25 degrees.",
           fit[1].value, fit[1].standard_error, fit[2].value, fit[2].standard_error, 0.01 / fit[1].value,

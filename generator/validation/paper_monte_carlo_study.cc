@@ -208,8 +208,8 @@ absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options) {
   study.figures = {
       {.name = "table_3_angles",
        .caption =
-           "Table 3 (points; hollow: doubtful) beside ours as physics gives it (full lines) and with all "
-           "heights times sqrt 2 (broken lines), along and across the wind, at nadir and at 20 degrees."},
+           "Table 3 (points) beside ours as physics gives it (full lines) and with all heights times "
+           "sqrt 2 (broken lines), along and across the wind, at nadir and at 20 degrees."},
       {.name = "figure_8",
        .caption =
            "Figure 8: along-wind 2 sigma at 15 degrees over wind for each diameter: ours with one standard "

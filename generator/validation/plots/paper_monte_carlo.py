@@ -17,10 +17,8 @@ def table_3_angles(read):
             theory, = axes.plot(wind, rows[f"closed_form_{axis}_deg"], color=colour)
             scaled = axes.errorbar(wind, rows[f"sqrt2_monte_carlo_{axis}_deg"],
                                    rows[f"sqrt2_monte_carlo_{axis}_se_deg"], fmt="--", color=colour)
-            clean = rows[f"{axis}_reading"] == "clean"
-            paper, = axes.plot(wind[clean], rows[f"paper_{axis}_deg"][clean], "o", color=colour,
+            paper, = axes.plot(wind, rows[f"paper_{axis}_deg"], "o", color=colour,
                                label="nadir" if incidence == 0 else f"{incidence}°")
-            axes.plot(wind[~clean], rows[f"paper_{axis}_deg"][~clean], "o", color=colour, fillstyle="none")
         axes.set(title=f"{axis} wind", xlabel="wind speed / (m/s)", ylim=(0, 6.2))
     panels[0].set_ylabel("2 sigma of refraction / degree")
     panels[0].legend([paper, theory, scaled], ["Table 3", "closed form", "Monte Carlo, heights × √2"],
