@@ -18,7 +18,8 @@ def closed_form_map(read):
         image = axes.imshow(values, origin="lower", aspect="auto", cmap=colours, **limits)
         for i, row in enumerate(values):
             for w, value in enumerate(row):
-                axes.text(w, i, f"{value:.3f}", ha="center", va="center", fontsize=9)
+                axes.text(w, i, f"{value:.3f}" if column == "thu_ratio" else f"{value:.1e}", ha="center", va="center",
+                          fontsize=9)
         axes.set_xticks(range(len(winds)), [f"{wind:g}" for wind in winds])
         axes.set_yticks(range(len(incidences)), [f"{incidence:g}" for incidence in incidences])
         axes.set(title=title, xlabel="wind speed / (m/s)", ylabel="incidence / degree")
