@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "generator/beam.h"
+#include "generator/beam_uncertainty.h"
 #include "generator/discretization.h"
 #include "generator/sea_state.h"
-#include "generator/statistics.h"
 
 namespace albtpu {
 
@@ -38,13 +38,6 @@ struct Encounter {
   std::vector<double> depths;                    // m, not negative
   std::optional<int> rays;                       // of each beam; chosen from sea and beams where absent
   std::optional<Discretization> discretization;  // chosen from sea and beams where absent
-};
-
-// What one beam of an encounter comes to. Refraction in rad, the others in m, one for each depth.
-// docs/physics.md has the definitions.
-struct BeamUncertainty {
-  Estimate refraction_along_wind, refraction_cross_wind;
-  std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
 };
 
 struct EncounterResult {

@@ -43,38 +43,31 @@ Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& 
   return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
 }
 
+Eigen::ArrayXd SquaredDeviations(const Eigen::ArrayXd& sample) { return (sample - sample.mean()).square(); }
+
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, const std::optional<Control>& control) {
+  if (!control) return TwoSigmaOfSquares(squares);
+  Eigen::ArrayXd of_control = SquaredDeviations(control->sample);
+  if (control->second.size() > 0) of_control += SquaredDeviations(control->second);
+  return TwoSigmaOfSquares(squares, of_control, control->variance);
+}
+
 }  // namespace
 
-Estimate Mean(const Eigen::ArrayXd& sample) {
+Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& control) {
   const double n = static_cast<double>(sample.size());
   assert(n >= 2);
-  const double mean = sample.mean();
-  return {mean, std::sqrt((sample - mean).square().sum() / (n - 1) / n)};
+  const Eigen::ArrayXd rest = control ? Eigen::ArrayXd(sample - control->sample) : sample;
+  const double standard_error = std::sqrt((rest - rest.mean()).square().sum() / (n - 1) / n);
+  return {rest.mean() + (control ? control->mean : 0), standard_error};
 }
 
-Estimate TwoSigma(const Eigen::ArrayXd& sample) {
-  return TwoSigmaOfSquares((sample - sample.mean()).square());
+Estimate TwoSigma(const Eigen::ArrayXd& sample, const std::optional<Control>& control) {
+  return TwoSigmaOfSquares(SquaredDeviations(sample), control);
 }
 
-Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
-  return TwoSigmaOfSquares((x - x.mean()).square() + (y - y.mean()).square());
-}
-
-Estimate TwoSigma(const Eigen::ArrayXd& sample, const Control& control) {
-  return TwoSigmaOfSquares((sample - sample.mean()).square(),
-                           (control.sample - control.sample.mean()).square(), control.variance);
-}
-
-Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const Control& control) {
-  return TwoSigmaOfSquares(
-      (x - x.mean()).square() + (y - y.mean()).square(),
-      (control.sample - control.sample.mean()).square() + (control.second - control.second.mean()).square(),
-      control.variance);
-}
-
-Estimate Mean(const Eigen::ArrayXd& sample, const Control& control) {
-  const Estimate difference = Mean(sample - control.sample);
-  return {difference.value + control.mean, difference.standard_error};
+Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::optional<Control>& control) {
+  return TwoSigmaOfSquares(SquaredDeviations(x) + SquaredDeviations(y), control);
 }
 
 }  // namespace albtpu

@@ -66,6 +66,20 @@ Eigen::Matrix2d WavePatchModel::Covariance(const std::array<Eigen::MatrixXd, 2>&
   return covariance;
 }
 
+std::vector<double> WavePatchModel::Correlation(const Filter& a, const Filter& b) const {
+  const double dk = 2 * std::numbers::pi / length_;
+  const int half = size_ / 2 + 1;
+  InverseFft::Modes modes = transform_.Allocate();
+  for (int row = 0; row < size_; ++row) {
+    for (int j = 0; j < half; ++j) {
+      const double kx = dk * SignedIndex(row, size_), ky = dk * j;
+      const double power = power_[row * half + j];
+      modes[row * half + j] = power == 0 ? 0 : power * std::conj(a(kx, ky)) * b(kx, ky);
+    }
+  }
+  return transform_(std::move(modes));
+}
+
 double WavePatchModel::elevation_variance() const {
   double sum = 0;
   for (std::size_t m = 0; m < power_.size(); ++m) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <complex>
 #include <functional>
 #include <vector>
 
@@ -36,6 +37,11 @@ class WavePatchModel {
   // The covariance of two linear functionals of the heights, each the sum of its weights (size x size) times the
   // heights, exactly.
   Eigen::Matrix2d Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const;
+
+  // A linear filter of the heights: what it makes of a wave exp(i (kx x + ky y)), over the wave.
+  using Filter = std::function<std::complex<double>(double kx, double ky)>;
+  // The expectation of a(x) b(x + lag), the heights filtered by `a` and by `b`, at all lags of the grid.
+  std::vector<double> Correlation(const Filter& a, const Filter& b) const;
 
   double elevation_variance() const;
   // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle

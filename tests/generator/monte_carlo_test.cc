@@ -128,6 +128,7 @@ TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
       ExpectWithinErrors(c.bias_along_beam[d], p.bias_along_beam[d]);
       ExpectWithinErrors(c.bias_vertical[d], p.bias_vertical[d]);
       EXPECT_LT(c.thu[d].standard_error, 0.1 * p.thu[d].standard_error);
+      EXPECT_LT(c.tvu[d].standard_error, 0.25 * p.tvu[d].standard_error);
     }
   }
 }

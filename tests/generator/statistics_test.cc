@@ -71,7 +71,7 @@ TEST(Statistics, OfAMultipleOfTheControlAreKnownExactly) {
   const Control control{c, {}, 0, 1};
   EXPECT_NEAR(TwoSigma(3 * c + 5, control).value, 6, 1e-12);
   EXPECT_NEAR(TwoSigma(3 * c + 5, control).standard_error, 0, 1e-12);
-  EXPECT_NEAR(TwoSigma(3 * c, 3 * other, {c, other, 0, 2}).value, 6 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(TwoSigma(3 * c, 3 * other, Control{c, other, 0, 2}).value, 6 * std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(Mean(c + 5, control).value, 5, 1e-12);
   EXPECT_NEAR(Mean(c + 5, control).standard_error, 0, 1e-12);
 }
@@ -83,7 +83,7 @@ TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
   for (int i = 0; i < kRepetitions; ++i) {
     const Eigen::ArrayXd c = Normals(kCount, 2 * i), rest = 0.1 * Normals(kCount, 2 * i + 1);
     const Eigen::ArrayXd sample = 0.97 * c + rest + 0.02 * (c.square() - 1);
-    const Estimate spread = TwoSigma(sample, {c, {}, 0, 1}), mean = Mean(sample, {c, {}, 0, 1});
+    const Estimate spread = TwoSigma(sample, Control{c, {}, 0, 1}), mean = Mean(sample, Control{c, {}, 0, 1});
     variances[i] = spread.value * spread.value / 4;
     values[i] = spread.value;
     means[i] = mean.value;

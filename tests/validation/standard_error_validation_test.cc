@@ -23,10 +23,10 @@ struct Quantity {
   std::function<Estimate(const BeamUncertainty&)> of;
 };
 
-// Refraction, THU, TVU and bias of the vertical error, in that order; in first order of slope where they are that.
 const std::vector<Quantity> kQuantities = {
     {"refraction along wind, nadir", kNadir, [](const auto& beam) { return beam.refraction_along_wind; }},
     {"THU, nadir", kNadir, [](const auto& beam) { return beam.thu[0]; }},
+    {"TVU, nadir", kNadir, [](const auto& beam) { return beam.tvu[0]; }},
     {"vertical bias, nadir", kNadir, [](const auto& beam) { return beam.bias_vertical[0]; }},
     {"refraction along wind, 20 degrees", kSlanted,
      [](const auto& beam) { return beam.refraction_along_wind; }},
