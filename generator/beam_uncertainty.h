@@ -25,10 +25,11 @@ struct KnownSlopes {
   std::optional<MeanSquareSlopeMoments> of_the_square;  // known at nadir, where it is wanted
 };
 
-// `depths` in m. Without `known` it is the sample's own statistics: tracing alone. With it, they are corrected by what
-// the sample shows of the slopes and what is known of them (statistics.h): to first order in slope the tangent answers
-// to the mean slope by the gains of Snell's law, the vertical error to the tangent; at nadir the vertical error is -g^2 / 2
-// times the mean square slope per depth, g = 1 - 1/n.
+// `depths` in m. Without `known` it is the sample's own statistics: tracing alone. With it, they are
+// corrected by what the sample shows of the slopes and what is known of them (statistics.h): to first
+// order in slope the tangent answers to the mean slope by the gains of Snell's law, the vertical error to
+// the tangent; at nadir the vertical error is -g^2 / 2 times the mean square slope per depth, g = 1 -
+// 1/n.
 BeamUncertainty UncertaintyOf(const std::vector<BeamErrors>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths);

@@ -30,8 +30,8 @@ class WavePatchModel {
   int size() const { return size_; }
   double spacing() const { return length_ / size_; }
 
-  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through an FFT. A finer grid of the same
-  // length draws the same amplitudes for the modes that both have.
+  // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through an FFT. A finer grid of
+  // the same length draws the same amplitudes for the modes that both have.
   std::vector<double> Draw(const NormalStream& stream) const;
 
   // The covariance of two linear functionals of the heights, each the sum of its weights (size x size) times the

@@ -35,8 +35,8 @@ bool IsOlder(std::string_view version, std::string_view other);
 // The index of the table that `request` means: FullName(), or a name alone for its newest version. An empty
 // request means the default: `default_table` unless empty, else `survey`, else the only name there is, else the
 // only name of a table that is not published: numbers from the literature are for comparison, and answer when
-// they are asked for. `tables` are in the order of FindTables. NotFound: there is no such table. FailedPrecondition: there is no
-// default. Both messages list the names.
+// they are asked for. `tables` are in the order of FindTables. NotFound: there is no such table.
+// FailedPrecondition: there is no default. Both messages list the names.
 absl::StatusOr<std::size_t> FindTable(std::span<const TableFile> tables, std::string_view request,
                                       std::string_view default_table = {});
 

@@ -17,9 +17,11 @@ constexpr const char* kStyle = R"(
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 68rem; padding: 1rem; color: var(--ink); background: #fff;
        font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: break-word; }
-h1 { font-size: 1.6rem; line-height: 1.2; } h2 { margin-top: 3rem; border-top: 2px solid var(--sea); padding-top: .6rem; }
+h1 { font-size: 1.6rem; line-height: 1.2; }
+h2 { margin-top: 3rem; border-top: 2px solid var(--sea); padding-top: .6rem; }
 h1, h2, a { color: var(--sea); } p, figcaption { max-width: 46rem; } figure { margin: 1.5rem 0; }
-figure img { width: 100%; max-width: 46rem; height: auto; } figcaption, .made-by { color: var(--faint); font-size: .9rem; }
+figure img { width: 100%; max-width: 46rem; height: auto; }
+figcaption, .made-by { color: var(--faint); font-size: .9rem; }
 .scroll { overflow-x: auto; margin: 1rem 0; }
 table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; padding: .3rem 0; }

@@ -1,5 +1,5 @@
-// The standard errors that the Monte Carlo states, against how its estimates scatter, and its estimates against those of
-// tracing alone.
+// The standard errors that the Monte Carlo states, against how its estimates scatter, and its estimates against
+// those of tracing alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
