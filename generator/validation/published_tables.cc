@@ -70,8 +70,12 @@ UncertaintyTable::Variables MakeVariables(const Nodes& nodes, const AnglesAt& an
   return variables;
 }
 
+constexpr char kAlongTheWind[] =
+    " For a beam along the wind alone: ask with azimuth 0; a question without an azimuth is for the "
+    "worse of 0 and 90 degrees, and out of the domain.";
+
 // What both tables say of themselves.
-Provenance MakeProvenance(std::string id, std::string title, std::string source, std::string comment) {
+Provenance MakeProvenance(std::string id, std::string title, std::string source, const std::string& comment) {
   return {
       .id = std::move(id),
       .version = "1",
@@ -84,7 +88,7 @@ Provenance MakeProvenance(std::string id, std::string title, std::string source,
            "Lidar Bathymetry (ALB) Measurement Uncertainties. Remote Sensing 10(3), 453, "
            "doi:10.3390/rs10030453"},
           {"license", "CC BY 4.0, https://creativecommons.org/licenses/by/4.0/"},
-          {"comment", std::move(comment)},
+          {"comment", comment + kAlongTheWind},
           {"component", "sea surface only: no water column, air side, platform or system"},
           {"refractive_index", kRefractiveIndex},
           {"program_version", std::string(Version())},

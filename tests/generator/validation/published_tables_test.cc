@@ -80,6 +80,7 @@ TEST(PublishedTables, SayWhatTheyAre) {
     EXPECT_THAT(std::get<std::string>(provenance.attributes.at("license")), HasSubstr("CC BY 4.0"));
     EXPECT_THAT(std::get<std::string>(provenance.attributes.at("references")),
                 HasSubstr("doi:10.3390/rs10030453"));
+    EXPECT_THAT(std::get<std::string>(provenance.attributes.at("comment")), HasSubstr("ask with azimuth 0"));
     EXPECT_EQ(provenance.campaign, "");
   }
 }
