@@ -13,8 +13,9 @@ namespace albtpu {
 // as in Apel.
 //
 // Against the sea: fully developed it has 0.95 of the significant wave height of Pierson and Moskowitz
-// and 1.6-2.7 times the mean square slope of Cox and Munk (1954); at fetches below some 10 km its waves are
-// 2-3 times lower than JONSWAP's, because A does not depend on fetch.
+// (0.0214 s2/m times the square of the wind at 10 m; their law is of the wind at 19.5 m, of which it has
+// 0.84-0.86) and 1.6-2.7 times the mean square slope of Cox and Munk (1954); at fetches below some 10 km its
+// waves are 2-3 times lower than JONSWAP's, because A does not depend on fetch.
 //
 // Example: the significant wave height at 10 m/s, fully developed, is 4 * sqrt(integral of S) = 2.04 m.
 class ApelSpectrum final : public WaveSpectrum {

@@ -38,16 +38,18 @@ struct SpectrumDescription {
 SpectrumDescription ApelsDescription() {
   return {"Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading",
           "Apel (1994), doi:10.1029/94JC00846",
-          "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz, the mean square "
-          "slope 1.6 to 2.7 times Cox and Munk (1954). Below some 10 km of fetch waves are 2 to 3 times "
+          "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz (0.0214 s2/m times the "
+          "square of the wind at 10 m), the mean square slope 1.6 to 2.7 times Cox and Munk (1954). Below "
+          "some 10 km of fetch waves are 2 to 3 times "
           "lower than JONSWAP: values at short fetch are not conservative."};
 }
 
 SpectrumDescription ElfouhailysDescription() {
   return {"Elfouhaily et al. (1997) with its own spreading, drag law of Wu (1982)",
           "Elfouhaily et al. (1997), doi:10.1029/97JC00467; Wu (1982), doi:10.1029/JC087iC12p09704",
-          "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz, the mean "
-          "square slope 1.0 to 1.25 times Cox and Munk (1954) from 3 m/s on, 1.5 times at 2 m/s and 2.2 "
+          "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz (0.0214 s2/m "
+          "times the square of the wind at 10 m), the mean square slope 1.0 to 1.25 times Cox and Munk "
+          "(1954) from 3 m/s on, 1.5 times at 2 m/s and 2.2 "
           "times at 1 m/s. Below 2.75 m/s the model has no short waves: all slope is in its long ones."};
 }
 
