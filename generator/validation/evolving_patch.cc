@@ -8,14 +8,6 @@
 #include "generator/validation/dispersion.h"
 
 namespace albtpu {
-namespace {
-
-// Of waves that travel along psi, Psi(k) itself [m^4]: not the half-sum that a frozen surface sees.
-double DirectionalPsi(const SeaState& sea, double k, double psi) {
-  return sea.S(k) / k * sea.spectrum().Spreading(k, psi);
-}
-
-}  // namespace
 
 EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const NormalStream& stream)
     : transform_(size) {
@@ -33,8 +25,8 @@ EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const
       const double k = dk * std::hypot(i, j);
       const double psi = std::atan2(j, i);
       // Half of an amplitude whose real and imaginary parts have the variance Psi dkx dky each.
-      const double forth = 0.5 * dk * std::sqrt(DirectionalPsi(sea, k, psi));
-      const double back = 0.5 * dk * std::sqrt(DirectionalPsi(sea, k, psi + std::numbers::pi));
+      const double forth = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi));
+      const double back = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi + std::numbers::pi));
       const double* normal = &normals[4 * j];
       modes_[static_cast<std::size_t>(row) * half + j] = {AngularFrequency(k),
                                                           forth * std::complex<double>(normal[0], normal[1]),

@@ -9,7 +9,7 @@
 #include "generator/angle.h"
 #include "generator/sea_state.h"
 #include "generator/validation/beam_picture.h"
-#include "generator/validation/dispersion.h"
+#include "generator/validation/frequency_spectrum.h"
 #include "generator/validation/published_table.h"
 
 namespace albtpu {
@@ -66,16 +66,6 @@ DataTable DirectionalSpectrum(const SeaState& sea) {
   return table;
 }
 
-// The wavenumber at which S over frequency is greatest, S(k) dk / d omega.
-double PeakWavenumberOverFrequency(const SeaState& sea) {
-  const double k_p = sea.spectrum().peak_wavenumber();
-  double best = k_p;
-  for (double k = 0.5 * k_p; k < 2 * k_p; k *= 1.001) {
-    if (sea.S(k) / GroupSpeed(k) > sea.S(best) / GroupSpeed(best)) best = k;
-  }
-  return best;
-}
-
 absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options, Study& study) {
   const absl::StatusOr<PublishedTable> table =
       PublishedTable::Read(options.published / "table2_wave_staff.csv");
@@ -90,7 +80,6 @@ absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options,
   if (row == fetch->size())
     return absl::InvalidArgumentError("table2_wave_staff.csv: no row of 5.5 m of fetch");
   const char* basis = "Table 2 does not state its wind: nothing to hold 5 m/s to";
-  const double k = PeakWavenumberOverFrequency(sea);
   study.comparisons.push_back({.quantity = "Peak wavelength, 5 m/s, fetch 5.5 m, Eq. 3",
                                .unit = "m",
                                .published = (*wavelength)[row],
@@ -99,7 +88,7 @@ absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options,
   study.comparisons.push_back({.quantity = "Peak frequency, 5 m/s, fetch 5.5 m, greatest of S over frequency",
                                .unit = "Hz",
                                .published = (*frequency)[row],
-                               .ours = AngularFrequency(k) / (2 * std::numbers::pi),
+                               .ours = PeakFrequency(sea),
                                .basis = basis});
   study.comparisons.push_back(
       {.quantity = "Significant wave height, 5 m/s, fetch 5.5 m",
