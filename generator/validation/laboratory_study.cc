@@ -90,7 +90,7 @@ DataTable TableOfCells(const std::vector<TankCell>& cells) {
   DataTable table{
       "table_4",
       "2 sigma of refraction by the array of photodiodes: published, ours, and the full beam of the same "
-      "frames.",
+      "frames",
       {"wind_speed_m_s", "incidence_deg", "published_along_wind_deg", "along_wind_deg",
        "along_wind_standard_error_deg", "published_cross_wind_deg", "cross_wind_deg",
        "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"},
@@ -270,12 +270,14 @@ std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const s
     most = std::max(most, ratio);
     alike = std::max(alike, std::abs(tank.array_correlation));
   }
+  const std::string ratios = evolving.size() == 1 ? absl::StrFormat("%.2f", least)
+                                                  : absl::StrFormat("between %.2f and %.2f", least, most);
   return absl::StrFormat(
       "In a water that evolves in time, 20 frames a second for 20 s as in the laboratory, the 2 sigma "
-      "along the wind at nadir is between %.2f and %.2f of that of independent frames (winds in the "
+      "along the wind at nadir is %s of that of independent frames (winds in the "
       "table). The centroid hardly remembers the frame before (correlation at most %.2f in magnitude): "
       "within 50 ms the bright patches have moved from window to window.",
-      least, most, alike);
+      ratios, alike);
 }
 
 }  // namespace

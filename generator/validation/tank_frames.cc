@@ -34,7 +34,7 @@ DataTable LightUnderWaves(std::uint64_t seed) {
   DataTable table{
       "table_4_light",
       "Where the light of one frame falls at the depth of the array, 2 m/s, nadir; irradiance over its mean "
-      "on the water.",
+      "on the water",
       {"along_wind_m", "cross_wind_m", "irradiance"},
       {},
       false};
@@ -72,7 +72,7 @@ DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
   DataTable table{
       "table_4_evolving",
       "The array at nadir in a water that evolves in time, 20 frames a second: standard errors as if "
-      "frames were independent, and how alike one is to the next.",
+      "frames were independent, and how alike one is to the next",
       {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
        "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
        "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},

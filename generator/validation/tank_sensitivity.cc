@@ -117,7 +117,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
 
 DataTable TableOf(const std::vector<TankVariation>& variations) {
   DataTable table{"table_4_sensitivity",
-                  "The array at nadir in 2 m/s and waves of 9 mm, with one thing changed at a time.",
+                  "The array at nadir in 2 m/s and waves of 9 mm, with one thing changed at a time",
                   {"parameter", "value", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
                    "cross_wind_standard_error_deg", "full_beam_along_wind_deg"},
                   {}};

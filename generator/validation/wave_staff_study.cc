@@ -93,7 +93,7 @@ StaffReading Measure(const SeaState& sea, int records, std::uint64_t seed, std::
 DataTable TableOfFetches(const Table2& published, const std::vector<Waves>& ours) {
   DataTable table{
       "table_2",
-      "Waves by fetch: published, and Apel's spectrum at 5.25 m/s.",
+      "Waves by fetch: published, and Apel's spectrum at 5.25 m/s",
       {"fetch_m", "published_peak_wavelength_m", "peak_wavelength_m", "published_peak_frequency_hz",
        "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"},
       {}};
@@ -109,7 +109,7 @@ DataTable TableOfWinds(const Table2& published) {
   DataTable table{
       "table_2_winds",
       "Apel's spectrum at the winds of the paper, at the fetches of Table 2 and at the 30 m that were "
-      "fitted to it.",
+      "fitted to it",
       {"wind_speed_m_s", "fetch_m", "peak_wavelength_m", "peak_frequency_hz", "significant_wave_height_m"},
       {}};
   std::vector<double> fetches = published.fetch;
@@ -134,12 +134,11 @@ double CapillaryGravityWavelength(double frequency) {
 }
 
 DataTable TableOfDispersion(const Table2& published) {
-  DataTable table{
-      "table_2_dispersion",
-      "The wavelength of the published peak frequency, by gravity alone and with surface tension.",
-      {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
-       "with_surface_tension_m"},
-      {}};
+  DataTable table{"table_2_dispersion",
+                  "The wavelength of the published peak frequency, by gravity alone and with surface tension",
+                  {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
+                   "with_surface_tension_m"},
+                  {}};
   for (std::size_t i = 0; i < published.fetch.size(); ++i) {
     const double f = published.peak_frequency[i];
     table.rows.push_back({published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f),
@@ -151,7 +150,7 @@ DataTable TableOfDispersion(const Table2& published) {
 DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
                        const std::vector<StaffReading>& staffs) {
   DataTable table{"table_2_staff",
-                  "A virtual staff in the sea of 5.25 m/s beside the spectrum that the sea was made from.",
+                  "A virtual staff in the sea of 5.25 m/s beside the spectrum that the sea was made from",
                   {"fetch_m", "spectrum_peak_frequency_hz", "staff_peak_frequency_hz",
                    "staff_peak_frequency_standard_error_hz", "spectrum_significant_wave_height_m",
                    "staff_significant_wave_height_m", "staff_significant_wave_height_standard_error_m",
@@ -169,7 +168,7 @@ DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
 
 DataTable TableOfSpectra(const Table2& published, const std::vector<StaffReading>& staffs) {
   DataTable table{"table_2_spectrum",
-                  "The spectrum of elevation over frequency at 5.25 m/s, and as the virtual staff finds it.",
+                  "The spectrum of elevation over frequency at 5.25 m/s, and as the virtual staff finds it",
                   {"fetch_m", "frequency_hz", "spectrum_m2_per_hz", "staff_m2_per_hz"},
                   {},
                   false};
