@@ -25,17 +25,26 @@ WavePatchModel::Filter FacetSlope(bool beside_x, int axis, double spacing) {
   };
 }
 
-// The shares of the rays that each triangle of a kind meets, by its cell, on the periodic patch.
+// The shares of the rays that each triangle of a kind meets, by its cell in the window.
 Eigen::MatrixXd Shares(const SurfaceModel& model, const std::vector<Ray>& rays, bool beside_x) {
-  const int points = model.window_points(), size = model.patch().size();
+  const int points = model.window_points();
   const HeightField grid(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
                          model.patch().spacing());
-  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(size, size);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(points - 1, points - 1);
   for (const Ray& ray : rays) {
     const HeightField::Triangle triangle = grid.TriangleAt(ray.at_zero);
-    if (triangle.beside_x == beside_x) shares(triangle.ix % size, triangle.iy % size) += 1.0 / rays.size();
+    if (triangle.beside_x == beside_x) shares(triangle.ix, triangle.iy) += 1.0 / rays.size();
   }
   return shares;
+}
+
+// The same on the patch, which repeats.
+Eigen::MatrixXd OnPatch(const Eigen::MatrixXd& shares, int size) {
+  Eigen::MatrixXd on_patch = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < shares.rows(); ++i) {
+    for (Eigen::Index j = 0; j < shares.cols(); ++j) on_patch(i % size, j % size) += shares(i, j);
+  }
+  return on_patch;
 }
 
 // sum_x a(x) b(x + lag) at all lags, from the transforms of a and b.
@@ -51,31 +60,72 @@ std::vector<double> CrossCorrelation(const Waves& a, const Waves& b, int size) {
   return transform(std::move(modes));
 }
 
-// The covariances xx, xy and yy of the slopes of the long waves at lags of up to `reach` cells, lag along x the row.
-std::array<Eigen::MatrixXd, 3> LongSlopeCorrelation(const LongWaveModel& long_waves, double spacing,
-                                                    int reach) {
-  const auto count = static_cast<Eigen::Index>(long_waves.waves().size());
-  Eigen::MatrixXcd along_x(2 * reach + 1, count), along_y(2 * reach + 1, count);
-  std::array<Eigen::VectorXd, 3> power = {Eigen::VectorXd(count), Eigen::VectorXd(count),
-                                          Eigen::VectorXd(count)};
-  for (Eigen::Index m = 0; m < count; ++m) {
-    const LongWaveModel::Wave& wave = long_waves.waves()[m];
-    const double kx = wave.wavenumber.x(), ky = wave.wavenumber.y();
-    for (int lag = -reach; lag <= reach; ++lag) {
-      along_x(lag + reach, m) = std::polar(1.0, kx * lag * spacing);
-      along_y(lag + reach, m) = std::polar(1.0, ky * lag * spacing);
-    }
-    power[0][m] = wave.variance * kx * kx;
-    power[1][m] = wave.variance * kx * ky;
-    power[2][m] = wave.variance * ky * ky;
-  }
-  std::array<Eigen::MatrixXd, 3> correlation;
-  for (int c = 0; c < 3; ++c) {
-    correlation[c] = along_x.real() * power[c].asDiagonal() * along_y.real().transpose() -
-                     along_x.imag() * power[c].asDiagonal() * along_y.imag().transpose();
-  }
-  return correlation;
+// The mean over `shares` (of both kinds of triangles, by cell of the window, the cell along x the row) of the squared
+// slopes along x and y of each plane wave as the window has it, over its amplitude squared.
+Eigen::MatrixX2d SquaredSlopes(const SurfaceModel& model, const std::array<Eigen::MatrixXd, 2>& shares) {
+  const auto [x, y] = model.LongWavesAtPoints();
+  const Eigen::Index cells = x.rows() - 1;
+  const auto low = [&](const Eigen::MatrixXcd& wave) { return wave.topRows(cells).cwiseAbs2(); };
+  const auto high = [&](const Eigen::MatrixXcd& wave) { return wave.bottomRows(cells).cwiseAbs2(); };
+  const auto rise = [&](const Eigen::MatrixXcd& wave) {
+    return ((wave.bottomRows(cells) - wave.topRows(cells)) / model.patch().spacing()).cwiseAbs2();
+  };
+  const auto mean = [](const Eigen::MatrixXd& over_x, const Eigen::MatrixXd& weights,
+                       const Eigen::MatrixXd& over_y) {
+    return Eigen::VectorXd(over_x.cwiseProduct(weights * over_y).colwise().sum().transpose());
+  };
+  Eigen::MatrixX2d squares(x.cols(), 2);
+  squares.col(0) = mean(rise(x), shares[1], low(y)) + mean(rise(x), shares[0], high(y));
+  squares.col(1) = mean(high(x), shares[1], rise(y)) + mean(low(x), shares[0], rise(y));
+  return squares;
 }
+
+// Where in its cell, from the low corner and in cells, the side of a triangle has its middle that gives its slope along
+// `axis`.
+Eigen::Vector2d MiddleOfSide(bool beside_x, int axis) {
+  const double across = (axis == 0) == beside_x ? 0 : 1;
+  return axis == 0 ? Eigen::Vector2d(0.5, across) : Eigen::Vector2d(across, 0.5);
+}
+
+// The slopes of the long waves, taken as stationary.
+class LongSlopes {
+ public:
+  LongSlopes(const SurfaceModel& model, const Eigen::MatrixX2d& squared_slopes, int reach)
+      : along_x_(2 * reach + 1, squared_slopes.rows()),
+        along_y_(2 * reach + 1, squared_slopes.rows()),
+        per_cell_(squared_slopes.rows(), 2) {
+    const std::vector<LongWaveModel::Wave>& waves = model.long_waves().waves();
+    for (std::vector<double>& power : power_) power.resize(waves.size());
+    for (std::size_t m = 0; m < waves.size(); ++m) {
+      const Eigen::Vector2d per_cell = waves[m].wavenumber * model.patch().spacing();
+      per_cell_.row(m) = per_cell.transpose();
+      for (int lag = -reach; lag <= reach; ++lag) {
+        along_x_(lag + reach, m) = std::polar(1.0, per_cell.x() * lag);
+        along_y_(lag + reach, m) = std::polar(1.0, per_cell.y() * lag);
+      }
+      const double xx = squared_slopes(m, 0), yy = squared_slopes(m, 1);
+      power_[0][m] = waves[m].variance * xx;
+      power_[1][m] = waves[m].variance * std::copysign(std::sqrt(xx * yy), per_cell.x() * per_cell.y());
+      power_[2][m] = waves[m].variance * yy;
+    }
+  }
+
+  // The covariance of the slope along `a` and, `offset` and a lag of whole cells away, of that along `b`; the lag along x
+  // is the row, from -reach.
+  Eigen::MatrixXd Correlation(int a, int b, const Eigen::Vector2d& offset) const {
+    Eigen::VectorXcd power(per_cell_.rows());
+    for (Eigen::Index m = 0; m < power.size(); ++m) {
+      power[m] = std::polar(1.0, per_cell_.row(m).dot(offset)) * power_[a + b][m];
+    }
+    const Eigen::MatrixXcd weighted = along_x_ * power.asDiagonal();
+    return weighted.real() * along_y_.real().transpose() - weighted.imag() * along_y_.imag().transpose();
+  }
+
+ private:
+  Eigen::MatrixXcd along_x_, along_y_;        // exp(i k lag), lags the rows and waves the columns
+  Eigen::MatrixX2d per_cell_;                 // wavenumbers, rad
+  std::array<std::vector<double>, 3> power_;  // of the slopes: xx, xy, yy
+};
 
 }  // namespace
 
@@ -85,27 +135,35 @@ MeanSquareSlopeMoments MomentsOfMeanSquareSlope(const SurfaceModel& model, const
   double widest = 0;
   for (const Ray& ray : rays) widest = std::max(widest, ray.at_zero.cwiseAbs().maxCoeff());
   const int reach = std::min(static_cast<int>(2 * widest / spacing) + 2, size / 2 - 1);
-  const auto long_slopes = LongSlopeCorrelation(model.long_waves(), spacing, reach);
-  const std::array<Waves, 2> shares = {ForwardFft(Shares(model, rays, false)),
-                                       ForwardFft(Shares(model, rays, true))};
+  const std::array<Eigen::MatrixXd, 2> shares = {Shares(model, rays, false), Shares(model, rays, true)};
+  const std::array<Waves, 2> transformed = {ForwardFft(OnPatch(shares[0], size)),
+                                            ForwardFft(OnPatch(shares[1], size))};
+  const Eigen::MatrixX2d squared_slopes = SquaredSlopes(model, shares);
+  const LongSlopes long_slopes(model, squared_slopes, reach);
   double sum = 0;
   for (const auto& [first, second, times] : {std::tuple(0, 0, 1), std::tuple(1, 1, 1), std::tuple(0, 1, 2)}) {
-    const std::vector<double> pairs = CrossCorrelation(shares[first], shares[second], size);
+    const std::vector<double> pairs = CrossCorrelation(transformed[first], transformed[second], size);
     for (const int a : {0, 1}) {
       for (const int b : {0, 1}) {
         const std::vector<double> patch_slopes = model.patch().Correlation(
             FacetSlope(first == 1, a, spacing), FacetSlope(second == 1, b, spacing));
+        const Eigen::MatrixXd long_covariances =
+            long_slopes.Correlation(a, b, MiddleOfSide(second == 1, b) - MiddleOfSide(first == 1, a));
         for (int x = -reach; x <= reach; ++x) {
           for (int y = -reach; y <= reach; ++y) {
             const std::size_t lag = static_cast<std::size_t>((x + size) % size) * size + (y + size) % size;
-            const double covariance = patch_slopes[lag] + long_slopes[a + b](x + reach, y + reach);
+            const double covariance = patch_slopes[lag] + long_covariances(x + reach, y + reach);
             sum += times * pairs[lag] * covariance * covariance;
           }
         }
       }
     }
   }
-  return {model.FacetSlopeCovariance([](double, double) { return 1.0; }).trace(), 2 * sum};
+  double mean = model.patch().FacetSlopeCovariance([](double, double) { return 1.0; }).trace();
+  for (Eigen::Index m = 0; m < squared_slopes.rows(); ++m) {
+    mean += model.long_waves().waves()[m].variance * squared_slopes.row(m).sum();
+  }
+  return {mean, 2 * sum};
 }
 
 }  // namespace albtpu

@@ -14,8 +14,9 @@ struct MeanSquareSlopeMoments {
 
 // Mean and variance over all surfaces of the mean of |slope|^2 over the facets that `rays`, all vertical, meet. Slopes
 // are Gaussian: with R(a, b) the covariance of the slopes of facets a and b (a 2 x 2 matrix) and w their shares of the
-// rays, the variance is 2 sum w_a w_b |R(a, b)|^2, |.| the Frobenius norm. Of the long waves the slope at the middle of
-// a cell stands for both of its facets, which errs by less than 0.5 %.
+// rays, the variance is 2 sum w_a w_b |R(a, b)|^2, |.| the Frobenius norm. The mean is exact. In the variance
+// the long waves count as stationary, with the slopes that the window's interpolation leaves them in the mean,
+// which errs by less than 2e-4.
 MeanSquareSlopeMoments MomentsOfMeanSquareSlope(const SurfaceModel& model, const std::vector<Ray>& rays);
 
 }  // namespace albtpu

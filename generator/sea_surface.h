@@ -41,6 +41,14 @@ class SurfaceModel {
     Eigen::Matrix2d covariance;
   };
   Moments MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights, const Eigen::Vector2d& per_height) const;
+
+  // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at the points of the window (rows), interpolated as
+  // in the window: their product is the wave about its centre.
+  struct WavesAtPoints {
+    Eigen::MatrixXcd x, y;
+  };
+  WavesAtPoints LongWavesAtPoints() const { return {refine_ * phase_x_, refine_ * phase_y_}; }
+
   int window_points() const { return static_cast<int>(refine_.rows()); }  // along a side
 
   double elevation_variance() const { return patch_.elevation_variance() + long_waves_.elevation_variance(); }

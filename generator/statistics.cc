@@ -17,7 +17,7 @@ Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares) {
   return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
 }
 
-constexpr Eigen::Index kFewestToFit = 32;  // realizations
+constexpr Eigen::Index kFewestToFit = 64;  // realizations; with fewer the fit hides some of the scatter
 
 // The slope of a straight line through (x, y), zero where x does not scatter.
 double Slope(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {

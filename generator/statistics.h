@@ -29,7 +29,7 @@ Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& contro
 //
 // With a control it comes from the known variance of that and from the difference between the sample's squared
 // deviations and b times the control's. b is fitted to the other half of the sample, so that the estimate is
-// unbiased; with fewer than 32 realizations there is nothing to fit it to, b = 0.
+// unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0.
 Estimate TwoSigma(const Eigen::ArrayXd& sample, const std::optional<Control>& control = {});
 
 // Twice the root of the summed variances of the two components.
