@@ -7,6 +7,7 @@
 #include "generator/validation/corrected_waves_study.h"
 #include "generator/validation/laboratory_study.h"
 #include "generator/validation/paper_monte_carlo_study.h"
+#include "generator/validation/published_table.h"
 #include "generator/validation/real_sea_study.h"
 #include "generator/validation/report.h"
 #include "generator/validation/spectrum_study.h"
@@ -34,6 +35,21 @@ constexpr NamedStudy kStudies[] = {
     {"waves that are corrected away", CorrectedWavesStudy},
 };
 
+// The studies read them only when their turn comes.
+absl::Status CheckPublished(const std::filesystem::path& folder) {
+  for (const char* table : {"table2_wave_staff", "table3_simulated", "table4_empirical", "table5_thu_tvu"}) {
+    const auto read = PublishedTable::Read(folder / (std::string(table) + ".csv"));
+    if (!read.ok()) return read.status();
+  }
+  return absl::OkStatus();
+}
+
+std::string Advice(const std::string& why_figures_are_missing) {
+  const bool no_library = why_figures_are_missing.find("ModuleNotFoundError") != std::string::npos ||
+                          why_figures_are_missing.find("No such file or directory") == 0;
+  return no_library ? ": install python3-matplotlib to have them" : "";
+}
+
 std::string MadeBy(const ValidateOptions& options) {
   return absl::StrCat("Made by albtpu-generate validate", options.quick ? " --quick" : "", ", version ",
                       std::string(Version()), " (", std::string(Commit()), "), seed ", options.seed, ".");
@@ -44,6 +60,7 @@ std::string MadeBy(const ValidateOptions& options) {
 absl::Status RunValidate(const ValidateOptions& options) {
   const std::filesystem::path data = InstalledDataDirectory() / "validation";
   const ReportOptions report{options.output, data / "plots", MadeBy(options), options.overwrite};
+  if (const absl::Status status = CheckPublished(data / "paper"); !status.ok()) return status;
   if (const absl::Status status = PrepareReport(report); !status.ok()) return status;
 
   std::vector<Study> studies;
@@ -58,7 +75,7 @@ absl::Status RunValidate(const ValidateOptions& options) {
   if (!why_figures_are_missing.ok()) return why_figures_are_missing.status();
   if (!why_figures_are_missing->empty()) {
     std::cerr << "albtpu-generate: figures are missing: " << *why_figures_are_missing
-              << ": install python3-matplotlib to have them\n";
+              << Advice(*why_figures_are_missing) << '\n';
   }
 
   int count[3] = {};

@@ -47,7 +47,7 @@ std::string DrawFigures(const std::filesystem::path& plots, const std::filesyste
   pid_t child = 0;
   const int failure = posix_spawn(&child, kPython, &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) return absl::StrCat(kPython, ": ", std::strerror(failure));
+  if (failure != 0) return absl::StrCat(std::strerror(failure), ": ", kPython);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -94,9 +94,9 @@ absl::Status PrepareReport(const ReportOptions& options) {
     return absl::NotFoundError(absl::StrCat(
         folder.string(), ": cannot be made: give a folder, or a name in a folder that is there"));
   }
-  if (std::filesystem::exists(folder / kPage) && !options.overwrite) {
-    return absl::AlreadyExistsError(
-        absl::StrCat((folder / kPage).string(), ": is there already; --overwrite replaces it"));
+  if (!std::filesystem::is_empty(folder, error) && !options.overwrite) {
+    return absl::AlreadyExistsError(absl::StrCat(
+        folder.string(), ": is not empty; --overwrite replaces the files of an earlier report in it"));
   }
   return Workshop(folder).path().empty() ? NotWritable(folder) : absl::OkStatus();
 }
@@ -114,7 +114,12 @@ absl::StatusOr<std::string> WriteReport(const std::vector<Study>& studies, const
   ReportPage page{options.made_by, {}, DrawFigures(options.plots, folder, figures)};
   for (const std::string& figure : figures) {
     const std::filesystem::path svg = folder / (figure + ".svg");
-    if (std::filesystem::exists(svg)) page.figures[figure] = Contents(svg);
+    if (std::filesystem::exists(svg)) {
+      page.figures[figure] = Contents(svg);
+    } else {  // one of an earlier report would not go with the new numbers
+      std::error_code ignored;
+      std::filesystem::remove(options.folder / svg.filename(), ignored);
+    }
   }
   if (const auto status = WriteFile(folder / kPage, HtmlOf(studies, page)); !status.ok()) return status;
   if (const auto status = Publish(folder, options.folder); !status.ok()) return status;

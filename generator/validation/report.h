@@ -18,8 +18,8 @@ struct ReportOptions {
   bool overwrite = false;        // files of an earlier report
 };
 
-// What would keep a report from being written to options.folder, before the work: a report that is there
-// already (AlreadyExists), no parent folder (NotFound), no right to write (PermissionDenied).
+// What would keep a report from being written to options.folder, before the work: something that is in it already
+// (AlreadyExists), no parent folder (NotFound), no right to write (PermissionDenied).
 absl::Status PrepareReport(const ReportOptions& options);
 
 // Writes summary.csv, one CSV for each table, one SVG for each figure and, last, report.html. All are made in

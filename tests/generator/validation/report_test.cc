@@ -88,15 +88,21 @@ TEST_F(ReportTest, KeepsItsTablesWhereNoFigureCanBeDrawn) {
                             HasSubstr("figure_9 is missing"), HasSubstr("a &quot;clean&quot;, one")));
 }
 
-TEST_F(ReportTest, LeavesAnEarlierReportAloneUnlessTold) {
+TEST_F(ReportTest, LeavesAloneWhatIsThereUnlessTold) {
   ReportOptions options = Options(kDraws);
-  ASSERT_TRUE(PrepareReport(options).ok());
-  ASSERT_TRUE(WriteReport({}, options).ok());
+  std::filesystem::create_directory(options.folder);
+  std::ofstream(options.folder / "table_9.csv") << "mine";
   EXPECT_TRUE(absl::IsAlreadyExists(PrepareReport(options)));
+  EXPECT_EQ(Contents(options.folder / "table_9.csv"), "mine");
   options.overwrite = true;
   ASSERT_TRUE(PrepareReport(options).ok());
   ASSERT_TRUE(WriteReport({Example()}, options).ok());
   EXPECT_THAT(Page(), HasSubstr("Table 9"));
+  EXPECT_TRUE(std::filesystem::exists(options.folder / "figure_9.svg"));
+
+  std::ofstream(folder_ / "draw.py") << kDrawsNothing;
+  ASSERT_TRUE(WriteReport({Example()}, options).ok());
+  EXPECT_FALSE(std::filesystem::exists(options.folder / "figure_9.svg")) << "of other numbers";
 }
 
 TEST_F(ReportTest, SaysBeforeTheWorkThatAFolderCannotBeMade) {
