@@ -60,7 +60,8 @@ double StandardErrorsFor(int comparisons) {
 }
 
 double ExcessInStandardErrors(const Estimate& ratio, double allowed) {
-  return (std::abs(ratio.value - 1) - allowed) / ratio.standard_error;
+  const double departure = ratio.value - 1;
+  return std::max(-allowed - departure, departure - kDiscretizationError) / ratio.standard_error;
 }
 
 }  // namespace albtpu

@@ -12,9 +12,8 @@ namespace albtpu {
 // Of one beam.
 struct ClosedFormRatio {
   Estimate along, cross, thu;
-  Estimate tvu;  // not a number at nadir, where the closed form is zero
-  // How far from 1 along, cross and THU may lie for the nonlinearity of Snell's law, standard errors aside.
-  double allowed;
+  Estimate tvu;    // not a number at nadir, where the closed form is zero
+  double allowed;  // how far under 1 along, cross and THU may lie, standard errors aside
 };
 
 struct EncounterRatios {
@@ -29,8 +28,12 @@ struct EncounterRatios {
 EncounterRatios CompareWithClosedForm(const Encounter& encounter, int realizations, std::uint64_t seed,
                                       std::uint32_t cell);
 
-// Ray tracing lies under the small-slope theory by 0.5-1.5 % and 0.3 times the mean square slope, and by some
-// 2 % more at 20 degrees: 0.015 + 0.3 mss + 0.02 theta / 20 degrees.
+// What grid, patch and rays may do to a standard deviation (discretization.h): each is chosen to some half a
+// per cent of variance and a little more.
+inline constexpr double kDiscretizationError = 0.005;
+
+// How far under the small-slope theory ray tracing may lie, for Snell's law bends to that side only (over it,
+// kDiscretizationError): 0.015 + 0.3 mss + 0.02 theta / 20 degrees.
 double AllowedDeparture(double mean_square_slope, double incidence_degrees);
 
 // A footprint that sees less than this part of the slope variance sees still water: the Monte Carlo does not
@@ -41,7 +44,8 @@ inline constexpr double kLeastSeenFraction = 3e-5;
 // twenty.
 double StandardErrorsFor(int comparisons);
 
-// Departure of a ratio from 1 beyond what is allowed, in standard errors; not above 0 if within.
+// How far a ratio lies under 1 - allowed or over 1 + kDiscretizationError, in standard errors; not above 0 if
+// within.
 double ExcessInStandardErrors(const Estimate& ratio, double allowed);
 
 }  // namespace albtpu

@@ -37,8 +37,8 @@ def closed_form_departure(read):
         rows = table[table["incidence_deg"] == incidence]
         rows = rows[numpy.argsort(rows["mean_square_slope"])]
         slope = rows["mean_square_slope"]
-        axes.fill_between(slope, 1 - rows["allowed_departure"], 1 + rows["allowed_departure"], color="tab:green",
-                          alpha=0.15, label="what Snell's law explains")
+        axes.fill_between(slope, rows["least_ratio"], rows["most_ratio"], color="tab:green",
+                          alpha=0.15, label="what Snell's law and the grid explain")
         axes.errorbar(slope, rows["thu_ratio"], rows["thu_ratio_se"], fmt="o", markersize=3,
                       label="a sea and a footprint, ± 1 standard error")
         axes.axhline(1, color="tab:gray")

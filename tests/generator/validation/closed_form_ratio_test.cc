@@ -19,8 +19,13 @@ TEST(AllowedDeparture, GrowsWithSlopeAndIncidence) {
 
 TEST(Excess, CountsWhatIsBeyondTheAllowedInStandardErrors) {
   EXPECT_NEAR(ExcessInStandardErrors({0.90, 0.01}, 0.07), 3, 1e-9);
-  EXPECT_NEAR(ExcessInStandardErrors({1.10, 0.01}, 0.07), 3, 1e-9);
   EXPECT_LT(ExcessInStandardErrors({0.99, 0.01}, 0.07), 0);
+}
+
+// Snell's law does not bend upwards: no more is allowed there for a rough sea.
+TEST(Excess, AllowsOnlyTheDiscretizationAboveTheClosedForm) {
+  EXPECT_NEAR(ExcessInStandardErrors({1.03 + kDiscretizationError, 0.01}, 0.07), 3, 1e-9);
+  EXPECT_LT(ExcessInStandardErrors({1 + kDiscretizationError / 2, 0.01}, 0.07), 0);
 }
 
 TEST(ClosedFormRatio, IsNearOneAndLacksVerticalErrorsAtNadir) {
