@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "generator/validation/published_angles.h"
@@ -13,10 +14,11 @@ namespace albtpu {
 inline const std::vector<double> kPaperDiameters = {0.25, 0.5, 1, 2, 4};  // m, Table 1
 
 struct PaperMonteCarloSize {
-  SimulationSize as_paper;  // of every diameter
-  SimulationSize fine;      // at 0.25 m
+  SimulationSize plain;  // of every diameter, by tracing alone
+  SimulationSize fine;   // at 0.25 m
 };
-// The paper's size is 500 surfaces and 10,000 rays, by tracing alone as the paper does it (section 2.1.2).
+// If not quick, the plain run has the paper's size: 500 surfaces and 10,000 rays, by tracing alone as
+// the paper does it (section 2.1.2).
 PaperMonteCarloSize SizeOfPaperMonteCarlo(bool quick);
 
 struct PaperMonteCarlo {
@@ -24,7 +26,8 @@ struct PaperMonteCarlo {
   RefractionGrid closed_form;       // at 0.25 m, as the next two
   RefractionGrid fine, fine_sqrt2;  // as it is, and with all heights times sqrt 2
   std::vector<RefractionGrid> by_diameter,
-      closed_form_by_diameter;  // of the paper's size, as kPaperDiameters
+      closed_form_by_diameter;  // the plain run, as kPaperDiameters
+  std::string plain_name;       // "plain Monte Carlo, 500 surfaces"
 };
 PaperMonteCarlo RunPaperMonteCarlo(PublishedAngles table_3, const PaperMonteCarloSize& size,
                                    std::uint64_t seed);

@@ -62,7 +62,7 @@ DataTable LinesInWind(const PaperMonteCarlo& runs) {
   add("closed form", runs.closed_form);
   add("fine Monte Carlo", runs.fine);
   add("fine Monte Carlo, heights times sqrt 2", runs.fine_sqrt2);
-  add("Monte Carlo of the paper's size", runs.by_diameter.front());
+  add(runs.plain_name.c_str(), runs.by_diameter.front());
   return table;
 }
 
