@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "generator/angle.h"
@@ -89,15 +90,19 @@ SmallSlopeUncertainty ClosedFormOf(const Campaign& campaign, const Pulse& pulse)
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done) {
   VariableGrid grid(campaign, {kQuantities.begin(), kQuantities.end()}, true);
-  std::vector<EncounterResult> results;
-  for (std::size_t i = 0; i < EncounterCount(campaign); ++i) {
+  std::vector<EncounterResult> results(EncounterCount(campaign));
+  std::mutex reporting;
+  std::size_t finished = 0;
+  // Two levels: what an encounter prepares alone, others fill with their surfaces.
+  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
     EncounterResult result =
         Simulate(EncounterOf(campaign, i), campaign.effort, campaign.seed, static_cast<std::uint32_t>(i));
     for (std::size_t beam = 0; beam < result.beams.size(); ++beam) Store(result.beams[beam], i, beam, grid);
     result.beams.clear();
-    results.push_back(std::move(result));
-    done(i + 1);
-  }
+    results[i] = std::move(result);
+    const std::lock_guard lock(reporting);
+    done(++finished);
+  });
   const absl::StatusOr<InterpolationError> interpolation_error = MeasureInterpolationError(campaign);
   if (!interpolation_error.ok()) return interpolation_error.status();
   return UncertaintyTable::Create(campaign.axes, grid.Take(),

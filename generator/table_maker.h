@@ -11,7 +11,7 @@
 
 namespace albtpu {
 
-// Works off the encounters of a campaign, all threads of the current TBB arena on each; `done` is called
+// Works off the encounters of a campaign on all threads of the current TBB arena; `done` is called, by one at a time,
 // after each with how many are done. The table is a function of the campaign and of the date that
 // SOURCE_DATE_EPOCH states.
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
