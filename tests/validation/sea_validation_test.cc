@@ -52,9 +52,11 @@ TEST(RealSeaStudy, FindsElfouhailysSlopesWhereCoxAndMunkSawThemAndApelsBeyond) {
     const bool light = Has(c.quantity, " 1 m/s") || Has(c.quantity, " 2 m/s");
     if (light) continue;
     ++judged;
-    EXPECT_EQ(c.verdict, Has(c.quantity, "Elfouhaily") ? Verdict::kAgrees : Verdict::kDiffers) << c.quantity;
+    // Too steep in light wind, Elfouhaily's sea is not within the scatter over all winds.
+    const bool within = Has(c.quantity, "Elfouhaily") && !Has(c.quantity, "1-14 m/s");
+    EXPECT_EQ(c.verdict, within ? Verdict::kAgrees : Verdict::kDiffers) << c.quantity;
   }
-  EXPECT_EQ(judged, 2 * (3 * 2 + 1));
+  EXPECT_EQ(judged, 2 * (3 * 2 + 2));
   // The Monte Carlo sees the two spectra differ as the closed form does, but for the non-linearity of each,
   // up to 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
   const DataTable& simulated = TableOf(*study, "spectra_monte_carlo");
@@ -70,6 +72,18 @@ TEST(CorrectedWavesStudy, HasTheMonteCarloBesideTheClosedForm) {
   const absl::StatusOr<Study> study = CorrectedWavesStudy(kQuick);
   ASSERT_TRUE(study.ok()) << study.status();
   for (const Comparison& c : study->comparisons) EXPECT_NE(c.verdict, Verdict::kDiffers) << c.quantity;
+  // The vertical bias at nadir is of second order in slope, and all waves have their part in it: it falls with
+  // the mean square slope that is left. The next order is smaller by about that slope.
+  const DataTable& simulated = TableOf(*study, "corrected_waves_monte_carlo");
+  for (std::size_t row = 1; row < simulated.rows.size(); ++row) {
+    const auto left = [&](const char* column) {
+      return Number(simulated, row, column) / Number(simulated, 0, column);
+    };
+    EXPECT_NEAR(left("nadir_bias_vertical_m"), left("mean_square_slope"),
+                Number(simulated, 0, "mean_square_slope"))
+        << row;
+    EXPECT_LT(left("nadir_bias_vertical_m"), 1) << row;
+  }
   const DataTable& table = TableOf(*study, "corrected_waves");
   for (std::size_t row = 1; row < table.rows.size(); ++row) {
     if (table.rows[row][3] == Cell(std::string("nothing"))) continue;
