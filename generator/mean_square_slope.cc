@@ -110,8 +110,8 @@ class LongSlopes {
     }
   }
 
-  // The covariance of the slope along `a` and, `offset` and a lag of whole cells away, of that along `b`; the lag along x
-  // is the row, from -reach.
+  // The covariance of the slope along `a` and of that along `b`, `offset` and a lag of whole cells away; the lag
+  // along x is the row, from -reach.
   Eigen::MatrixXd Correlation(int a, int b, const Eigen::Vector2d& offset) const {
     Eigen::VectorXcd power(per_cell_.rows());
     for (Eigen::Index m = 0; m < power.size(); ++m) {

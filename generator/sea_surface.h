@@ -42,8 +42,8 @@ class SurfaceModel {
   };
   Moments MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights, const Eigen::Vector2d& per_height) const;
 
-  // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at the points of the window (rows), interpolated as
-  // in the window: their product is the wave about its centre.
+  // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at the points of the window (rows),
+  // interpolated as in the window: their product is the wave about its centre.
   struct WavesAtPoints {
     Eigen::MatrixXcd x, y;
   };
