@@ -17,9 +17,6 @@ constexpr double kDissipation = 6283;    // rad/m, Eq. 13
 
 double Square(double x) { return x * x; }
 
-// Eq. 7. Its printed range ends at Omega = 5, short fetches go beyond: gamma is held at its ends.
-double PeakEnhancement(double omega) { return 1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0)); }
-
 // Eq. 14 with sqrt(2 pi) in place of its inverse: the integral of exp(-phi^2 / (2 phi_s^2)) over a full turn.
 double DirectionalIntegral(double k_over_k_p) {
   const double phi_s = 1 / std::sqrt(0.28 + 10 * std::pow(k_over_k_p, -1.3));
@@ -39,19 +36,16 @@ double ApelSpectrum::FullyDevelopedFetch(double wind_speed_10m) {
 }
 
 ApelSpectrum::ApelSpectrum(double wind_speed_10m, double fetch, Cosine2sSpreading spreading)
-    : omega_(InverseWaveAge(wind_speed_10m, fetch)), spreading_(spreading) {
+    : omega_(InverseWaveAge(wind_speed_10m, fetch)), peak_(omega_), spreading_(spreading) {
   assert(wind_speed_10m > 0 && fetch > 0);
   k_p_ = kGravity / Square(wind_speed_10m) * Square(omega_);                // Eq. 3
-  gamma_ = PeakEnhancement(omega_);                                         // Eq. 7
-  sigma_ = 0.08 * (1 + 4 / (omega_ * omega_ * omega_));                     // Eq. 9
   s_ = std::pow(10, -4.95 + 3.45 * (1 - std::exp(-wind_speed_10m / 4.7)));  // Eq. 12, base 10
 }
 
 double ApelSpectrum::operator()(double k) const {
   const double ratio = k / k_p_;
   const double pierson_moskowitz = std::exp(-1.25 / Square(ratio));                             // Eq. 2
-  const double peak_width = std::exp(-Square(std::sqrt(ratio) - 1) / (2 * Square(sigma_)));     // Eq. 8
-  const double jonswap = std::pow(gamma_, peak_width);                                          // Eq. 6
+  const double jonswap = peak_(ratio);                                                          // Eq. 6-9
   const double roll_off = 1 / (1 + Square(k / kRollOff));                                       // Eq. 10
   const double resonance = kResonanceGain * k / std::cosh((k - kResonance) / kResonanceWidth);  // Eq. 11
   const double dissipation = std::exp(-Square(k / kDissipation));                               // Eq. 13

@@ -1,6 +1,7 @@
 // Apel's spectrum of wind waves.
 #pragma once
 
+#include "generator/jonswap_peak.h"
 #include "generator/spreading.h"
 #include "generator/wave_spectrum.h"
 
@@ -37,7 +38,8 @@ class ApelSpectrum final : public WaveSpectrum {
   static double FullyDevelopedFetch(double wind_speed_10m);
 
  private:
-  double omega_, k_p_, gamma_, sigma_, s_;
+  double omega_, k_p_, s_;
+  JonswapPeak peak_;
   Cosine2sSpreading spreading_;
 };
 

@@ -23,9 +23,6 @@ constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footpr
 // Fewer rays sample the squares of slopes too coarsely, on which vertical errors at nadir rest: 1000 were seen to
 // add 3 % to them, 4000 add 0.1 %.
 constexpr int kFewestRays = 4000, kMostRays = 64000;
-// A footprint that averages the waves down to less than this part of their mean square slope sees still
-// water: nothing is refined for the sake of what it does see.
-constexpr double kLeastSeen = 3e-5;
 
 // The part of the slope variance seen by the footprint that facets of the side `spacing` take away: waves
 // under two facets long, and of the others what a difference quotient misses of the slope.
@@ -73,7 +70,7 @@ double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams) {
   const BeamOptions& widest = WidestBeam(beams);
   const double seen = SeenSlopeVariance(sea, widest);
-  const double least = std::max(seen, kLeastSeen * SlopeCovariance(sea).trace());
+  const double least = std::max(seen, kLeastSeenFraction * SlopeCovariance(sea).trace());
   Discretization choice{kNarrowestPatch, kCoarsestPoints, kFewestRays};
   while (choice.points_per_footprint < kFinestPoints &&
          GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) * seen >

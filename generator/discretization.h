@@ -14,6 +14,10 @@ struct Discretization {
   int rays;                     // of each beam
 };
 
+// A footprint that averages the waves down to less than this part of their mean square slope sees still water:
+// nothing is refined for the sake of what it does see, and nobody needs to know it.
+inline constexpr double kLeastSeenFraction = 3e-5;
+
 // The discretization with which doubling the patch, halving the spacing and doubling the rays moves
 // refraction, THU and TVU by less than 1 %. It starts coarse and refines
 //   * the grid, until its facets cost the footprint less than 0.4 % of the slope variance that it sees (a

@@ -20,10 +20,6 @@ double Square(double x) { return x * x; }
 // Gravity and capillarity, Eq. 24.
 double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + Square(k / kGravityCapillary))); }
 
-// Eq. 3. Logarithms are written "ln" in Eq. 44 and "log" here, which is Donelan's, of base 10. Given for
-// Omega up to 5, held beyond.
-double PeakEnhancement(double omega) { return 1.7 + 6 * std::log10(std::clamp(omega, 1.0, 5.0)); }
-
 // Eq. 44, natural logarithms; never negative.
 double ShortWaveLevel(double friction_velocity) {
   const double excess = std::log(friction_velocity / kLeastPhaseSpeed);
@@ -43,12 +39,12 @@ double ElfouhailySpectrum::FullyDevelopedFetch(double wind_speed_10m) {
 }
 
 ElfouhailySpectrum::ElfouhailySpectrum(double wind_speed_10m, double fetch)
-    : omega_(InverseWaveAge(wind_speed_10m, fetch)), friction_velocity_(FrictionVelocity(wind_speed_10m)) {
+    : omega_(InverseWaveAge(wind_speed_10m, fetch)),
+      peak_(omega_),
+      friction_velocity_(FrictionVelocity(wind_speed_10m)) {
   assert(wind_speed_10m > 0 && fetch > 0);
   k_p_ = kGravity * Square(omega_ / wind_speed_10m);
   c_p_ = PhaseSpeed(k_p_);
-  gamma_ = PeakEnhancement(omega_);
-  sigma_ = 0.08 * (1 + 4 / (omega_ * omega_ * omega_));
   alpha_p_ = 6e-3 * std::sqrt(omega_);  // Eq. 34
   alpha_m_ = ShortWaveLevel(friction_velocity_);
 }
@@ -56,8 +52,8 @@ ElfouhailySpectrum::ElfouhailySpectrum(double wind_speed_10m, double fetch)
 double ElfouhailySpectrum::operator()(double k) const {
   const double c = PhaseSpeed(k);
   const double root = std::sqrt(k / k_p_) - 1;
-  const double pierson_moskowitz = std::exp(-1.25 * Square(k_p_ / k));                      // Eq. 2
-  const double jonswap = std::pow(gamma_, std::exp(-Square(root) / (2 * Square(sigma_))));  // Eq. 3
+  const double pierson_moskowitz = std::exp(-1.25 * Square(k_p_ / k));  // Eq. 2
+  const double jonswap = peak_(k / k_p_);                               // Eq. 3
   const double long_waves = 0.5 * alpha_p_ * c_p_ / c * pierson_moskowitz * jonswap *
                             std::exp(-omega_ / std::sqrt(10.0) * root);  // Eq. 31, 32
   // Eq. 40, 41. As printed B_h has no cut-off below the peak, and the integral of S diverges at k = 0: it

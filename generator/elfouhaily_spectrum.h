@@ -1,6 +1,7 @@
 // The unified spectrum of long and short wind waves of Elfouhaily et al.
 #pragma once
 
+#include "generator/jonswap_peak.h"
 #include "generator/wave_spectrum.h"
 
 namespace albtpu {
@@ -38,7 +39,8 @@ class ElfouhailySpectrum final : public WaveSpectrum {
   static double FullyDevelopedFetch(double wind_speed_10m);
 
  private:
-  double omega_, k_p_, c_p_, gamma_, sigma_, alpha_p_;
+  double omega_, k_p_, c_p_, alpha_p_;
+  JonswapPeak peak_;
   double friction_velocity_, alpha_m_;
 };
 

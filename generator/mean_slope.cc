@@ -8,10 +8,8 @@ namespace {
 // The weights of the heights of the window in the mean slope of the facets over which `rays` cross z = 0.
 std::array<Eigen::MatrixXd, 2> Weights(const SurfaceModel& model, const std::vector<Ray>& rays) {
   const int points = model.window_points();
-  const double spacing = model.patch().spacing();
-  const HeightField still(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
-                          spacing);
-  const double weight = 1 / (spacing * static_cast<double>(rays.size()));
+  const HeightField still = model.StillWindow();
+  const double weight = 1 / (still.spacing() * static_cast<double>(rays.size()));
   std::array<Eigen::MatrixXd, 2> weights = {Eigen::MatrixXd::Zero(points, points),
                                             Eigen::MatrixXd::Zero(points, points)};
   for (const Ray& ray : rays) {

@@ -27,24 +27,13 @@ WavePatchModel::Filter FacetSlope(bool beside_x, int axis, double spacing) {
 
 // The shares of the rays that each triangle of a kind meets, by its cell in the window.
 Eigen::MatrixXd Shares(const SurfaceModel& model, const std::vector<Ray>& rays, bool beside_x) {
-  const int points = model.window_points();
-  const HeightField grid(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
-                         model.patch().spacing());
-  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(points - 1, points - 1);
+  const HeightField still = model.StillWindow();
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(still.points() - 1, still.points() - 1);
   for (const Ray& ray : rays) {
-    const HeightField::Triangle triangle = grid.TriangleAt(ray.at_zero);
+    const HeightField::Triangle triangle = still.TriangleAt(ray.at_zero);
     if (triangle.beside_x == beside_x) shares(triangle.ix, triangle.iy) += 1.0 / rays.size();
   }
   return shares;
-}
-
-// The same on the patch, which repeats.
-Eigen::MatrixXd OnPatch(const Eigen::MatrixXd& shares, int size) {
-  Eigen::MatrixXd on_patch = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index i = 0; i < shares.rows(); ++i) {
-    for (Eigen::Index j = 0; j < shares.cols(); ++j) on_patch(i % size, j % size) += shares(i, j);
-  }
-  return on_patch;
 }
 
 // sum_x a(x) b(x + lag) at all lags, from the transforms of a and b.
@@ -136,8 +125,8 @@ MeanSquareSlopeMoments MomentsOfMeanSquareSlope(const SurfaceModel& model, const
   for (const Ray& ray : rays) widest = std::max(widest, ray.at_zero.cwiseAbs().maxCoeff());
   const int reach = std::min(static_cast<int>(2 * widest / spacing) + 2, size / 2 - 1);
   const std::array<Eigen::MatrixXd, 2> shares = {Shares(model, rays, false), Shares(model, rays, true)};
-  const std::array<Waves, 2> transformed = {ForwardFft(OnPatch(shares[0], size)),
-                                            ForwardFft(OnPatch(shares[1], size))};
+  const std::array<Waves, 2> transformed = {ForwardFft(model.patch().Folded(shares[0])),
+                                            ForwardFft(model.patch().Folded(shares[1]))};
   const Eigen::MatrixX2d squared_slopes = SquaredSlopes(model, shares);
   const LongSlopes long_slopes(model, squared_slopes, reach);
   double sum = 0;

@@ -108,19 +108,16 @@ Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
   return patch_.FacetSlopeCovariance(weight) + long_waves_.SlopeCovariance(weight);
 }
 
+HeightField SurfaceModel::StillWindow() const {
+  const int points = window_points();
+  return HeightField(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
+                     patch_.spacing());
+}
+
 SurfaceModel::Moments SurfaceModel::MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights,
                                               const Eigen::Vector2d& per_height) const {
-  // The patch repeats: weights a period apart fall on the same point.
-  std::array<Eigen::MatrixXd, 2> on_patch;
-  for (int f = 0; f < 2; ++f) {
-    on_patch[f] = Eigen::MatrixXd::Zero(patch_.size(), patch_.size());
-    for (Eigen::Index i = 0; i < weights[f].rows(); ++i) {
-      for (Eigen::Index j = 0; j < weights[f].cols(); ++j) {
-        on_patch[f](i % patch_.size(), j % patch_.size()) += weights[f](i, j);
-      }
-    }
-  }
-  Moments moments{Eigen::Vector2d::Zero(), patch_.Covariance(on_patch)};
+  Moments moments{Eigen::Vector2d::Zero(),
+                  patch_.Covariance({patch_.Folded(weights[0]), patch_.Folded(weights[1])})};
 
   // A functional of the long waves is the real part of the sum of A c, A their amplitudes about the meeting.
   std::array<Eigen::VectorXcd, 2> of_wave;

@@ -49,6 +49,7 @@ class SurfaceModel {
   };
   WavesAtPoints LongWavesAtPoints() const { return {refine_ * phase_x_, refine_ * phase_y_}; }
 
+  HeightField StillWindow() const;  // the window's grid over still water
   int window_points() const { return static_cast<int>(refine_.rows()); }  // along a side
 
   double elevation_variance() const { return patch_.elevation_variance() + long_waves_.elevation_variance(); }

@@ -5,6 +5,7 @@
 #include "generator/validation/angle_method_study.h"
 #include "generator/validation/closed_form_map_study.h"
 #include "generator/validation/corrected_waves_study.h"
+#include "generator/validation/csv.h"
 #include "generator/validation/laboratory_study.h"
 #include "generator/validation/paper_monte_carlo_study.h"
 #include "generator/validation/published_table.h"
@@ -78,11 +79,9 @@ absl::Status RunValidate(const ValidateOptions& options) {
               << Advice(*why_figures_are_missing) << '\n';
   }
 
-  int count[3] = {};
-  for (const Study& study : studies) {
-    for (const Comparison& c : study.comparisons) ++count[static_cast<int>(c.verdict)];
+  for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported}) {
+    std::cout << Name(verdict) << ' ' << Count(studies, verdict) << '\n';
   }
-  std::cout << "agrees " << count[0] << "\ndiffers " << count[1] << "\nreported " << count[2] << '\n';
   return absl::OkStatus();
 }
 

@@ -50,6 +50,14 @@ std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
   return transform_(std::move(amplitude));
 }
 
+Eigen::MatrixXd WavePatchModel::Folded(const Eigen::MatrixXd& weights) const {
+  Eigen::MatrixXd folded = Eigen::MatrixXd::Zero(size_, size_);
+  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
+    for (Eigen::Index j = 0; j < weights.cols(); ++j) folded(i % size_, j % size_) += weights(i, j);
+  }
+  return folded;
+}
+
 Eigen::Matrix2d WavePatchModel::Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const {
   const std::array<Eigen::MatrixXcd, 2> of_wave = {ForwardFft(weights[0]), ForwardFft(weights[1])};
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();

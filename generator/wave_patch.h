@@ -34,6 +34,9 @@ class WavePatchModel {
   // the same length draws the same amplitudes for the modes that both have.
   std::vector<double> Draw(const NormalStream& stream) const;
 
+  // Weights of points of any part of the plane, ix the row, on the patch: those a period apart fall on the same point.
+  Eigen::MatrixXd Folded(const Eigen::MatrixXd& weights) const;
+
   // The covariance of two linear functionals of the heights, each the sum of its weights (size x size) times the
   // heights, exactly.
   Eigen::Matrix2d Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const;

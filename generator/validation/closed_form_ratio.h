@@ -18,8 +18,8 @@ struct ClosedFormRatio {
 
 struct EncounterRatios {
   std::vector<ClosedFormRatio> beams;
-  double
-      mean_square_slope;  // of all waves: those below the grid are not drawn, but what they do to refraction is
+  // Of all waves: those below the grid are not drawn, but what they do to refraction is.
+  double mean_square_slope;
   // The slope variance that the footprint lets through, over the whole; the least of the beams.
   double seen_fraction;
 };
@@ -35,10 +35,6 @@ inline constexpr double kDiscretizationError = 0.005;
 // How far under the small-slope theory ray tracing may lie, for Snell's law bends to that side only (over it,
 // kDiscretizationError): 0.015 + 0.3 mss + 0.02 theta / 20 degrees.
 double AllowedDeparture(double mean_square_slope, double incidence_degrees);
-
-// A footprint that sees less than this part of the slope variance sees still water: the Monte Carlo does not
-// refine its grid for the sake of what is left (discretization.cc), and nobody needs to know it.
-inline constexpr double kLeastSeenFraction = 3e-5;
 
 // So many standard errors that the greatest of this many normal departures exceeds them in one case of
 // twenty.

@@ -45,6 +45,14 @@ std::string_view Name(Verdict verdict) {
   return "reported";
 }
 
+int Count(const std::vector<Study>& studies, Verdict verdict) {
+  int count = 0;
+  for (const Study& study : studies) {
+    for (const Comparison& comparison : study.comparisons) count += comparison.verdict == verdict;
+  }
+  return count;
+}
+
 DataTable SummaryOf(const std::vector<Study>& studies) {
   DataTable summary{
       "summary",

@@ -13,6 +13,9 @@ std::string CsvOf(const DataTable& table);
 // The comparisons of all studies as one table, as the report shows them.
 DataTable SummaryOf(const std::vector<Study>& studies);
 
+// How many comparisons of all studies have the verdict.
+int Count(const std::vector<Study>& studies, Verdict verdict);
+
 std::string_view Name(Verdict verdict);  // "agrees", "differs", "reported"
 
 }  // namespace albtpu

@@ -18,8 +18,8 @@ namespace albtpu {
 namespace {
 
 constexpr double kSqrt2 = std::numbers::sqrt2;
-constexpr double kFineStandardError =
-    0.008;  // relative: what lets the fine run be judged by a limit of its own
+// Relative: what lets the fine run be judged by a limit of its own.
+constexpr double kFineStandardError = 0.008;
 
 // What agreement means, as rms of ln(sqrt 2 ours / paper) over the clean cells: the 500 surfaces of the paper
 // scatter by 3.2 %, its trend in wind departs from ours by some 6 %, and simulated angles may add 4 % of

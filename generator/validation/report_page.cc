@@ -94,12 +94,8 @@ std::string SummaryHtml(const std::vector<Study>& studies) {
 }
 
 std::string CountsHtml(const std::vector<Study>& studies) {
-  std::map<Verdict, int> count;
-  for (const Study& study : studies) {
-    for (const Comparison& c : study.comparisons) ++count[c.verdict];
-  }
-  return absl::StrCat("<p>Of the comparisons below ", count[Verdict::kAgrees], " agree, ",
-                      count[Verdict::kDiffers], " differ and ", count[Verdict::kReported],
+  return absl::StrCat("<p>Of the comparisons below ", Count(studies, Verdict::kAgrees), " agree, ",
+                      Count(studies, Verdict::kDiffers), " differ and ", Count(studies, Verdict::kReported),
                       " are reported without a judgement; the basis of each is beside it.</p>\n");
 }
 

@@ -57,8 +57,8 @@ struct CentroidAngles {
   Eigen::ArrayXd along_wind, cross_wind;
 };
 
-struct
-    CentroidScatter {  // 2 sigma, in degrees, as tables have it; standard errors hold for independent frames
+// 2 sigma, in degrees, as tables have it; standard errors hold for independent frames.
+struct CentroidScatter {
   Estimate along_wind, cross_wind;
 };
 CentroidScatter ScatterOf(const CentroidAngles& angles);
