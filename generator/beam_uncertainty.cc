@@ -7,90 +7,142 @@
 namespace albtpu {
 namespace {
 
-template <typename Value>
-Eigen::ArrayXd Column(const std::vector<BeamErrors>& sample, const Value& value) {
-  Eigen::ArrayXd values(static_cast<Eigen::Index>(sample.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = value(sample[i]);
-  return values;
+// One quantity of a beam in all realizations: the parts are the columns.
+class Column {
+ public:
+  template <typename Value>
+  Column(const std::vector<BeamRealization>& sample, const Value& value)
+      : values_(sample.size(), 2), shares_(sample.size(), 2) {
+    for (Eigen::Index i = 0; i < values_.rows(); ++i) {
+      for (const int part : {0, 1}) {
+        values_(i, part) = value(sample[i].parts[part].errors);
+        shares_(i, part) = sample[i].parts[part].share;
+      }
+    }
+  }
+
+  Eigen::ArrayXd Means() const { return (shares_ * values_).rowwise().sum(); }
+  // Squared deviations from the mean of all.
+  Eigen::ArrayXd Squares() const { return (shares_ * (values_ - Means().mean()).square()).rowwise().sum(); }
+  double VarianceOfMean() const {
+    const Eigen::ArrayXd means = Means();
+    const double n = static_cast<double>(means.size());
+    return (means - means.mean()).square().sum() / (n - 1) / n;
+  }
+
+ private:
+  Eigen::ArrayX2d values_, shares_;
+};
+
+Estimate TwoSigma(const Column& column, const std::optional<Control>& control) {
+  return TwoSigmaOfSquares(column.Squares(), column.VarianceOfMean(), control);
 }
 
 // The control variates of a beam. None where nothing is known.
 class Prediction {
  public:
-  Prediction(const std::vector<BeamErrors>& sample, const BeamOptions& beam, double refractive_index,
+  Prediction(const std::vector<BeamRealization>& sample, const BeamOptions& beam, double refractive_index,
              const std::optional<KnownSlopes>& known)
       : known_(known), azimuth_(std::cos(beam.azimuth), std::sin(beam.azimuth)) {
     if (!known) return;
     const SlopeGain gain = SmallSlopeGain(beam.incidence, refractive_index);
     const Eigen::Matrix2d answer = gain.out_of_plane * Eigen::Matrix2d::Identity() +
                                    (gain.in_plane - gain.out_of_plane) * azimuth_ * azimuth_.transpose();
-    mean_ = answer * known->mean;
-    covariance_ = answer * known->covariance * answer.transpose();
-    x_ = Column(sample, [&](const BeamErrors& e) { return answer.row(0).dot(e.mean_slope); });
-    y_ = Column(sample, [&](const BeamErrors& e) { return answer.row(1).dot(e.mean_slope); });
+    expectation_ = answer * known->mean;
+    covariance_ = answer * known->moments.covariance * answer.transpose();
+    const Eigen::Matrix2d form = SecantCurvature(beam.incidence, beam.azimuth, refractive_index);
     // The path per depth is 1 / cos(theta_r), of which sin(theta_r) is the derivative by the in-plane tangent.
     const double refracted = StillWaterRefraction(beam.incidence, refractive_index);
     vertical_ = -std::sin(refracted) * std::cos(refracted) * azimuth_;
-    square_ = Column(sample, [](const BeamErrors& e) { return e.mean_square_slope; });
-    square_gain_ = -0.5 * gain.out_of_plane * gain.out_of_plane;
+    square_gain_ = -0.5 * std::cos(refracted);
+    const auto of_form = [&](const Eigen::Vector3d& squares) {
+      return form(0, 0) * squares[0] + form(1, 1) * squares[1] + 2 * form(0, 1) * squares[2];
+    };
+    expected_form_ = of_form(known->moments.expected_squares);
+
+    const Eigen::Index n = static_cast<Eigen::Index>(sample.size());
+    tangent_.resize(n, 2);
+    form_.resize(n);
+    imbalance_.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      tangent_.row(i) = (answer * sample[i].mean_slope).transpose().array();
+      form_[i] = of_form(sample[i].mean_squares);
+      imbalance_[i] = sample[i].parts[0].share - sample[i].parts[1].share;
+    }
   }
 
-  std::optional<Control> TangentX() const { return OfTangent(Eigen::Vector2d::UnitX()); }
-  std::optional<Control> TangentY() const { return OfTangent(Eigen::Vector2d::UnitY()); }
-  std::optional<Control> Along(double depth) const { return OfTangent(-depth * azimuth_); }
+  std::optional<Control> SquaredTangent(int axis) const {
+    if (!known_) return std::nullopt;
+    return Control{tangent_.col(axis).square(), covariance_(axis, axis)};
+  }
+  std::optional<Control> SquaredHorizontal(double depth) const {
+    if (!known_) return std::nullopt;
+    const double scale = depth * depth;
+    return Control{scale * tangent_.square().rowwise().sum(), scale * covariance_.trace()};
+  }
+  std::optional<Control> SquaredVertical(double depth) const {
+    if (!known_) return std::nullopt;
+    const double scale = depth * depth;
+    return Control{scale * (Along(vertical_).square() + (square_gain_ * (form_ - expected_form_)).square()),
+                   scale * (vertical_.dot(covariance_ * vertical_) +
+                            square_gain_ * square_gain_ * known_->moments.variance_of_form)};
+  }
+  // Of the errors themselves.
   std::optional<Control> Horizontal(double depth) const {
     if (!known_) return std::nullopt;
-    return Control{-depth * x_, -depth * y_, 0, depth * depth * covariance_.trace()};
+    return Control{-depth * imbalance_ * Along(azimuth_), -depth * azimuth_.dot(expectation_)};
   }
   std::optional<Control> Vertical(double depth) const {
-    if (!known_ || !known_->of_the_square) return OfTangent(depth * vertical_);
-    const double gain = depth * square_gain_;
-    const auto [mean, variance] = *known_->of_the_square;
-    return Control{gain * square_, {}, gain * mean, gain * gain * variance};
+    if (!known_) return std::nullopt;
+    return Control{depth * (imbalance_ * Along(vertical_) + square_gain_ * form_),
+                   depth * (vertical_.dot(expectation_) + square_gain_ * expected_form_)};
   }
 
  private:
-  std::optional<Control> OfTangent(const Eigen::Vector2d& weights) const {
-    if (!known_) return std::nullopt;
-    return Control{
-        weights.x() * x_ + weights.y() * y_, {}, weights.dot(mean_), weights.dot(covariance_ * weights)};
+  Eigen::ArrayXd Along(const Eigen::Vector2d& direction) const {
+    return direction.x() * tangent_.col(0) + direction.y() * tangent_.col(1);
   }
 
   std::optional<KnownSlopes> known_;
   Eigen::Vector2d azimuth_;
-  Eigen::Vector2d mean_;  // of the predicted tangent
+  Eigen::Vector2d expectation_;  // of the predicted tangent, less that of still water
   Eigen::Matrix2d covariance_;
-  Eigen::ArrayXd x_, y_;      // the predicted tangent, less that of still water
-  Eigen::Vector2d vertical_;  // the vertical error per depth and tangent
-  Eigen::ArrayXd square_;     // the mean square slope
-  double square_gain_ = 0;    // the vertical error per depth and mean square slope
+  Eigen::Vector2d vertical_;   // the vertical error per depth and tangent
+  double square_gain_ = 0;     // the vertical error per depth and form
+  double expected_form_ = 0;   // of the squared slopes
+  Eigen::ArrayX2d tangent_;    // predicted on the surfaces of parts[0]; on the others it is the opposite
+  Eigen::ArrayXd form_;        // alike on both
+  Eigen::ArrayXd imbalance_;   // of the shares of the two
 };
 
 }  // namespace
 
-BeamUncertainty UncertaintyOf(const std::vector<BeamErrors>& sample, const BeamOptions& beam,
+BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths) {
   const Prediction prediction(sample, beam, refractive_index, known);
   const Eigen::Vector2d azimuth(std::cos(beam.azimuth), std::sin(beam.azimuth));
   BeamUncertainty result;
-  result.refraction_along_wind = TwoSigma(
-      Column(sample, [](const BeamErrors& e) { return std::atan(e.tangent.x()); }), prediction.TangentX());
-  result.refraction_cross_wind = TwoSigma(
-      Column(sample, [](const BeamErrors& e) { return std::atan(e.tangent.y()); }), prediction.TangentY());
+  result.realizations = static_cast<int>(sample.size());
+  const auto refraction = [&](int axis) {
+    const Column angle(sample, [&](const BeamErrors& e) { return std::atan(e.tangent[axis]); });
+    return TwoSigma(angle, prediction.SquaredTangent(axis));
+  };
+  result.refraction_along_wind = refraction(0);
+  result.refraction_cross_wind = refraction(1);
   for (const double depth : depths) {
-    const auto horizontal = [&](int axis) {
+    const auto horizontal = [&](const Eigen::Vector2d& direction) {
       return Column(sample, [&](const BeamErrors& e) {
-        return e.horizontal_offset[axis] + depth * e.horizontal_per_depth[axis];
+        return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth);
       });
     };
-    const Eigen::ArrayXd x = horizontal(0), y = horizontal(1);
-    const Eigen::ArrayXd z =
-        Column(sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
-    result.thu.push_back(TwoSigma(x, y, prediction.Horizontal(depth)));
-    result.tvu.push_back(TwoSigma(z, prediction.Vertical(depth)));
-    result.bias_along_beam.push_back(Mean(azimuth.x() * x + azimuth.y() * y, prediction.Along(depth)));
-    result.bias_vertical.push_back(Mean(z, prediction.Vertical(depth)));
+    const Column x = horizontal(Eigen::Vector2d::UnitX()), y = horizontal(Eigen::Vector2d::UnitY());
+    const Column z(sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
+    result.thu.push_back(TwoSigmaOfSquares(x.Squares() + y.Squares(), x.VarianceOfMean() + y.VarianceOfMean(),
+                                           prediction.SquaredHorizontal(depth)));
+    result.tvu.push_back(TwoSigma(z, prediction.SquaredVertical(depth)));
+    result.bias_along_beam.push_back(Mean(horizontal(azimuth).Means(), prediction.Horizontal(depth)));
+    result.bias_vertical.push_back(Mean(z.Means(), prediction.Vertical(depth)));
   }
   return result;
 }

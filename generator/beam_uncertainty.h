@@ -7,7 +7,7 @@
 
 #include "generator/beam.h"
 #include "generator/beam_errors.h"
-#include "generator/mean_square_slope.h"
+#include "generator/slope_moments.h"
 #include "generator/statistics.h"
 
 namespace albtpu {
@@ -16,21 +16,24 @@ namespace albtpu {
 struct BeamUncertainty {
   Estimate refraction_along_wind, refraction_cross_wind;
   std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
+  int realizations = 0;
 };
 
-// What is known beforehand of the slopes that a beam averages over, over all surfaces: the control variates' moments.
+// What is known beforehand of the slopes that a beam averages over: the expectations of the control variates. The `form`
+// of the moments is SecantCurvature (refraction.h).
 struct KnownSlopes {
-  Eigen::Vector2d mean;                                 // of the mean slope
-  Eigen::Matrix2d covariance;                           // of the mean slope
-  std::optional<MeanSquareSlopeMoments> of_the_square;  // known at nadir, where it is wanted
+  SlopeMoments moments;
+  // Of the mean slope. A slanted line meets the side of the long waves that faces it more often: not zero, though slopes
+  // are as often up as down.
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
 };
 
-// `depths` in m. Without `known` it is the sample's own statistics: tracing alone. With it, they are
-// corrected by what the sample shows of the slopes and what is known of them (statistics.h): to first
-// order in slope the tangent answers to the mean slope by the gains of Snell's law, the vertical error to
-// the tangent; at nadir the vertical error is -g^2 / 2 times the mean square slope per depth, g = 1 -
-// 1/n.
-BeamUncertainty UncertaintyOf(const std::vector<BeamErrors>& sample, const BeamOptions& beam,
+// `depths` in m. Without `known` it is the sample's own statistics: tracing alone. With it, they are corrected by what the
+// sample shows of the slopes and what is known of them (statistics.h): to first order in slope the tangent answers to the
+// mean slope by the gains of Snell's law and the vertical error to the tangent; to second order, which is all there is of
+// it at nadir, the vertical error answers to the mean squares of the slopes. First and second order do not go together in a
+// Gaussian sea, so that the variance of their sum is that of the one and that of the other.
+BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths);
 

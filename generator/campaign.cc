@@ -181,6 +181,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const SeaOptions sea = ReadSea(toml);
   const Effort effort = ReadEffort(toml);
   const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
+  const auto checked_pulses = toml.Integer("interpolation_check", "pulses", 1, 10'000);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(sea.spectrum, nodes);
@@ -197,6 +198,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .sea = sea,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
+  if (checked_pulses) campaign.checked_pulses = static_cast<int>(*checked_pulses);
   if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
   return campaign;
 }

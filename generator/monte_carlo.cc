@@ -5,98 +5,46 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 
-#include "generator/beam_errors.h"
-#include "generator/mean_slope.h"
-#include "generator/mean_square_slope.h"
+#include "generator/angle.h"
+#include "generator/beam_tracing.h"
 #include "generator/random_stream.h"
-#include "generator/ray_tracer.h"
 #include "generator/sea_surface.h"
 
 namespace albtpu {
 namespace {
 
-// A beam with what does not change from realization to realization.
-struct PreparedBeam {
-  Beam beam;
-  UnresolvedWaves unresolved;
-  TracedBeam still_water;
-  std::vector<Ray> rays;  // of a collimated beam: those of a point source depend on the elevation
-  std::optional<MeanSlope> mean_slope;  // absent: tracing alone, as always for a point source
-  std::optional<KnownSlopes> known_slopes;
-};
-
-TracedBeam StillWater(const std::vector<Ray>& rays, double refractive_index) {
-  return Trace(rays, HeightField(std::vector<double>(9, 0.0), 3, 1.0), refractive_index);
-}
-
-bool AtNadir(const PreparedBeam& prepared) { return prepared.beam.options().incidence == 0; }
-
-bool Collimated(const Beam& beam) { return std::isinf(beam.options().source_height); }
-
-// At nadir there is no azimuth: one beam stands for those of all azimuths.
-bool OneBeam(const PreparedBeam& a, const PreparedBeam& b) { return AtNadir(a) && AtNadir(b); }
-
-void KnowSlopes(const SurfaceModel& model, PreparedBeam& prepared) {
-  prepared.mean_slope.emplace(model, prepared.beam, prepared.rays);
-  prepared.known_slopes = {prepared.mean_slope->mean(), prepared.mean_slope->covariance(), {}};
-  if (AtNadir(prepared))
-    prepared.known_slopes->of_the_square = MomentsOfMeanSquareSlope(model, prepared.rays);
-}
-
-std::vector<PreparedBeam> Prepare(const Encounter& encounter, const SurfaceModel& model, Estimator estimator,
-                                  int ray_count, const Eigen::Matrix2d& unresolved_slopes) {
-  std::vector<PreparedBeam> beams;
-  for (const BeamOptions& options : encounter.beams) {
-    Beam beam(options, ray_count);
-    std::vector<Ray> rays = beam.Rays(0);
-    const TracedBeam still = StillWater(rays, encounter.refractive_index);
-    PreparedBeam prepared{std::move(beam),
-                          EffectOfUnresolvedWaves(options, encounter.refractive_index, unresolved_slopes),
-                          still,
-                          std::move(rays),
-                          {},
-                          {}};
-    if (!beams.empty() && OneBeam(beams.back(), prepared)) {
-      prepared.known_slopes = beams.back().known_slopes;
-    } else if (estimator == Estimator::kControlVariate && Collimated(prepared.beam)) {
-      KnowSlopes(model, prepared);
-    }
-    beams.push_back(std::move(prepared));
-  }
-  return beams;
-}
-
-// The errors of all beams on one surface.
-std::vector<BeamErrors> Realize(const std::vector<PreparedBeam>& beams, const SeaSurface& surface,
-                                double refractive_index) {
-  std::vector<BeamErrors> errors;
-  for (std::size_t b = 0; b < beams.size(); ++b) {
-    if (b > 0 && OneBeam(beams[b - 1], beams[b])) {
-      errors.push_back(errors.back());
-      continue;
-    }
-    const PreparedBeam& prepared = beams[b];
-    const SeaSurface::Window window = surface.WindowUnder(prepared.beam);
-    const TracedBeam traced =
-        Trace(Collimated(prepared.beam) ? prepared.rays : prepared.beam.Rays(window.elevation),
-              window.heights, refractive_index);
-    errors.push_back(ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water));
-    if (prepared.mean_slope) errors.back().mean_slope = (*prepared.mean_slope)(window.heights);
-    errors.back().mean_square_slope = traced.slope_squares.x() + traced.slope_squares.y();
-  }
-  return errors;
-}
-
-bool Meets(const Estimate& estimate, double relative_error) {
-  return estimate.standard_error <= relative_error * estimate.value;
-}
+// Below these nobody asks for an error.
+const double kNegligibleAngle = RadiansOfDegrees(0.01);
+constexpr double kNegligibleLength = 1e-3;  // m
 
 bool Meets(const BeamUncertainty& beam, double relative_error) {
-  const auto meets = [&](const Estimate& e) { return Meets(e, relative_error); };
-  return meets(beam.refraction_along_wind) && meets(beam.refraction_cross_wind) &&
-         std::all_of(beam.thu.begin(), beam.thu.end(), meets) &&
-         std::all_of(beam.tvu.begin(), beam.tvu.end(), meets);
+  const auto meets = [&](const Estimate& estimate, double negligible) {
+    return estimate.value < negligible || estimate.standard_error <= relative_error * estimate.value;
+  };
+  const auto length_meets = [&](const Estimate& estimate) { return meets(estimate, kNegligibleLength); };
+  return meets(beam.refraction_along_wind, kNegligibleAngle) && meets(beam.refraction_cross_wind, kNegligibleAngle) &&
+         std::all_of(beam.thu.begin(), beam.thu.end(), length_meets) &&
+         std::all_of(beam.tvu.begin(), beam.tvu.end(), length_meets);
+}
+
+// The beams of the least and of the greatest incidence, one of them at nadir: what holds for these holds between them.
+std::vector<BeamOptions> Extremes(const std::vector<BeamOptions>& beams) {
+  const auto less = [](const BeamOptions& a, const BeamOptions& b) { return a.incidence < b.incidence; };
+  const auto [least, greatest] = std::minmax_element(beams.begin(), beams.end(), less);
+  std::vector<BeamOptions> extremes;
+  for (const BeamOptions& beam : beams) {
+    const bool again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
+    if (!again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence)) extremes.push_back(beam);
+  }
+  return extremes;
+}
+
+// How many realizations there should be when `done` were not enough: a half more, in whole batches.
+int More(int done, const Effort& effort) {
+  const int batches = std::max(1, done / 2 / kBatch);
+  return std::min(done + batches * kBatch, effort.most_realizations);
 }
 
 }  // namespace
@@ -128,33 +76,37 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
   const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
   const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
   result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
-  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, encounter.beams);
+  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(encounter.beams));
 
-  const std::vector<PreparedBeam> beams =
-      Prepare(encounter, model, effort.estimator, discretization.rays, all_slopes - facet_slopes);
-  std::vector<std::vector<BeamErrors>> realizations;
-  do {
-    const int first = static_cast<int>(realizations.size());
-    const int wanted = first < effort.realizations ? effort.realizations : first + kBatch;
-    realizations.resize(std::min(wanted, effort.most_realizations));
-    tbb::parallel_for(first, static_cast<int>(realizations.size()), [&](int i) {
-      const SeaSurface surface(model, NormalStream(seed, cell, i));
-      realizations[i] = Realize(beams, surface, encounter.refractive_index);
+  const TracedBeams traced{encounter.beams, encounter.refractive_index, discretization.rays, all_slopes - facet_slopes};
+  const bool collimated = std::isinf(encounter.beams.front().source_height);
+  const std::unique_ptr<BeamTracing> tracing = effort.estimator == Estimator::kControlVariate && collimated
+                                                   ? MakeAntitheticTracing(model, traced)
+                                                   : MakePlainTracing(model, traced);
+
+  const std::size_t count = encounter.beams.size();
+  result.beams.resize(count);
+  std::vector<bool> wanted(count, true);  // those that want more realizations
+  std::vector<std::vector<BeamRealization>> realizations;
+  for (int goal = effort.realizations; true; goal = More(result.realizations, effort)) {
+    const int first = result.realizations;
+    result.realizations = goal;
+    realizations.resize(goal, std::vector<BeamRealization>(count));
+    tbb::parallel_for(first, goal, [&](int i) {
+      tracing->Realize(NormalStream(seed, cell, i), wanted, realizations[i]);
     });
-
-    result.beams.clear();
     result.converged = true;
-    for (std::size_t b = 0; b < beams.size(); ++b) {
-      std::vector<BeamErrors> sample;
-      for (const std::vector<BeamErrors>& realization : realizations) sample.push_back(realization[b]);
-      result.beams.push_back(UncertaintyOf(sample, beams[b].beam.options(), encounter.refractive_index,
-                                           beams[b].known_slopes, encounter.depths));
-      result.converged = result.converged &&
-                         (effort.relative_error == 0 || Meets(result.beams.back(), effort.relative_error));
+    for (std::size_t b = 0; b < count; ++b) {
+      if (!wanted[b]) continue;
+      std::vector<BeamRealization> sample;
+      for (const std::vector<BeamRealization>& realization : realizations) sample.push_back(realization[b]);
+      result.beams[b] = UncertaintyOf(sample, encounter.beams[b], encounter.refractive_index,
+                                      tracing->known_slopes(b), encounter.depths);
+      wanted[b] = effort.relative_error > 0 && !Meets(result.beams[b], effort.relative_error);
+      result.converged = result.converged && !wanted[b];
     }
-  } while (!result.converged && static_cast<int>(realizations.size()) < effort.most_realizations);
-  result.realizations = static_cast<int>(realizations.size());
-  return result;
+    if (result.converged || goal >= effort.most_realizations) return result;
+  }
 }
 
 }  // namespace albtpu

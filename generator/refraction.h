@@ -52,4 +52,8 @@ struct SlopeGain {
 };
 SlopeGain SmallSlopeGain(double incidence, double n);
 
+// The second derivatives, by the slope of the surface, of the secant of the refracted direction: how the path per depth
+// answers to the squares of small slopes. At nadir (1 - 1/n)^2 times the identity.
+Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n);
+
 }  // namespace albtpu

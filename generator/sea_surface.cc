@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/fast_size.h"
+
 namespace albtpu {
 namespace {
 
@@ -12,8 +14,8 @@ namespace {
 // sampling the spectrum on the patch's lattice of wavenumbers becomes as good as the rings and sectors of the
 // plane waves.
 constexpr double kAllLong = 3, kAllPatch = 6;
-// Nodes along the shortest plane wave, about. Cubic interpolation is then right to 0.3 % amid the cross-fade.
-constexpr double kNodesPerLongWave = 7;
+// Nodes along the shortest plane wave, about. Cubic interpolation of heights is then right to 2e-4 amid the cross-fade.
+constexpr double kNodesPerLongWave = 14;
 
 CrossFade PatchShare(double patch_length) {
   const double dk = 2 * std::numbers::pi / patch_length;
@@ -25,17 +27,6 @@ CrossFade PatchShare(double patch_length) {
 double WidthOnWater(const BeamOptions& beam) {
   const double width = beam.profile == BeamProfile::kGaussian ? 2 * beam.footprint : beam.footprint;
   return width / std::cos(beam.incidence);
-}
-
-// The least even size with no prime factor above 5, which FFTW transforms fastest.
-int FastSize(double at_least) {
-  for (int size = 2 * static_cast<int>(std::ceil(at_least / 2));; size += 2) {
-    int rest = size;
-    for (int factor : {2, 3, 5}) {
-      while (rest % factor == 0) rest /= factor;
-    }
-    if (rest == 1) return size;
-  }
 }
 
 WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,

@@ -42,12 +42,11 @@ class SurfaceModel {
   };
   Moments MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights, const Eigen::Vector2d& per_height) const;
 
-  // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at the points of the window (rows),
-  // interpolated as in the window: their product is the wave about its centre.
-  struct WavesAtPoints {
-    Eigen::MatrixXcd x, y;
-  };
-  WavesAtPoints LongWavesAtPoints() const { return {refine_ * phase_x_, refine_ * phase_y_}; }
+  // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at nodes about the centre of the window (rows): their
+  // product is the wave. And the matrix that takes values at nodes to the points of the window: four nodes to a point.
+  const Eigen::MatrixXcd& phases_x() const { return phase_x_; }
+  const Eigen::MatrixXcd& phases_y() const { return phase_y_; }
+  const Eigen::MatrixXd& refinement() const { return refine_; }
 
   HeightField StillWindow() const;  // the window's grid over still water
   int window_points() const { return static_cast<int>(refine_.rows()); }  // along a side

@@ -6,17 +6,6 @@
 namespace albtpu {
 namespace {
 
-// `squares` are squared deviations from the sample's mean: their sum over n - 1 is the variance V, and the
-// standard error of 2 sqrt(V) is that of V over sqrt(V).
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares) {
-  const double n = static_cast<double>(squares.size());
-  assert(n >= 2);
-  const double variance = squares.sum() / (n - 1);
-  if (variance <= 0) return {};
-  const double scatter = (squares - squares.mean()).square().sum() / (n - 1);
-  return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
-}
-
 constexpr Eigen::Index kFewestToFit = 64;  // realizations; with fewer the fit hides some of the scatter
 
 // The slope of a straight line through (x, y), zero where x does not scatter.
@@ -26,30 +15,25 @@ double Slope(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   return scatter > 0 ? (deviation * y).sum() / scatter : 0;
 }
 
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& of_control,
-                           double variance_of_control) {
+// What is left of the squares when each half of the sample is corrected by the control as the other half says.
+Eigen::ArrayXd Corrected(const Eigen::ArrayXd& squares, const Control& control) {
   const Eigen::Index n = squares.size(), half = n / 2;
-  if (n < kFewestToFit) return TwoSigmaOfSquares(squares);
-  double variance = 0, scatter = 0;
+  const Eigen::ArrayXd excess = control.sample - control.expectation;
+  Eigen::ArrayXd corrected(n);
   for (const bool first : {true, false}) {
     const Eigen::Index begin = first ? 0 : half, count = first ? half : n - half;
     const Eigen::Index other = first ? half : 0, others = n - count;
-    const double b = Slope(of_control.segment(other, others), squares.segment(other, others));
-    const Eigen::ArrayXd rest = squares.segment(begin, count) - b * of_control.segment(begin, count);
-    variance += rest.sum() / (n - 1) + b * variance_of_control * count / n;
-    scatter += (rest - rest.mean()).square().sum() / (n - 2);
+    const double b = Slope(excess.segment(other, others), squares.segment(other, others));
+    corrected.segment(begin, count) = squares.segment(begin, count) - b * excess.segment(begin, count);
   }
-  if (variance <= 0) return TwoSigmaOfSquares(squares);
-  return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
+  return corrected;
 }
 
-Eigen::ArrayXd SquaredDeviations(const Eigen::ArrayXd& sample) { return (sample - sample.mean()).square(); }
-
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, const std::optional<Control>& control) {
-  if (!control) return TwoSigmaOfSquares(squares);
-  Eigen::ArrayXd of_control = SquaredDeviations(control->sample);
-  if (control->second.size() > 0) of_control += SquaredDeviations(control->second);
-  return TwoSigmaOfSquares(squares, of_control, control->variance);
+// The scatter of a sample about the means of its halves: b differs from one to the other.
+double ScatterInHalves(const Eigen::ArrayXd& sample) {
+  const Eigen::Index n = sample.size(), half = n / 2;
+  const auto first = sample.head(half), second = sample.tail(n - half);
+  return ((first - first.mean()).square().sum() + (second - second.mean()).square().sum()) / (n - 2);
 }
 
 }  // namespace
@@ -59,15 +43,30 @@ Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& contro
   assert(n >= 2);
   const Eigen::ArrayXd rest = control ? Eigen::ArrayXd(sample - control->sample) : sample;
   const double standard_error = std::sqrt((rest - rest.mean()).square().sum() / (n - 1) / n);
-  return {rest.mean() + (control ? control->mean : 0), standard_error};
+  return {rest.mean() + (control ? control->expectation : 0), standard_error};
 }
 
-Estimate TwoSigma(const Eigen::ArrayXd& sample, const std::optional<Control>& control) {
-  return TwoSigmaOfSquares(SquaredDeviations(sample), control);
+// The standard error of 2 sqrt(V) is that of V over sqrt(V).
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double variance_of_mean,
+                           const std::optional<Control>& control) {
+  const double n = static_cast<double>(squares.size());
+  assert(n >= 2);
+  if (control && squares.size() >= kFewestToFit) {
+    const Eigen::ArrayXd corrected = Corrected(squares, *control);
+    const double variance = corrected.mean() + variance_of_mean;
+    if (variance > 0) return {2 * std::sqrt(variance), std::sqrt(ScatterInHalves(corrected) / n / variance)};
+  }
+  const double variance = squares.mean() + variance_of_mean;
+  if (variance <= 0) return {};
+  const double scatter = (squares - squares.mean()).square().sum() / (n - 1);
+  return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};
 }
 
-Estimate TwoSigma(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::optional<Control>& control) {
-  return TwoSigmaOfSquares(SquaredDeviations(x) + SquaredDeviations(y), control);
+Estimate TwoSigma(const Eigen::ArrayXd& sample) {
+  const double n = static_cast<double>(sample.size());
+  assert(n >= 2);
+  const Eigen::ArrayXd squares = (sample - sample.mean()).square();
+  return TwoSigmaOfSquares(squares, squares.sum() / (n - 1) / n);
 }
 
 }  // namespace albtpu

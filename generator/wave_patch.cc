@@ -74,18 +74,23 @@ Eigen::Matrix2d WavePatchModel::Covariance(const std::array<Eigen::MatrixXd, 2>&
   return covariance;
 }
 
-std::vector<double> WavePatchModel::Correlation(const Filter& a, const Filter& b) const {
-  const double dk = 2 * std::numbers::pi / length_;
+WavePatchModel::SlopeCorrelations WavePatchModel::CorrelateSlopes() const {
   const int half = size_ / 2 + 1;
-  InverseFft::Modes modes = transform_.Allocate();
+  std::vector<std::complex<double>> rise(size_);  // of a wave along one side of a cell, over its length
+  for (int row = 0; row < size_; ++row) {
+    const double phase = 2 * std::numbers::pi * SignedIndex(row, size_) / size_;
+    rise[row] = (std::polar(1.0, phase) - 1.0) / spacing();
+  }
+  InverseFft::Modes xx = transform_.Allocate(), yy = transform_.Allocate(), xy = transform_.Allocate();
   for (int row = 0; row < size_; ++row) {
     for (int j = 0; j < half; ++j) {
-      const double kx = dk * SignedIndex(row, size_), ky = dk * j;
-      const double power = power_[row * half + j];
-      modes[row * half + j] = power == 0 ? 0 : power * std::conj(a(kx, ky)) * b(kx, ky);
+      const std::size_t mode = static_cast<std::size_t>(row) * half + j;
+      xx[mode] = power_[mode] * std::norm(rise[row]);
+      yy[mode] = power_[mode] * std::norm(rise[j]);
+      xy[mode] = -power_[mode] * rise[row] * rise[j];  // conj(rise) turned by a cell is -rise
     }
   }
-  return transform_(std::move(modes));
+  return {transform_(std::move(xx)), transform_(std::move(yy)), transform_(std::move(xy))};
 }
 
 double WavePatchModel::elevation_variance() const {

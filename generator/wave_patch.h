@@ -41,10 +41,13 @@ class WavePatchModel {
   // heights, exactly.
   Eigen::Matrix2d Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const;
 
-  // A linear filter of the heights: what it makes of a wave exp(i (kx x + ky y)), over the wave.
-  using Filter = std::function<std::complex<double>(double kx, double ky)>;
-  // The expectation of a(x) b(x + lag), the heights filtered by `a` and by `b`, at all lags of the grid.
-  std::vector<double> Correlation(const Filter& a, const Filter& b) const;
+  // The expectation of the product of two slopes of sides of triangles as a function of what lies between their middles,
+  // at all lags of the grid (as Draw gives heights): along x, along y, and of one along x and one along y half a cell
+  // farther along both axes.
+  struct SlopeCorrelations {
+    std::vector<double> xx, yy, xy;
+  };
+  SlopeCorrelations CorrelateSlopes() const;
 
   double elevation_variance() const;
   // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle

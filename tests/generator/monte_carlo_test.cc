@@ -152,7 +152,7 @@ TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
 TEST(MonteCarlo, SaysWhenTheErrorIsNotSmallEnough) {
   const Encounter encounter = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
   const EncounterResult result =
-      Simulate(encounter, {.realizations = 50, .most_realizations = 320, .relative_error = 0.001}, 1, 0);
+      Simulate(encounter, {.realizations = 50, .most_realizations = 320, .relative_error = 1e-5}, 1, 0);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.realizations, 320);
 }

@@ -30,7 +30,6 @@ TEST(Statistics, OfASampleThatDoesNotScatterAreZero) {
   const Eigen::ArrayXd same = Eigen::ArrayXd::Constant(10, 0.25);
   EXPECT_EQ(TwoSigma(same).value, 0);
   EXPECT_EQ(TwoSigma(same).standard_error, 0);
-  EXPECT_EQ(TwoSigma(same, same).value, 0);
   EXPECT_EQ(Mean(same).standard_error, 0);
 }
 
@@ -44,9 +43,11 @@ TEST(Statistics, OfANormalSampleHaveTheTextbooksStandardErrors) {
   EXPECT_NEAR(Mean(x).standard_error / (kSigma / std::sqrt(kCount)), 1, 0.02);
   EXPECT_NEAR(TwoSigma(x).value, 2 * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
   EXPECT_NEAR(TwoSigma(x).standard_error / (2 * kSigma / std::sqrt(2.0 * kCount)), 1, 0.02);
-  // Two components of equal variance: four times as many squares for the sum of two.
-  EXPECT_NEAR(TwoSigma(x, y).value, 2 * std::sqrt(2.0) * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
-  EXPECT_NEAR(TwoSigma(x, y).standard_error / (2 * kSigma / std::sqrt(2.0 * kCount)), 1, 0.02);
+  // Two components of equal variance: twice the variance, and the scatter of that is root 2 of the one's.
+  const Eigen::ArrayXd squares = (x - x.mean()).square() + (y - y.mean()).square();
+  const Estimate both = TwoSigmaOfSquares(squares, 2 * kSigma * kSigma / kCount);
+  EXPECT_NEAR(both.value, 2 * std::sqrt(2.0) * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
+  EXPECT_NEAR(both.standard_error / (2 * kSigma / std::sqrt(2.0 * kCount)), 1, 0.02);
 }
 
 TEST(Statistics, OfRepeatedSamplesScatterAsTheirStandardErrorsSay) {
@@ -67,13 +68,21 @@ TEST(Statistics, OfRepeatedSamplesScatterAsTheirStandardErrorsSay) {
 }
 
 TEST(Statistics, OfAMultipleOfTheControlAreKnownExactly) {
-  const Eigen::ArrayXd c = Normals(100, 0), other = Normals(100, 1);
-  const Control control{c, {}, 0, 1};
-  EXPECT_NEAR(TwoSigma(3 * c + 5, control).value, 6, 1e-12);
-  EXPECT_NEAR(TwoSigma(3 * c + 5, control).standard_error, 0, 1e-12);
-  EXPECT_NEAR(TwoSigma(3 * c, 3 * other, Control{c, other, 0, 2}).value, 6 * std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(Mean(c + 5, control).value, 5, 1e-12);
-  EXPECT_NEAR(Mean(c + 5, control).standard_error, 0, 1e-12);
+  const Eigen::ArrayXd c = Normals(100, 0);
+  const Control of_squares{c.square(), 1};
+  EXPECT_NEAR(TwoSigmaOfSquares(9 * c.square(), 0, of_squares).value, 6, 1e-12);
+  EXPECT_NEAR(TwoSigmaOfSquares(9 * c.square(), 0, of_squares).standard_error, 0, 1e-12);
+  EXPECT_NEAR(Mean(c + 5, Control{c, 0}).value, 5, 1e-12);
+  EXPECT_NEAR(Mean(c + 5, Control{c, 0}).standard_error, 0, 1e-12);
+}
+
+// Fewer than 64: fitting would claim too small an error.
+TEST(Statistics, OfFewRealizationsLeaveTheControlAlone) {
+  const Eigen::ArrayXd c = Normals(63, 0), sample = c + 0.1 * Normals(63, 1);
+  const Estimate with = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});
+  const Estimate without = TwoSigmaOfSquares(sample.square(), 0);
+  EXPECT_EQ(with.value, without.value);
+  EXPECT_EQ(with.standard_error, without.standard_error);
 }
 
 TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
@@ -83,7 +92,8 @@ TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
   for (int i = 0; i < kRepetitions; ++i) {
     const Eigen::ArrayXd c = Normals(kCount, 2 * i), rest = 0.1 * Normals(kCount, 2 * i + 1);
     const Eigen::ArrayXd sample = 0.97 * c + rest + 0.02 * (c.square() - 1);
-    const Estimate spread = TwoSigma(sample, Control{c, {}, 0, 1}), mean = Mean(sample, Control{c, {}, 0, 1});
+    const Estimate spread = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});  // the mean is known
+    const Estimate mean = Mean(sample, Control{c, 0});
     variances[i] = spread.value * spread.value / 4;
     values[i] = spread.value;
     means[i] = mean.value;

@@ -1,0 +1,102 @@
+#include "generator/interpolation_check.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "generator/angle.h"
+#include "generator/monte_carlo.h"
+#include "generator/random_stream.h"
+#include "generator/table_maker.h"
+
+namespace albtpu {
+namespace {
+
+constexpr std::uint32_t kDraws = 0xffffffff;  // the cell of their random numbers, apart from all others
+constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
+
+// `t` from 0 to 1 along an axis, in its scale.
+float AlongAxis(const Axis& axis, double t) {
+  const double first = axis.nodes().front(), last = axis.nodes().back();
+  const double x = axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
+  return static_cast<float>(std::clamp(x, first, last));
+}
+
+Pulse DrawPulse(const Campaign& campaign, int index) {
+  std::array<double, kAxisCount + 2> normals;  // a multiple of four
+  NormalStream(campaign.seed, kDraws, static_cast<std::uint32_t>(index)).Fill(normals);
+  const auto coordinate = [&](AxisId axis) {
+    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));
+    return AlongAxis(campaign.axes[Index(axis)], uniform);
+  };
+  return {.wind_speed = coordinate(AxisId::kWindSpeed),
+          .fetch = coordinate(AxisId::kFetch),
+          .incidence = coordinate(AxisId::kIncidence),
+          .azimuth = coordinate(AxisId::kAzimuth),
+          .footprint = coordinate(AxisId::kFootprint),
+          .depth = coordinate(AxisId::kDepth)};
+}
+
+Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
+  const auto in_degrees = [](const Estimate& radians) {
+    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+  };
+  switch (quantity) {
+    case Quantity::kRefractionAlongWind:
+      return in_degrees(beam.refraction_along_wind);
+    case Quantity::kRefractionCrossWind:
+      return in_degrees(beam.refraction_cross_wind);
+    case Quantity::kThu:
+      return beam.thu[0];
+    case Quantity::kTvu:
+      return beam.tvu[0];
+    default:
+      assert(false);
+      return {};
+  }
+}
+
+}  // namespace
+
+DirectAnswer AnswerDirectly(const Campaign& campaign, int index) {
+  DirectAnswer answer{DrawPulse(campaign, index), {}};
+  const Pulse& pulse = answer.pulse;
+  Encounter encounter = EncounterOf(campaign, 0);  // for what all have in common
+  encounter.sea.wind_speed_10m = pulse.wind_speed;
+  encounter.sea.fetch = pulse.fetch;
+  encounter.depths = {pulse.depth};
+  encounter.beams = {{.incidence = RadiansOfDegrees(pulse.incidence),
+                      .azimuth = RadiansOfDegrees(*pulse.azimuth),
+                      .footprint = pulse.footprint,
+                      .profile = campaign.profile,
+                      .source_height = campaign.source_height}};
+  const EncounterResult result = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
+  for (std::size_t q = 0; q < kChecked.size(); ++q) answer.values[q] = ValueOf(result.beams[0], kChecked[q]);
+  return answer;
+}
+
+InterpolationError CompareWithTable(const UncertaintyTable& table, const std::vector<DirectAnswer>& answers,
+                                    std::size_t checked) {
+  const Quantity quantity = kChecked[checked];
+  const double least = Describe(quantity).over_depth ? kLeastLength : kLeastAngle;
+  InterpolationError summary;
+  std::vector<double> errors;  // relative magnitudes
+  for (const DirectAnswer& answer : answers) {
+    const Estimate& direct = answer.values[checked];
+    if (direct.value < least) continue;
+    errors.push_back(std::abs(Interpolate(table, answer.pulse)[quantity] / direct.value - 1));
+    summary.rms += errors.back() * errors.back();
+    summary.noise += std::pow(direct.standard_error / direct.value, 2);
+  }
+  if (errors.empty()) return summary;
+  const double count = static_cast<double>(errors.size());
+  std::sort(errors.begin(), errors.end());
+  summary.pulses = static_cast<int>(errors.size());
+  summary.rms = std::sqrt(summary.rms / count);
+  summary.noise = std::sqrt(summary.noise / count);
+  summary.percentile_99 = errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1];
+  summary.greatest = errors.back();
+  return summary;
+}
+
+}  // namespace albtpu
