@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "generator/angle.h"
 #include "generator/closed_form.h"
 #include "generator/provenance.h"
 #include "generator/random_stream.h"
+#include "generator/ranks.h"
+#include "generator/unit_content.h"
+#include "generator/unit_work.h"
 #include "tables/interpolation.h"
 
 namespace albtpu {
@@ -87,26 +89,52 @@ SmallSlopeUncertainty ClosedFormOf(const Campaign& campaign, const Pulse& pulse)
 
 }  // namespace
 
-absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
-                                           const std::function<void(std::size_t)>& done) {
-  VariableGrid grid(campaign, {kQuantities.begin(), kQuantities.end()}, true);
-  std::vector<EncounterResult> results(EncounterCount(campaign));
-  std::mutex reporting;
-  std::size_t finished = 0;
-  // Two levels: what an encounter prepares alone, others fill with their surfaces.
-  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
-    EncounterResult result =
-        Simulate(EncounterOf(campaign, i), campaign.effort, campaign.seed, static_cast<std::uint32_t>(i));
-    for (std::size_t beam = 0; beam < result.beams.size(); ++beam) Store(result.beams[beam], i, beam, grid);
-    result.beams.clear();
-    results[i] = std::move(result);
-    const std::lock_guard lock(reporting);
-    done(++finished);
-  });
+struct TableBuilder::Parts {
+  const Campaign& campaign;
+  UnitOrigin origin;
+  VariableGrid grid;
+  std::vector<EncounterResult> results;  // without their beams, which are in the grid
+};
+
+TableBuilder::TableBuilder(const Campaign& campaign)
+    : parts_(new Parts{campaign, OriginOf(campaign),
+                       VariableGrid(campaign, {kQuantities.begin(), kQuantities.end()}, true),
+                       std::vector<EncounterResult>(EncounterCount(campaign))}) {}
+
+TableBuilder::~TableBuilder() = default;
+
+absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
+  const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
+  if (!content.ok()) return content.status();
+  absl::StatusOr<EncounterResult> result = DecodeResult(*content);
+  if (!result.ok()) return result.status();
+  for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
+    Store(result->beams[beam], unit.index, beam, parts_->grid);
+  result->beams.clear();
+  parts_->results[unit.index] = *std::move(result);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
+  const Campaign& campaign = parts_->campaign;
   const absl::StatusOr<InterpolationError> interpolation_error = MeasureInterpolationError(campaign);
   if (!interpolation_error.ok()) return interpolation_error.status();
-  return UncertaintyTable::Create(campaign.axes, grid.Take(),
-                                  MakeProvenance(campaign, results, *interpolation_error));
+  return UncertaintyTable::Create(campaign.axes, parts_->grid.Take(),
+                                  MakeProvenance(campaign, parts_->results, *interpolation_error));
+}
+
+absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
+                                           const std::function<void(std::size_t)>& done) {
+  TableBuilder builder(campaign);
+  std::size_t finished = 0;
+  const absl::Status worked_off = WorkOff(campaign, UnitsOf(campaign), *OneRank(),
+                                          [&](UnitId unit, const std::string& bytes, const std::string&) {
+                                            const absl::Status added = builder.Add(unit, bytes);
+                                            done(++finished);
+                                            return added;
+                                          });
+  if (!worked_off.ok()) return worked_off;
+  return builder.Build();
 }
 
 absl::StatusOr<UncertaintyTable> MakeClosedFormTable(const Campaign& campaign) {

@@ -2,18 +2,41 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <string_view>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "generator/campaign.h"
-#include "generator/monte_carlo.h"
+#include "generator/unit.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
 
-// Works off the encounters of a campaign on all threads of the current TBB arena; `done` is called, by one at a time,
-// after each with how many are done. The table is a function of the campaign and of the date that
-// SOURCE_DATE_EPOCH states.
+// Puts the units of a campaign together. The table is a function of the campaign and of the date that
+// SOURCE_DATE_EPOCH states, whoever computed the units and in whatever order they come.
+class TableBuilder {
+ public:
+  explicit TableBuilder(const Campaign& campaign);  // which outlives the builder
+  ~TableBuilder();
+  TableBuilder(const TableBuilder&) = delete;
+  TableBuilder& operator=(const TableBuilder&) = delete;
+
+  // Each of UnitsOf(campaign) once, as it was sealed. The error is that of a unit which is damaged or not of
+  // this campaign, program and instruction set (unit.h).
+  absl::Status Add(UnitId unit, std::string_view bytes);
+
+  // Requires that all are there. To be called once, last.
+  absl::StatusOr<UncertaintyTable> Build();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Works off all units of a campaign in this process (unit_work.h); `done` is called, by one at a time, after
+// each with how many are done.
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done);
 

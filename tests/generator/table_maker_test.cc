@@ -6,34 +6,17 @@
 #include "generator/angle.h"
 #include "generator/closed_form.h"
 #include "tables/interpolation.h"
+#include "tests/generator/two_seas.h"
 
 namespace albtpu {
 namespace {
-
-Campaign SmallCampaign() {
-  const absl::StatusOr<Campaign> campaign = ParseCampaign(R"(id = "small"
-version = "1"
-title = "Two seas"
-[axes]
-wind_speed = [3, 6]
-fetch = [5000, inf]
-incidence = [0, 20]
-azimuth = [0, 90]
-footprint = [0.25, 1]
-depth = [0, 10]
-[effort]
-realizations = 40
-)");
-  EXPECT_TRUE(campaign.ok()) << campaign.status();
-  return *campaign;
-}
 
 absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
   return MakeTable(campaign, [](std::size_t) {});
 }
 
 TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsEncounterGives) {
-  const Campaign campaign = SmallCampaign();
+  const Campaign campaign = TwoSeas();
   const absl::StatusOr<UncertaintyTable> table = Make(campaign);
   ASSERT_TRUE(table.ok()) << table.status();
   const std::size_t index = 7;  // 6 m/s, fully developed, 1 m
@@ -52,7 +35,7 @@ TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsEncounterGives) {
 }
 
 TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {
-  const Campaign campaign = SmallCampaign();
+  const Campaign campaign = TwoSeas();
   std::string digests[2];
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -65,12 +48,12 @@ TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {
 
 TEST(TableMaker, CountsEncountersAsTheyAreDone) {
   std::vector<std::size_t> counts;
-  ASSERT_TRUE(MakeTable(SmallCampaign(), [&](std::size_t done) { counts.push_back(done); }).ok());
+  ASSERT_TRUE(MakeTable(TwoSeas(), [&](std::size_t done) { counts.push_back(done); }).ok());
   EXPECT_EQ(counts, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST(TableMaker, PutsTheClosedFormAtTheNodesOfItsTable) {
-  const Campaign campaign = SmallCampaign();
+  const Campaign campaign = TwoSeas();
   const absl::StatusOr<UncertaintyTable> table = MakeClosedFormTable(campaign);
   ASSERT_TRUE(table.ok()) << table.status();
   const SmallSlopeUncertainty closed = ClosedForm(
@@ -84,9 +67,9 @@ TEST(TableMaker, PutsTheClosedFormAtTheNodesOfItsTable) {
 }
 
 TEST(TableMaker, MeasuresLessInterpolationErrorOnDenserAxes) {
-  const absl::StatusOr<InterpolationError> coarse = MeasureInterpolationError(SmallCampaign());
+  const absl::StatusOr<InterpolationError> coarse = MeasureInterpolationError(TwoSeas());
   ASSERT_TRUE(coarse.ok()) << coarse.status();
-  std::string text = SmallCampaign().text;
+  std::string text = TwoSeas().text;
   text.replace(text.find("[3, 6]"), 6, "[3, 4, 5, 6]");
   text.replace(text.find("[5000, inf]"), 11, "[5000, 10000, 20000, 40000, inf]");
   text.replace(text.find("[0.25, 1]"), 9, "[0.25, 0.35, 0.5, 0.7, 1]");
