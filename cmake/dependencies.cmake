@@ -22,6 +22,13 @@ pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 find_package(Protobuf REQUIRED MODULE)
 find_package(gRPC REQUIRED CONFIG)
 
+# Open MPI, or another: without it tables are scaled out by --shard.
+find_package(MPI COMPONENTS C)
+option(ALBTPU_MPI "Let albtpu-generate share its work between the ranks of MPI" ${MPI_C_FOUND})
+if(ALBTPU_MPI AND NOT MPI_C_FOUND)
+  message(FATAL_ERROR "ALBTPU_MPI is ON and there is no MPI: install libopenmpi-dev, or say -DALBTPU_MPI=OFF")
+endif()
+
 if(ALBTPU_BUILD_TESTS)
   find_package(GTest REQUIRED CONFIG)
 endif()

@@ -198,7 +198,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .sea = sea,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
-  if (checked_pulses) campaign.checked_pulses = static_cast<int>(*checked_pulses);
+  if (checked_pulses) campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
   if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
   return campaign;
 }

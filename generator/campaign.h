@@ -58,7 +58,7 @@ struct Campaign {
   SeaOptions sea;  // wind and fetch aside, which are axes
   Effort effort;
   std::optional<int> rays;
-  int checked_pulses = 40;  // see interpolation_check.h
+  std::size_t checked_pulses = 40;  // see interpolation_check.h
 
   const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }
 };

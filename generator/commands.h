@@ -12,11 +12,26 @@
 
 namespace albtpu {
 
+// One of `count` equal parts of the units.
+struct Shard {
+  int index = 0, count = 1;
+};
+
 struct TableOptions {
-  std::filesystem::path campaign, output;
+  std::filesystem::path campaign;
+  std::filesystem::path output;  // empty with `shard`, which makes no table
   bool overwrite = false;
+  std::filesystem::path work;  // a folder; empty: nothing is kept but the table
+  bool resume = false;
+  std::optional<Shard> shard;
 };
 absl::Status RunTable(const TableOptions& options);
+
+struct MergeOptions {
+  std::filesystem::path work, output;
+  bool overwrite = false;
+};
+absl::Status RunMerge(const MergeOptions& options);
 
 struct PlanOptions {
   std::filesystem::path campaign;

@@ -22,21 +22,6 @@ float AlongAxis(const Axis& axis, double t) {
   return static_cast<float>(std::clamp(x, first, last));
 }
 
-Pulse DrawPulse(const Campaign& campaign, int index) {
-  std::array<double, kAxisCount + 2> normals;  // a multiple of four
-  NormalStream(campaign.seed, kDraws, static_cast<std::uint32_t>(index)).Fill(normals);
-  const auto coordinate = [&](AxisId axis) {
-    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));
-    return AlongAxis(campaign.axes[Index(axis)], uniform);
-  };
-  return {.wind_speed = coordinate(AxisId::kWindSpeed),
-          .fetch = coordinate(AxisId::kFetch),
-          .incidence = coordinate(AxisId::kIncidence),
-          .azimuth = coordinate(AxisId::kAzimuth),
-          .footprint = coordinate(AxisId::kFootprint),
-          .depth = coordinate(AxisId::kDepth)};
-}
-
 Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
   const auto in_degrees = [](const Estimate& radians) {
     return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
@@ -58,9 +43,22 @@ Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
 
 }  // namespace
 
-DirectAnswer AnswerDirectly(const Campaign& campaign, int index) {
-  DirectAnswer answer{DrawPulse(campaign, index), {}};
-  const Pulse& pulse = answer.pulse;
+Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
+  std::array<double, kAxisCount + 2> normals;  // a multiple of four
+  NormalStream(campaign.seed, kDraws, static_cast<std::uint32_t>(index)).Fill(normals);
+  const auto coordinate = [&](AxisId axis) {
+    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));
+    return AlongAxis(campaign.axes[Index(axis)], uniform);
+  };
+  return {.wind_speed = coordinate(AxisId::kWindSpeed),
+          .fetch = coordinate(AxisId::kFetch),
+          .incidence = coordinate(AxisId::kIncidence),
+          .azimuth = coordinate(AxisId::kAzimuth),
+          .footprint = coordinate(AxisId::kFootprint),
+          .depth = coordinate(AxisId::kDepth)};
+}
+
+std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse) {
   Encounter encounter = EncounterOf(campaign, 0);  // for what all have in common
   encounter.sea.wind_speed_10m = pulse.wind_speed;
   encounter.sea.fetch = pulse.fetch;
@@ -71,20 +69,21 @@ DirectAnswer AnswerDirectly(const Campaign& campaign, int index) {
                       .profile = campaign.profile,
                       .source_height = campaign.source_height}};
   const EncounterResult result = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
-  for (std::size_t q = 0; q < kChecked.size(); ++q) answer.values[q] = ValueOf(result.beams[0], kChecked[q]);
-  return answer;
+  std::vector<Estimate> answers;
+  for (const Quantity quantity : kChecked) answers.push_back(ValueOf(result.beams[0], quantity));
+  return answers;
 }
 
-InterpolationError CompareWithTable(const UncertaintyTable& table, const std::vector<DirectAnswer>& answers,
-                                    std::size_t checked) {
+InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
+                                    const std::vector<std::vector<Estimate>>& answers, std::size_t checked) {
   const Quantity quantity = kChecked[checked];
   const double least = Describe(quantity).over_depth ? kLeastLength : kLeastAngle;
   InterpolationError summary;
   std::vector<double> errors;  // relative magnitudes
-  for (const DirectAnswer& answer : answers) {
-    const Estimate& direct = answer.values[checked];
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const Estimate& direct = answers[i][checked];
     if (direct.value < least) continue;
-    errors.push_back(std::abs(Interpolate(table, answer.pulse)[quantity] / direct.value - 1));
+    errors.push_back(std::abs(Interpolate(table, CheckedPulse(campaign, i))[quantity] / direct.value - 1));
     summary.rms += errors.back() * errors.back();
     summary.noise += std::pow(direct.standard_error / direct.value, 2);
   }

@@ -17,17 +17,13 @@ namespace albtpu {
 inline constexpr std::array<Quantity, 4> kChecked = {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind,
                                                      Quantity::kThu, Quantity::kTvu};
 
-// A pulse and its uncertainty as computed at its place, in the units of the table.
-struct DirectAnswer {
-  Pulse pulse;
-  std::array<Estimate, kChecked.size()> values;  // as kChecked
-};
+// The pulse `index` of a campaign, drawn evenly over its axes (log axes in log).
+Pulse CheckedPulse(const Campaign& campaign, std::size_t index);
 
-// The pulse `index` of a campaign, drawn evenly over its axes (log axes in log), simulated by the random numbers with which
-// all nodes of the table are (table_maker.h): what chance does to the one it does to the others, and what a table that
-// is interpolated differs by is the error of interpolation. A function of its arguments alone; on all threads of the
-// current TBB arena.
-DirectAnswer AnswerDirectly(const Campaign& campaign, int index);
+// Its uncertainty as computed at its place, by the random numbers with which all nodes of the table are (table_maker.h):
+// what chance does to the one it does to the others, and what a table that is interpolated differs by is the error of
+// interpolation. As kChecked, in the units of the table. On all threads of the current TBB arena.
+std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse);
 
 // Over many pulses, of one quantity, where it counts: 2 sigma of at least 0.01 degrees or 5 mm. Relative to the direct
 // answers.
@@ -36,8 +32,8 @@ struct InterpolationError {
   double rms = 0, percentile_99 = 0, greatest = 0;
   double noise = 0;  // rms standard error of the direct answers: the most that is left of chance
 };
-// `checked` is an index in kChecked.
-InterpolationError CompareWithTable(const UncertaintyTable& table, const std::vector<DirectAnswer>& answers,
-                                    std::size_t checked);
+// `answers` are those to the pulses 0, 1, ... of the campaign; `checked` is an index in kChecked.
+InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
+                                    const std::vector<std::vector<Estimate>>& answers, std::size_t checked);
 
 }  // namespace albtpu

@@ -6,19 +6,23 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
+#include <string>
 
 #include "generator/commands.h"
 #include "tables/version.h"
 
 namespace {
 
+using albtpu::MergeOptions;
 using albtpu::PlanOptions;
 using albtpu::PointOptions;
+using albtpu::Shard;
 using albtpu::TableOptions;
 using albtpu::ValidateOptions;
 
@@ -57,6 +61,51 @@ CLI::Validator Seed() {
         return "'" + text + "' is not a whole number from 0 to 9223372036854775807";
       },
       "", "seed");
+}
+
+// "i/N" as a Shard, i from 0.
+std::optional<Shard> ParseShard(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto [slash, no_index] = std::from_chars(text.data(), end, shard.index);
+  if (no_index != std::errc() || slash == end || *slash != '/') return std::nullopt;
+  const auto [last, no_count] = std::from_chars(slash + 1, end, shard.count);
+  if (no_count != std::errc() || last != end || shard.index < 0 || shard.index >= shard.count)
+    return std::nullopt;
+  return shard;
+}
+
+void AddTable(CLI::App& table, TableOptions& options) {
+  table.footer(
+      "Under mpirun the ranks share the work and rank 0 alone writes, if this program was built with MPI.\n"
+      "With --work a killed run loses no finished unit: the same command with --resume goes on.");
+  table.add_option("--campaign", options.campaign, "TOML file")->required();
+  CLI::Option* output = table.add_option("--output", options.output, "HDF5 file to write");
+  table.add_flag("--overwrite", options.overwrite, "replace an existing file")->needs(output);
+  CLI::Option* work =
+      table.add_option("--work", options.work, "folder to keep each finished unit in, made if need be");
+  table.add_flag("--resume", options.resume, "take the units that are in the work folder")->needs(work);
+  table
+      .add_option_function<std::string>(
+          "--shard", [&options](const std::string& text) { options.shard = ParseShard(text); },
+          "i/N, i from 0: compute this one of N parts of the units into the work folder, no table")
+      ->check(CLI::Validator(
+          [](std::string& text) -> std::string {
+            if (ParseShard(text)) return {};
+            return "'" + text + "' is not a shard: give i/N, i from 0 to N - 1, as 0/4";
+          },
+          "", "shard"))
+      ->needs(work)
+      ->excludes(output);
+  table.callback([&options] {
+    if (options.output.empty() && !options.shard) throw CLI::RequiredError("--output");
+  });
+}
+
+void AddMerge(CLI::App& merge, MergeOptions& options) {
+  merge.add_option("--work", options.work, "folder that `table --work` or its shards filled")->required();
+  merge.add_option("--output", options.output, "HDF5 file to write")->required();
+  merge.add_flag("--overwrite", options.overwrite, "replace an existing file");
 }
 
 void AddPoint(CLI::App& point, PointOptions& options) {
@@ -119,9 +168,11 @@ int Run(int argc, char** argv) {
 
   TableOptions table_options;
   CLI::App* table = app.add_subcommand("table", "make a table by Monte Carlo");
-  table->add_option("--campaign", table_options.campaign, "TOML file")->required();
-  table->add_option("--output", table_options.output, "HDF5 file to write")->required();
-  table->add_flag("--overwrite", table_options.overwrite, "replace an existing file");
+  AddTable(*table, table_options);
+
+  MergeOptions merge_options;
+  CLI::App* merge = app.add_subcommand("merge", "make the table of the units in a work folder");
+  AddMerge(*merge, merge_options);
 
   PlanOptions plan_options;
   CLI::App* plan = app.add_subcommand("plan", "say what a campaign will take, before the work");
@@ -141,7 +192,7 @@ int Run(int argc, char** argv) {
       ->check(Seed());
   validate->add_flag("--overwrite", validate_options.overwrite, "replace the files of an earlier report");
 
-  for (CLI::App* command : {table, plan, point, validate}) {
+  for (CLI::App* command : {table, merge, plan, point, validate}) {
     command->add_option("--threads", threads, "all cores unless given")->check(CLI::Range(1, 4096));
   }
 
@@ -157,6 +208,7 @@ int Run(int argc, char** argv) {
   std::optional<tbb::global_control> limit;
   if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
   if (*table) return ExitCode(RunTable(table_options));
+  if (*merge) return ExitCode(RunMerge(merge_options));
   if (*plan) return ExitCode(RunPlan(plan_options));
   if (*validate) return ExitCode(RunValidate(validate_options));
   return ExitCode(RunPoint(point_options));
@@ -165,6 +217,7 @@ int Run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // A file grown past its limit is an error of write(), not the end.
   try {
     return Run(argc, argv);
   } catch (const std::exception& error) {  // no memory, no threads

@@ -25,11 +25,6 @@ std::vector<double> Range(const std::vector<EncounterResult>& results, Number En
   return range;
 }
 
-// The median, the 95th percentile and the greatest of sorted magnitudes.
-std::vector<double> Summary(const std::vector<double>& sorted) {
-  return {sorted[sorted.size() / 2], sorted[sorted.size() * 95 / 100], sorted.back()};
-}
-
 // What is known of a spectrum: its name, its source, and where it departs from the sea.
 struct SpectrumDescription {
   std::string name, reference, departures;
@@ -65,8 +60,7 @@ SpectrumDescription Describe(const SeaOptions& sea) {
 
 }  // namespace
 
-Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results,
-                          const InterpolationError& interpolation_error) {
+Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results) {
   const SpectrumDescription spectrum = Describe(campaign.sea);
   Provenance provenance;
   provenance.id = campaign.id;
@@ -98,14 +92,21 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
       {"spacing", Range(results, &EncounterResult::spacing)},
       {"footprint_slope_variance_fraction", Range(results, &EncounterResult::footprint_slope_fraction)},
       {"resolved_slope_variance_fraction", Range(results, &EncounterResult::resolved_slope_fraction)},
-      {"interpolation_error",
-       "Relative error of interpolating the closed form between the nodes, at 400 pulses drawn evenly over "
-       "the "
-       "axes: median, 95th percentile, greatest"},
-      {"interpolation_error_refraction_along_wind", Summary(interpolation_error.refraction_along_wind)},
-      {"interpolation_error_thu", Summary(interpolation_error.thu)},
   };
   return provenance;
+}
+
+void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance) {
+  provenance.attributes["interpolation_error"] =
+      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, by the random "
+      "numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: root mean square, 99th percentile, greatest, "
+      "rms standard error of the direct values, number of pulses";
+  for (std::size_t q = 0; q < errors.size(); ++q) {
+    const InterpolationError& error = errors[q];
+    provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] =
+        std::vector<double>{error.rms, error.percentile_99, error.greatest, error.noise,
+                            static_cast<double>(error.pulses)};
+  }
 }
 
 std::string InstructionSet() {

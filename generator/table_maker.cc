@@ -1,17 +1,13 @@
 #include "generator/table_maker.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "generator/angle.h"
-#include "generator/closed_form.h"
+#include "generator/interpolation_check.h"
 #include "generator/provenance.h"
-#include "generator/random_stream.h"
-#include "tables/interpolation.h"
+#include "generator/ranks.h"
+#include "generator/unit_content.h"
+#include "generator/unit_work.h"
 
 namespace albtpu {
 namespace {
@@ -19,12 +15,11 @@ namespace {
 // Variables of a table while they are filled in, one beam after another.
 class VariableGrid {
  public:
-  VariableGrid(const Campaign& campaign, std::vector<Quantity> quantities, bool standard_errors)
-      : campaign_(campaign) {
-    for (const Quantity quantity : quantities) {
+  explicit VariableGrid(const Campaign& campaign) : campaign_(campaign) {
+    for (const Quantity quantity : kQuantities) {
       Variable& variable = variables_[Index(quantity)].emplace();
       variable.values.resize(ValueCount(campaign.axes, quantity));
-      if (standard_errors) variable.standard_errors.resize(variable.values.size());
+      variable.standard_errors.resize(variable.values.size());
     }
   }
 
@@ -39,8 +34,7 @@ class VariableGrid {
     const std::size_t sea = encounter / footprints, footprint = encounter % footprints;
     const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
     variable.values[at] = static_cast<float>(estimate.value);
-    if (!variable.standard_errors.empty())
-      variable.standard_errors[at] = static_cast<float>(estimate.standard_error);
+    variable.standard_errors[at] = static_cast<float>(estimate.standard_error);
   }
 
   UncertaintyTable::Variables Take() { return std::move(variables_); }
@@ -65,103 +59,67 @@ void Store(const BeamUncertainty& result, std::size_t encounter, std::size_t bea
   }
 }
 
-// A coordinate the fraction `t` of the way along an axis, in its scale.
-float AlongAxis(const Axis& axis, double t) {
-  const double first = axis.nodes().front(), last = axis.nodes().back();
-  const double x =
-      axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
-  return static_cast<float>(std::clamp(x, first, last));
-}
-
-SmallSlopeUncertainty ClosedFormOf(const Campaign& campaign, const Pulse& pulse) {
-  SeaOptions sea = campaign.sea;
-  sea.wind_speed_10m = pulse.wind_speed;
-  sea.fetch = pulse.fetch;
-  return ClosedForm(SeaState(sea),
-                    {.incidence = RadiansOfDegrees(pulse.incidence),
-                     .azimuth = RadiansOfDegrees(*pulse.azimuth),
-                     .footprint = pulse.footprint,
-                     .profile = campaign.profile},
-                    campaign.refractive_index);
-}
-
 }  // namespace
+
+struct TableBuilder::Parts {
+  const Campaign& campaign;
+  UnitOrigin origin;
+  VariableGrid grid;
+  std::vector<EncounterResult> results;        // without their beams, which are in the grid
+  std::vector<std::vector<Estimate>> answers;  // to the checked pulses
+};
+
+TableBuilder::TableBuilder(const Campaign& campaign)
+    : parts_(new Parts{campaign, OriginOf(campaign), VariableGrid(campaign),
+                       std::vector<EncounterResult>(EncounterCount(campaign)),
+                       std::vector<std::vector<Estimate>>(campaign.checked_pulses)}) {}
+
+TableBuilder::~TableBuilder() = default;
+
+absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
+  const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
+  if (!content.ok()) return content.status();
+  if (unit.kind == UnitKind::kPulse) {
+    absl::StatusOr<std::vector<Estimate>> answers = DecodeAnswers(*content);
+    if (!answers.ok()) return answers.status();
+    parts_->answers[unit.index] = *std::move(answers);
+    return absl::OkStatus();
+  }
+  absl::StatusOr<EncounterResult> result = DecodeResult(*content);
+  if (!result.ok()) return result.status();
+  for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
+    Store(result->beams[beam], unit.index, beam, parts_->grid);
+  result->beams.clear();
+  parts_->results[unit.index] = *std::move(result);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
+  const Campaign& campaign = parts_->campaign;
+  const UncertaintyTable::Variables variables = parts_->grid.Take();
+  Provenance provenance = MakeProvenance(campaign, parts_->results);
+  const absl::StatusOr<UncertaintyTable> table = UncertaintyTable::Create(campaign.axes, variables, provenance);
+  if (!table.ok()) return table.status();
+  std::vector<InterpolationError> errors;
+  for (std::size_t q = 0; q < kChecked.size(); ++q) {
+    errors.push_back(CompareWithTable(campaign, *table, parts_->answers, q));
+  }
+  DescribeInterpolationErrors(errors, provenance);
+  return UncertaintyTable::Create(campaign.axes, variables, std::move(provenance));
+}
 
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done) {
-  VariableGrid grid(campaign, {kQuantities.begin(), kQuantities.end()}, true);
-  std::vector<EncounterResult> results(EncounterCount(campaign));
-  std::mutex reporting;
+  TableBuilder builder(campaign);
   std::size_t finished = 0;
-  // Two levels: what an encounter prepares alone, others fill with their surfaces.
-  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
-    EncounterResult result =
-        Simulate(EncounterOf(campaign, i), campaign.effort, campaign.seed, static_cast<std::uint32_t>(i));
-    for (std::size_t beam = 0; beam < result.beams.size(); ++beam) Store(result.beams[beam], i, beam, grid);
-    result.beams.clear();
-    results[i] = std::move(result);
-    const std::lock_guard lock(reporting);
-    done(++finished);
-  });
-  const absl::StatusOr<InterpolationError> interpolation_error = MeasureInterpolationError(campaign);
-  if (!interpolation_error.ok()) return interpolation_error.status();
-  return UncertaintyTable::Create(campaign.axes, grid.Take(),
-                                  MakeProvenance(campaign, results, *interpolation_error));
-}
-
-absl::StatusOr<UncertaintyTable> MakeClosedFormTable(const Campaign& campaign) {
-  VariableGrid grid(
-      campaign,
-      {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu},
-      false);
-  tbb::parallel_for(std::size_t{0}, EncounterCount(campaign), [&](std::size_t i) {
-    const Encounter encounter = EncounterOf(campaign, i);
-    const SeaState sea(encounter.sea);
-    for (std::size_t beam = 0; beam < encounter.beams.size(); ++beam) {
-      const SmallSlopeUncertainty closed = ClosedForm(sea, encounter.beams[beam], encounter.refractive_index);
-      grid.Set(Quantity::kRefractionAlongWind, i, beam, 0, InDegrees({closed.refraction_along_wind, 0}));
-      grid.Set(Quantity::kRefractionCrossWind, i, beam, 0, InDegrees({closed.refraction_cross_wind, 0}));
-      for (std::size_t d = 0; d < encounter.depths.size(); ++d) {
-        grid.Set(Quantity::kThu, i, beam, d, {encounter.depths[d] * closed.thu_per_depth, 0});
-        grid.Set(Quantity::kTvu, i, beam, d, {encounter.depths[d] * closed.tvu_per_depth, 0});
-      }
-    }
-  });
-  Provenance provenance;
-  provenance.id = campaign.id + "-closed-form";
-  provenance.version = campaign.version;
-  provenance.title = "Small-slope theory on the axes of: " + campaign.title;
-  return UncertaintyTable::Create(campaign.axes, grid.Take(), std::move(provenance));
-}
-
-absl::StatusOr<InterpolationError> MeasureInterpolationError(const Campaign& campaign) {
-  constexpr int kPulses = 400;
-  const absl::StatusOr<UncertaintyTable> table = MakeClosedFormTable(campaign);
-  if (!table.ok()) return table.status();
-  std::vector<double> draws(kPulses * kAxisCount);
-  NormalStream(campaign.seed, 0, 0).Fill(draws);
-  for (double& draw : draws) draw = 0.5 * std::erfc(-draw / std::sqrt(2.0));  // normal to uniform
-
-  InterpolationError error{std::vector<double>(kPulses), std::vector<double>(kPulses)};
-  tbb::parallel_for(0, kPulses, [&](int i) {
-    const auto coordinate = [&](AxisId axis) {
-      return AlongAxis(table->axis(axis), draws[i * kAxisCount + Index(axis)]);
-    };
-    const Pulse pulse{.wind_speed = coordinate(AxisId::kWindSpeed),
-                      .fetch = coordinate(AxisId::kFetch),
-                      .incidence = coordinate(AxisId::kIncidence),
-                      .azimuth = coordinate(AxisId::kAzimuth),
-                      .footprint = coordinate(AxisId::kFootprint),
-                      .depth = std::max(coordinate(AxisId::kDepth), 1e-3f)};
-    const PulseUncertainty interpolated = Interpolate(*table, pulse);
-    const SmallSlopeUncertainty exact = ClosedFormOf(campaign, pulse);
-    error.refraction_along_wind[i] = std::abs(
-        interpolated[Quantity::kRefractionAlongWind] / DegreesOfRadians(exact.refraction_along_wind) - 1);
-    error.thu[i] = std::abs(interpolated[Quantity::kThu] / (pulse.depth * exact.thu_per_depth) - 1);
-  });
-  std::sort(error.refraction_along_wind.begin(), error.refraction_along_wind.end());
-  std::sort(error.thu.begin(), error.thu.end());
-  return error;
+  const absl::Status worked_off = WorkOff(campaign, UnitsOf(campaign), *OneRank(),
+                                          [&](UnitId unit, const std::string& bytes, const std::string&) {
+                                            const absl::Status added = builder.Add(unit, bytes);
+                                            done(++finished);
+                                            return added;
+                                          });
+  if (!worked_off.ok()) return worked_off;
+  return builder.Build();
 }
 
 }  // namespace albtpu

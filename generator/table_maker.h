@@ -1,31 +1,49 @@
 // From a campaign to a table.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <string_view>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "generator/campaign.h"
-#include "generator/monte_carlo.h"
+#include "generator/unit.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
 
-// Works off the encounters of a campaign on all threads of the current TBB arena; `done` is called, by one at a time,
-// after each with how many are done. The table is a function of the campaign and of the date that
-// SOURCE_DATE_EPOCH states.
+// The cell of the random numbers (random_stream.h) of every encounter and every checked pulse of a table. The same for all:
+// what chance does to one node it does to its neighbours, so that a table is smoother than its standard errors, which are
+// those of each value by itself.
+inline constexpr std::uint32_t kCellOfTables = 0;
+
+// Puts the units of a campaign together. The table is a function of the campaign and of the date that
+// SOURCE_DATE_EPOCH states, whoever computed the units and in whatever order they come.
+class TableBuilder {
+ public:
+  explicit TableBuilder(const Campaign& campaign);  // which outlives the builder
+  ~TableBuilder();
+  TableBuilder(const TableBuilder&) = delete;
+  TableBuilder& operator=(const TableBuilder&) = delete;
+
+  // Each of UnitsOf(campaign) once, as it was sealed. The error is that of a unit which is damaged or not of
+  // this campaign, program and instruction set (unit.h).
+  absl::Status Add(UnitId unit, std::string_view bytes);
+
+  // Requires that all are there. To be called once, last.
+  absl::StatusOr<UncertaintyTable> Build();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Works off all units of a campaign in this process (unit_work.h); `done` is called, by one at a time, after
+// each with how many are done.
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done);
-
-// The same from the closed form: refraction, THU and TVU, no biases and no standard errors.
-absl::StatusOr<UncertaintyTable> MakeClosedFormTable(const Campaign& campaign);
-
-// What interpolation adds between the nodes of a campaign: the closed form interpolated as the table is, over
-// the closed form itself, less 1, at pulses drawn evenly over the axes (log axes in log). Magnitudes, in
-// increasing order.
-struct InterpolationError {
-  std::vector<double> refraction_along_wind, thu;
-};
-absl::StatusOr<InterpolationError> MeasureInterpolationError(const Campaign& campaign);
 
 }  // namespace albtpu

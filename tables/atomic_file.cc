@@ -10,12 +10,15 @@
 #include <string>
 #include <system_error>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 
 namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr absl::string_view kTemporaryPrefix = ".albtpu-", kTemporarySuffix = ".tmp";
 
 absl::Status SystemError(const char* verb, const fs::path& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot ", verb, " '", path.string(), "'"));
@@ -27,7 +30,7 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& folder) : folder_(folder) {
     static std::atomic<unsigned> counter = 0;
     do {
-      path_ = folder_ / absl::StrCat(".albtpu-", getpid(), "-", counter++, ".tmp");
+      path_ = folder_ / absl::StrCat(kTemporaryPrefix, getpid(), "-", counter++, kTemporarySuffix);
       descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
   }
@@ -116,6 +119,10 @@ absl::Status WriteFileAtomically(const fs::path& path, absl::string_view bytes, 
   if (!file.TakeName(path, existing))
     return errno == EEXIST ? AlreadyThere(path) : SystemError("write", path);
   return SyncFolder(folder) ? absl::OkStatus() : SystemError("sync folder", folder);
+}
+
+bool IsTemporaryName(absl::string_view name) {
+  return absl::StartsWith(name, kTemporaryPrefix) && absl::EndsWith(name, kTemporarySuffix);
 }
 
 }  // namespace albtpu

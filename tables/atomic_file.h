@@ -15,4 +15,7 @@ namespace albtpu {
 absl::Status WriteFileAtomically(const std::filesystem::path& path, absl::string_view bytes,
                                  Existing existing);
 
+// Whether a file of this name is one of those temporary ones: what a killed writer leaves.
+bool IsTemporaryName(absl::string_view name);
+
 }  // namespace albtpu

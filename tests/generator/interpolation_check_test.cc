@@ -1,0 +1,74 @@
+#include "generator/interpolation_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "generator/table_maker.h"
+#include "tests/generator/two_seas.h"
+
+namespace albtpu {
+namespace {
+
+Campaign Denser() {
+  std::string text = TwoSeas().text;
+  text.replace(text.find("[3, 6]"), 6, "[3, 4, 5, 6]");
+  text.replace(text.find("[5000, inf]"), 11, "[5000, 15000, 45000, inf]");
+  text.replace(text.find("[0.25, 1]"), 9, "[0.25, 0.4, 0.63, 1]");
+  return *ParseCampaign(text);
+}
+
+InterpolationError ThuErrorOf(const Campaign& campaign) {
+  const absl::StatusOr<UncertaintyTable> table = MakeTable(campaign, [](std::size_t) {});
+  EXPECT_TRUE(table.ok()) << table.status();
+  std::vector<std::vector<Estimate>> answers;
+  for (std::size_t i = 0; i < campaign.checked_pulses; ++i) {
+    answers.push_back(AnswerDirectly(campaign, CheckedPulse(campaign, i)));
+  }
+  return CompareWithTable(campaign, *table, answers, 2);
+}
+
+TEST(InterpolationCheck, DrawsPulsesOverAllOfTheAxes) {
+  const Campaign campaign = TwoSeas();
+  double least = 1, greatest = 0, mean_log_footprint = 0;
+  constexpr int kPulses = 400;
+  for (int i = 0; i < kPulses; ++i) {
+    const Pulse pulse = CheckedPulse(campaign, i);
+    const double depth = pulse.depth / 10;
+    least = std::min(least, depth);
+    greatest = std::max(greatest, depth);
+    mean_log_footprint += std::log(pulse.footprint) / kPulses;
+    ASSERT_GE(pulse.fetch, 5000);
+    ASSERT_LE(*pulse.azimuth, 90);
+  }
+  EXPECT_LT(least, 0.02);
+  EXPECT_GT(greatest, 0.98);
+  // Evenly over the logarithm from 0.25 to 1, within four standard errors.
+  EXPECT_NEAR(mean_log_footprint, std::log(0.5), 4 * std::log(4.0) / std::sqrt(12.0 * kPulses));
+}
+
+// Twice as dense along three axes is four times as good where the surface is smooth.
+TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
+  const InterpolationError coarse = ThuErrorOf(TwoSeas()), dense = ThuErrorOf(Denser());
+  EXPECT_GT(coarse.pulses, 20);
+  EXPECT_LT(dense.rms, 0.5 * coarse.rms);
+  EXPECT_LE(dense.rms, dense.greatest);
+  EXPECT_LE(dense.percentile_99, dense.greatest);
+}
+
+// A pulse at the nodes has no error but rounding to single precision: the very same surfaces.
+TEST(InterpolationCheck, FindsNoErrorAtANode) {
+  std::string text = TwoSeas().text;
+  text.replace(text.find("[3, 6]"), 6, "[6]");
+  text.replace(text.find("[5000, inf]"), 11, "[inf]");
+  text.replace(text.find("[0, 20]"), 7, "[20]");
+  text.replace(text.find("[0, 90]"), 7, "[90]");
+  text.replace(text.find("[0.25, 1]"), 9, "[1]");
+  text.replace(text.find("[0, 10]"), 7, "[10]");
+  const Campaign campaign = *ParseCampaign(text);
+  EXPECT_LT(ThuErrorOf(campaign).greatest, 1e-6);
+}
+
+}  // namespace
+}  // namespace albtpu
