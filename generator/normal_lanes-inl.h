@@ -30,9 +30,10 @@ struct NormalPair {
   FloatLanes cosine, sine;
 };
 
-// Box and Muller, as BoxMuller of random_stream.cc. With e = 2^-24, half of the last place of 1, the logarithm is
-// right to 2 e absolutely (the rounding of x in the lower half) and 4 e relatively, the radius r hence to
-// (2 / r + 2.5 r) e, or 2.5 r e in the upper half; sine and cosine to 2 e.
+// Box and Muller, as BoxMuller of random_stream.cc. With e = 2^-24, half of the last place of 1, the squared
+// radius is right to 4 e relatively, and in the lower half of u, where r > 1, to 4 e more absolutely (the
+// rounding of u + 1/2 and of it to a float): the radius r to (3 r + 2 / r) e. Sine and cosine are right to
+// 2 e, their product with the radius to (6 r + 2 / r) e.
 HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
   const Floats f;
   const Words w;

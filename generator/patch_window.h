@@ -8,6 +8,7 @@
 
 #include "generator/random_stream.h"
 #include "generator/wave_patch.h"
+#include "generator/window_plan.h"
 
 namespace albtpu {
 
@@ -15,20 +16,18 @@ namespace albtpu {
 // may draw on many threads, each with a workspace of its own.
 class PatchWindow {
  public:
-  // `points` is odd and less than the size of the patch.
+  // `points` is odd and less than the size of the patch, which is at least 4 and has no prime factor above 5.
   PatchWindow(const WavePatchModel& patch, int points);
 
-  int points() const { return points_; }
+  int points() const { return plan_.points; }
   float spacing() const { return spacing_; }  // m
 
   // Memory for drawing, which grows to what the greatest window wants and is used again.
   class Workspace {
    public:
-    Workspace() = default;
+    float* Floats(std::size_t count);  // aligned for vectors, not initialized
 
    private:
-    friend class PatchWindow;
-    float* Floats(std::size_t count);  // aligned, not initialized
     hwy::AlignedFreeUniquePtr<float[]> floats_;
     std::size_t count_ = 0;
   };
@@ -38,9 +37,8 @@ class PatchWindow {
   void Draw(const NormalStream& stream, std::span<float> heights, Workspace& workspace) const;
 
  private:
-  int points_;
+  WindowPlan plan_;
   float spacing_;
-  WavePatchModel const* patch_;
 };
 
 }  // namespace albtpu
