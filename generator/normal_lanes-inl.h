@@ -103,7 +103,7 @@ class NormalLanes {
     return {BoxMuller(word[0], word[1]), BoxMuller(word[2], word[3])};
   }
 
- private:
+  // The random words of these blocks: the first two make the first pair, the others the second.
 #if HWY_TARGET == HWY_SCALAR
   void Philox(std::uint32_t part, std::uint32_t block, WordLanes* word) const {
     const r123::Philox4x32::key_type key = {
@@ -112,8 +112,6 @@ class NormalLanes {
     for (int i = 0; i < 4; ++i) word[i] = hn::Set(Words(), words[i]);
   }
 #else
-  using WideWords = hn::Repartition<std::uint64_t, Words>;
-
   HWY_INLINE void Philox(std::uint32_t part, std::uint32_t first, WordLanes* word) const {
     const Words w;
     const WideWords wide;
@@ -126,6 +124,11 @@ class NormalLanes {
       word[i] = hn::OddEven(hn::BitCast(w, hn::ShiftLeft<32>(hn::BitCast(wide, odd[i]))), even[i]);
     }
   }
+#endif
+
+ private:
+#if HWY_TARGET != HWY_SCALAR
+  using WideWords = hn::Repartition<std::uint64_t, Words>;
 
   // Philox4x32-10 on every other lane, so that the products of 64 bits need no shuffling. The odd lanes of
   // the words hold rubbish.

@@ -19,22 +19,35 @@ namespace {
 
 constexpr std::size_t kSeries = LaneFft::kSeries, kElement = LaneFft::kElement;
 
-// The amplitudes of a group of columns, each row in its place.
+// The amplitudes of a group of columns. Random words of some rows first, then the numbers that they become: one
+// row after the other would have its chain of operations waited for.
 void DrawGroup(const WindowPlan& plan, const NormalLanes& normals, int group, float* even, float* odd) {
+  constexpr std::size_t kRowsAtOnce = 16;
   const Floats f;
-  const float* scale = &plan.scale[static_cast<std::size_t>(group) * plan.size * WindowPlan::kGroup];
-  for (int row = 0; row < plan.size; ++row, scale += WindowPlan::kGroup) {
-    const std::size_t place = kElement * plan.columns.Place(row);
-    for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(f)) {
-      const NormalLanes::Four four =
-          normals(plan.parts[row], static_cast<std::uint32_t>(group * kSeries + lane));
-      const FloatLanes even_scale = hn::LoadU(f, scale + lane);
-      const FloatLanes odd_scale = hn::LoadU(f, scale + kSeries + lane);
-      float *to_even = even + place + lane, *to_odd = odd + place + lane;
-      hn::Store(hn::Mul(even_scale, four.first.cosine), f, to_even);
-      hn::Store(hn::Mul(even_scale, four.first.sine), f, to_even + kSeries);
-      hn::Store(hn::Mul(odd_scale, four.second.cosine), f, to_odd);
-      hn::Store(hn::Mul(odd_scale, four.second.sine), f, to_odd + kSeries);
+  const Words w;
+  const std::size_t rows = plan.size;
+  for (std::size_t first = 0; first < rows; first += kRowsAtOnce) {
+    const std::size_t last = std::min(first + kRowsAtOnce, rows);
+    HWY_ALIGN std::uint32_t words[kRowsAtOnce][4 * kSeries];
+    for (std::size_t row = first; row < last; ++row) {
+      for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(f)) {
+        WordLanes word[4];
+        normals.Philox(plan.parts[row], static_cast<std::uint32_t>(group * kSeries + lane), word);
+        for (int i = 0; i < 4; ++i) hn::Store(word[i], w, words[row - first] + i * kSeries + lane);
+      }
+    }
+    const float* scale = &plan.scale[(group * rows + first) * WindowPlan::kGroup];
+    for (std::size_t row = first; row < last; ++row, scale += WindowPlan::kGroup) {
+      for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(f)) {
+        const std::uint32_t* word = words[row - first] + lane;
+        for (int parity = 0; parity < 2; ++parity, word += 2 * kSeries) {
+          const NormalPair pair = BoxMuller(hn::Load(w, word), hn::Load(w, word + kSeries));
+          const FloatLanes root = hn::LoadU(f, scale + parity * kSeries + lane);
+          float* to = (parity == 0 ? even : odd) + kElement * row + lane;
+          hn::Store(hn::Mul(root, pair.cosine), f, to);
+          hn::Store(hn::Mul(root, pair.sine), f, to + kSeries);
+        }
+      }
     }
   }
 }

@@ -20,10 +20,12 @@ WindowPlan::WindowPlan(const WavePatchModel& patch, int points_of_window)
                  static_cast<std::size_t>(groups + 1)),  // no power of 2, for the cache
       workspace(2 * block + (points + LaneFft::kSeries - 1) * row_stride) {
   assert(points > 0 && points % 2 == 1 && points < size);
-  for (int row = 0; row < size; ++row) parts.push_back(WavePatchModel::PartOfRow(SignedIndex(row, size)));
+  std::vector<int> row_at(size);
+  for (int row = 0; row < size; ++row) row_at[columns.Place(row)] = row;
+  for (const int row : row_at) parts.push_back(WavePatchModel::PartOfRow(SignedIndex(row, size)));
   scale.reserve(static_cast<std::size_t>(groups) * size * kGroup);
   for (int group = 0; group < groups; ++group) {
-    for (int row = 0; row < size; ++row) {
+    for (const int row : row_at) {
       for (int c = 0; c < kGroup; ++c) {
         const int series = static_cast<int>(LaneFft::kSeries);
         const int column = group * kGroup + 2 * (c % series) + c / series;

@@ -19,12 +19,13 @@ struct WindowPlan {
 
   static constexpr int kGroup = 2 * LaneFft::kSeries;
 
-  int size, half, points;            // of the patch, half of it, of the window
-  int first;                         // row and column where the window begins; its middle is at `half`
-  int groups;                        // of columns; what the last one has too many is zero
-  LaneFft columns;                   // of `size`
-  LaneFft rows;                      // of `half`: even points are the real parts, odd ones the imaginary
-  std::vector<std::uint32_t> parts;  // of the stream, for each row
+  int size, half, points;  // of the patch, half of it, of the window
+  int first;               // row and column where the window begins; its middle is at `half`
+  int groups;              // of columns; what the last one has too many is zero
+  LaneFft columns;         // of `size`
+  LaneFft rows;            // of `half`: even points are the real parts, odd ones the imaginary
+  // Rows of modes lie in the order of `columns`. The part of the stream for each of them.
+  std::vector<std::uint32_t> parts;
   // Of the normals, for each group, row and column (eight even ones first): the root of half the power, with
   // the sign (-1)^(i + j) that takes the patch's point (0, 0) to the middle.
   std::vector<float> scale;
