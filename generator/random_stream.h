@@ -21,6 +21,11 @@ class NormalStream {
   // ended, rounded up to four numbers.
   void Fill(std::span<double> normals);
 
+  std::uint64_t seed() const { return seed_; }
+  std::uint32_t cell() const { return cell_; }
+  std::uint32_t realization() const { return realization_; }
+  std::uint32_t part() const { return part_; }
+
  private:
   std::uint64_t seed_;
   std::uint32_t cell_, realization_, part_;

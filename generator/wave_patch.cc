@@ -9,12 +9,6 @@
 #include "generator/forward_fft.h"
 
 namespace albtpu {
-namespace {
-
-// Each row of modes has a part of the stream to itself, whatever the size of the grid; part 0 is the long waves'.
-std::uint32_t PartOfRow(int i) { return i >= 0 ? 2 * i + 1 : -2 * i; }
-
-}  // namespace
 
 WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share)
     : length_(length), size_(size), transform_(size) {

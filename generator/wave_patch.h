@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <complex>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -29,10 +30,17 @@ class WavePatchModel {
   double length() const { return length_; }
   int size() const { return size_; }
   double spacing() const { return length_ / size_; }
+  // The expected |amplitude|^2 of mode (i, j), m^2; `row` stands for i = SignedIndex(row, size), j is from 0 to
+  // size / 2.
+  double power(int row, int j) const { return power_[static_cast<std::size_t>(row) * (size_ / 2 + 1) + j]; }
 
   // Elevations [m] at the points (ix, iy), ix slow: random Hermitian amplitudes through an FFT. A finer grid of
   // the same length draws the same amplitudes for the modes that both have.
   std::vector<double> Draw(const NormalStream& stream) const;
+
+  // Each row of modes has a part of the stream to itself, whatever the size of the grid; part 0 is the long
+  // waves'.
+  static std::uint32_t PartOfRow(int i) { return i >= 0 ? 2 * i + 1 : -2 * i; }
 
   // Weights of points of any part of the plane, ix the row, on the patch: those a period apart fall on the same point.
   Eigen::MatrixXd Folded(const Eigen::MatrixXd& weights) const;
