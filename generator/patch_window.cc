@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kSeries = LaneFft::kSeries, kElement = LaneFft::kElement;
 
-// The amplitudes of a group of columns. Random words of some rows first, then the numbers that they become: one
-// row after the other would have its chain of operations waited for.
+// The amplitudes of a group of columns. Random words of some rows first, then the numbers that they become:
+// of one row after the other, the chain of operations would be waited for.
 void DrawGroup(const WindowPlan& plan, const NormalLanes& normals, int group, float* even, float* odd) {
   constexpr std::size_t kRowsAtOnce = 16;
   const Floats f;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "tests/generator/simd_targets.h"
@@ -60,6 +59,44 @@ TEST(PatchWindow, IsTheMiddleOfTheSameSurface) {
       }
     }
   });
+}
+
+TEST(PatchWindow, IsDrawnAlikeByAllInstructionSets) {
+  // Each is off by the rounding of its own.
+  const WavePatchModel patch = Patch(128);
+  const PatchWindow window(patch, 57);
+  const std::vector<float> usual = Draw(window, NormalStream(1, 2, 3));
+  const double standard_deviation = std::sqrt(patch.elevation_variance());
+  OnEachInstructionSet([&] {
+    const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
+    EXPECT_EQ(heights, Draw(window, NormalStream(1, 2, 3)));
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      EXPECT_NEAR(heights[i], usual[i], 0x1p-19 * standard_deviation);
+    }
+  });
+}
+
+TEST(PatchWindow, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
+  const WavePatchModel small = Patch(18), large = Patch(60);
+  const PatchWindow narrow(small, 5), wide(large, 59);
+  PatchWindow::Workspace workspace;
+  for (int draw = 0; draw < 3; ++draw) {
+    const NormalStream stream(1, 2, draw);
+    std::vector<float> of_small(5 * 5), of_large(59 * 59);
+    narrow.Draw(stream, of_small, workspace);
+    wide.Draw(stream, of_large, workspace);
+    EXPECT_EQ(of_small, Draw(narrow, stream));
+    EXPECT_EQ(of_large, Draw(wide, stream));
+  }
+}
+
+TEST(PatchWindow, IsAnotherForEachRealization) {
+  const WavePatchModel patch = Patch(18);
+  const PatchWindow window(patch, 5);
+  const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
+  EXPECT_NE(heights, Draw(window, NormalStream(1, 2, 4)));
+  EXPECT_NE(heights, Draw(window, NormalStream(1, 3, 3)));
+  EXPECT_NE(heights, Draw(window, NormalStream(2, 2, 3)));
 }
 
 }  // namespace
