@@ -9,6 +9,7 @@ find_package(tomlplusplus REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(Eigen3 REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
+find_package(hwy REQUIRED CONFIG)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 # The serial C library and its high-level part (dimension scales).
