@@ -92,7 +92,7 @@ class AntitheticTracing final : public BeamTracing {
             0.5 * weight, ErrorsOf(WithUnresolvedWaves(traced, beam.unresolved), beam.still_water)};
       };
       const TracedBundle first = TracePackets(beam.rays, upright);
-      realized[b].parts = {part(1 - lean, first.beam), part(1 + lean, TracePackets(beam.rays, turned).beam)};
+      realized[b].parts = {part(1 - lean, first.beam), part(1 + lean, Trace(beam.rays, turned))};
       realized[b].mean_slope = first.undisturbed_slope;
       realized[b].mean_squares = first.undisturbed_slope_squares;
     }

@@ -1,10 +1,9 @@
 #include "generator/height_field.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <utility>
+
+#include "generator/ray_meeting.h"
 
 namespace albtpu {
 
@@ -27,32 +26,6 @@ HeightField::Facet HeightField::FacetOf(const Triangle& triangle) const {
   return {low[0] - rise.dot(Eigen::Vector2d(ix - centre, iy - centre)), rise * points_per_metre_};
 }
 
-Hit Intersect(const HeightField& surface, const Ray& ray) {
-  constexpr int kMostSteps = 100;
-  constexpr double kLeastApproach = 0.1;  // a step goes the right way even over a facet that turns away
-  const Eigen::Vector2d per_height = ray.per_height();
-  double below = -std::numeric_limits<double>::infinity();  // heights at which the ray is known to be under
-  double above = std::numeric_limits<double>::infinity();   // and over the surface
-  double z = 0;
-  HeightField::Triangle triangle = surface.TriangleAt(ray.at_zero);
-  HeightField::Facet facet;
-  for (int step = 0; step < kMostSteps; ++step) {
-    facet = surface.FacetOf(triangle);
-    const double clearance = z - facet.HeightAt(ray.at_zero + z * per_height);
-    (clearance < 0 ? below : above) = z;
-    // The meeting with the plane of the facet under the ray; if it lies outside of what is known, which then
-    // is finite, halve what is known.
-    const double approach = 1 - facet.slope.dot(per_height);
-    double next = z - clearance / std::max(kLeastApproach, approach);
-    const bool on_the_plane = next >= below && next <= above && approach >= kLeastApproach;
-    if (!(next >= below && next <= above)) next = 0.5 * (below + above);
-    const HeightField::Triangle under = surface.TriangleAt(ray.at_zero + next * per_height);
-    const bool settled = (on_the_plane && under == triangle) || std::abs(next - z) <= 1e-12 * surface.reach();
-    z = next;
-    if (settled) break;
-    triangle = under;
-  }
-  return {z, facet};
-}
+Hit Intersect(const HeightField& surface, const Ray& ray) { return Meet(surface, ray); }
 
 }  // namespace albtpu
