@@ -11,6 +11,7 @@
 #include "generator/closed_form.h"
 #include "generator/provenance.h"
 #include "generator/random_stream.h"
+#include "generator/rounding.h"
 #include "tables/interpolation.h"
 
 namespace albtpu {
@@ -38,9 +39,13 @@ class VariableGrid {
     const std::size_t depths = Describe(quantity).over_depth ? campaign_.nodes(AxisId::kDepth).size() : 1;
     const std::size_t sea = encounter / footprints, footprint = encounter % footprints;
     const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
-    variable.values[at] = static_cast<float>(estimate.value);
-    if (!variable.standard_errors.empty())
-      variable.standard_errors[at] = static_cast<float>(estimate.standard_error);
+    if (variable.standard_errors.empty()) {
+      variable.values[at] = static_cast<float>(estimate.value);
+      return;
+    }
+    const auto [value, standard_error] = Rounded(estimate);
+    variable.values[at] = static_cast<float>(value);
+    variable.standard_errors[at] = static_cast<float>(standard_error);
   }
 
   UncertaintyTable::Variables Take() { return std::move(variables_); }
