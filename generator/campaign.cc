@@ -181,7 +181,11 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const SeaOptions sea = ReadSea(toml);
   const Effort effort = ReadEffort(toml);
   const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
-  const auto checked_pulses = toml.Integer("interpolation_check", "pulses", 1, 10'000);
+  const std::string node_values = toml.Text("interpolation", "nodes", "exact");
+  if (node_values != "exact" && node_values != "balanced") {
+    toml.Fail("'interpolation.nodes' must be \"exact\" or \"balanced\"");
+  }
+  const auto checked_pulses = toml.Integer("interpolation", "checked_pulses", 1, 10'000);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(sea.spectrum, nodes);
@@ -198,6 +202,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .sea = sea,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
+  campaign.balanced_nodes = node_values == "balanced";
   if (checked_pulses) campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
   if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
   return campaign;

@@ -45,8 +45,9 @@ namespace albtpu {
 //   relative_error = 0.02         # go on until every value has it; absent: `realizations` it is
 //   estimator = "control_variate" # or "plain": tracing alone
 //   rays = 10000                  # of each beam; chosen from spectrum and footprint where absent
-//   [interpolation_check]
-//   pulses = 40                   # between the nodes at which the table is held to direct computation
+//   [interpolation]
+//   nodes = "exact"               # or "balanced": see node_balance.h
+//   checked_pulses = 40           # between the nodes, at which the table is held to direct computation
 struct Campaign {
   std::string text;  // the file, as it is
   std::string id, version, title;
@@ -58,6 +59,7 @@ struct Campaign {
   SeaOptions sea;  // wind and fetch aside, which are axes
   Effort effort;
   std::optional<int> rays;
+  bool balanced_nodes = false;      // see node_balance.h
   std::size_t checked_pulses = 40;  // see interpolation_check.h
 
   const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }

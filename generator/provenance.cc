@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "absl/strings/str_cat.h"
+#include "generator/rounding.h"
 #include "tables/version.h"
 
 namespace albtpu {
@@ -86,6 +87,15 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
        "of refraction over their slopes. Ranges are the least and the greatest over winds, fetches and "
        "footprints."},
       {"estimator", std::string(Name(campaign.effort.estimator))},
+      {"rounding",
+       absl::StrCat(
+           "Values to a power of two, the largest not above a quarter of their standard error, and to ",
+           kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
+           " significant bits")},
+      {"node_values",
+       campaign.balanced_nodes ? "less a twelfth of their second difference along each axis but depth, which halves the "
+                                 "error of interpolation in the root mean square"
+                               : "as computed at the nodes"},
       {"realizations", Range(results, &EncounterResult::realizations)},
       {"rays", Range(results, &EncounterResult::rays)},
       {"domain", Range(results, &EncounterResult::patch_length)},

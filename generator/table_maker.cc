@@ -4,8 +4,10 @@
 
 #include "generator/angle.h"
 #include "generator/interpolation_check.h"
+#include "generator/node_balance.h"
 #include "generator/provenance.h"
 #include "generator/ranks.h"
+#include "generator/rounding.h"
 #include "generator/unit_content.h"
 #include "generator/unit_work.h"
 
@@ -43,6 +45,14 @@ class VariableGrid {
   const Campaign& campaign_;
   UncertaintyTable::Variables variables_;
 };
+
+void Round(Variable& variable) {
+  for (std::size_t i = 0; i < variable.values.size(); ++i) {
+    const auto [value, standard_error] = Rounded({variable.values[i], variable.standard_errors[i]});
+    variable.values[i] = static_cast<float>(value);
+    variable.standard_errors[i] = static_cast<float>(standard_error);
+  }
+}
 
 Estimate InDegrees(const Estimate& radians) {
   return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
@@ -96,7 +106,12 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
 
 absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
   const Campaign& campaign = parts_->campaign;
-  const UncertaintyTable::Variables variables = parts_->grid.Take();
+  UncertaintyTable::Variables variables = parts_->grid.Take();
+  for (const Quantity quantity : kQuantities) {
+    Variable& variable = *variables[Index(quantity)];
+    if (campaign.balanced_nodes) BalanceNodes(campaign.axes, quantity, variable.values);
+    Round(variable);
+  }
   Provenance provenance = MakeProvenance(campaign, parts_->results);
   const absl::StatusOr<UncertaintyTable> table = UncertaintyTable::Create(campaign.axes, variables, provenance);
   if (!table.ok()) return table.status();

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "generator/angle.h"
+#include "generator/rounding.h"
 #include "tables/interpolation.h"
 #include "tests/generator/two_seas.h"
 
@@ -24,12 +25,13 @@ TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsEncounterGives) {
   const PulseUncertainty answer =
       Interpolate(*table, {.wind_speed = 6, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
   ASSERT_EQ(answer.outcome, Outcome::kInterpolated);
-  EXPECT_EQ(answer[Quantity::kRefractionAlongWind],
-            static_cast<float>(DegreesOfRadians(beam.refraction_along_wind.value)));
-  EXPECT_EQ(answer[Quantity::kThu], static_cast<float>(beam.thu[1].value));
-  EXPECT_EQ(answer[Quantity::kTvu], static_cast<float>(beam.tvu[1].value));
-  EXPECT_EQ(answer[Quantity::kBiasVertical], static_cast<float>(beam.bias_vertical[1].value));
-  EXPECT_EQ(answer.standard_errors[Index(Quantity::kThu)], static_cast<float>(beam.thu[1].standard_error));
+  const Estimate& along = beam.refraction_along_wind;
+  const Estimate degrees{DegreesOfRadians(along.value), DegreesOfRadians(along.standard_error)};
+  EXPECT_EQ(answer[Quantity::kRefractionAlongWind], Rounded(degrees).value);
+  EXPECT_EQ(answer[Quantity::kThu], Rounded(beam.thu[1]).value);
+  EXPECT_EQ(answer[Quantity::kTvu], Rounded(beam.tvu[1]).value);
+  EXPECT_EQ(answer[Quantity::kBiasVertical], Rounded(beam.bias_vertical[1]).value);
+  EXPECT_EQ(answer.standard_errors[Index(Quantity::kThu)], Rounded(beam.thu[1]).standard_error);
 }
 
 TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {

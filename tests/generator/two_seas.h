@@ -20,6 +20,8 @@ footprint = [0.25, 1]
 depth = [0, 10]
 [effort]
 realizations = 40
+[interpolation]
+checked_pulses = 6
 )");
   EXPECT_TRUE(campaign.ok()) << campaign.status();
   return *campaign;
