@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "generator/rounding.h"
 #include "generator/table_maker.h"
 #include "tests/generator/two_seas.h"
 
@@ -58,7 +60,7 @@ TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
   EXPECT_LE(dense.percentile_99, dense.greatest);
 }
 
-// A pulse at the nodes has no error but rounding to single precision: the very same surfaces.
+// A pulse at the nodes meets the very same surfaces: what is left is how values are rounded (rounding.h).
 TEST(InterpolationCheck, FindsNoErrorAtANode) {
   std::string text = TwoSeas().text;
   text.replace(text.find("[3, 6]"), 6, "[6]");
@@ -68,7 +70,8 @@ TEST(InterpolationCheck, FindsNoErrorAtANode) {
   text.replace(text.find("[0.25, 1]"), 9, "[1]");
   text.replace(text.find("[0, 10]"), 7, "[10]");
   const Campaign campaign = *ParseCampaign(text);
-  EXPECT_LT(ThuErrorOf(campaign).greatest, 1e-6);
+  const InterpolationError error = ThuErrorOf(campaign);
+  EXPECT_LE(error.greatest, std::max(1.07 * error.noise / 8, std::exp2(-kValueBits)));
 }
 
 }  // namespace

@@ -39,12 +39,16 @@ void ExpectSame(const Estimate& a, const Estimate& b) {
   ExpectSame(a.standard_error, b.standard_error);
 }
 
-TEST(Unit, IsNamedByKindAndIndex) { EXPECT_EQ(Name(kUnit), "encounter-00012"); }
+TEST(Unit, IsNamedByKindAndIndex) {
+  EXPECT_EQ(Name(kUnit), "encounter-00012");
+  EXPECT_EQ(Name({UnitKind::kPulse, 3}), "pulse-00003");
+}
 
-TEST(Unit, IsOneOfAsManyAsTheCampaignHasEncounters) {
+TEST(Unit, IsOneOfAsManyAsTheCampaignHasEncountersAndCheckedPulses) {
   const std::vector<UnitId> units = UnitsOf(TwoSeas());
-  ASSERT_EQ(units.size(), 8u);
-  EXPECT_EQ(units.back(), (UnitId{UnitKind::kEncounter, 7}));
+  ASSERT_EQ(units.size(), 8 + TwoSeas().checked_pulses);
+  EXPECT_EQ(units[7], (UnitId{UnitKind::kEncounter, 7}));
+  EXPECT_EQ(units[8], (UnitId{UnitKind::kPulse, 0}));
 }
 
 TEST(Unit, GivesBackWhatWasSealed) {
