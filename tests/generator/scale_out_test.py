@@ -29,8 +29,8 @@ incidence = [0, 20]
 azimuth = [0, 90]
 footprint = [0.5, 1]
 depth = [0, 10]
-[interpolation_check]
-pulses = 4
+[interpolation]
+checked_pulses = 4
 [effort]
 realizations = 40
 """
