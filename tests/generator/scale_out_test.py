@@ -29,10 +29,12 @@ incidence = [0, 20]
 azimuth = [0, 90]
 footprint = [0.5, 1]
 depth = [0, 10]
+[interpolation]
+checked_pulses = 4
 [effort]
 realizations = 40
 """
-UNITS = 12
+UNITS = 12 + 4  # encounters and pulses
 PATIENCE = 300  # Seconds that a loaded machine may need for what takes few.
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMI", "SLURM_"))}

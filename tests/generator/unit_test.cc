@@ -44,11 +44,13 @@ TEST(Unit, IsNamedByKindAndIndex) {
   EXPECT_EQ(Name({UnitKind::kPulse, 3}), "pulse-00003");
 }
 
-TEST(Unit, IsOneOfAsManyAsTheCampaignHasEncountersAndCheckedPulses) {
-  const std::vector<UnitId> units = UnitsOf(TwoSeas());
-  ASSERT_EQ(units.size(), 8 + TwoSeas().checked_pulses);
+TEST(Unit, IsAnEncounterOrACheckedPulseOfTheCampaign) {
+  const Campaign campaign = TwoSeas();
+  const std::vector<UnitId> units = UnitsOf(campaign);
+  ASSERT_EQ(units.size(), 8 + campaign.checked_pulses);
   EXPECT_EQ(units[7], (UnitId{UnitKind::kEncounter, 7}));
   EXPECT_EQ(units[8], (UnitId{UnitKind::kPulse, 0}));
+  EXPECT_EQ(units.back(), (UnitId{UnitKind::kPulse, campaign.checked_pulses - 1}));
 }
 
 TEST(Unit, GivesBackWhatWasSealed) {
@@ -131,6 +133,15 @@ TEST(UnitContent, IsTheResultToTheLastBit) {
   EXPECT_EQ(read->rays, 10000);
   ExpectSame(read->patch_length, 0.1);
   ExpectSame(read->resolved_slope_fraction, result.resolved_slope_fraction);
+}
+
+TEST(UnitContent, IsTheAnswersToACheckedPulse) {
+  const std::vector<Estimate> answers = {{1.0 / 3, 1e-300}, {-0.0, std::nan("")}};
+  const absl::StatusOr<std::vector<Estimate>> read = DecodeAnswers(EncodeAnswers(answers));
+  ASSERT_TRUE(read.ok()) << read.status();
+  ASSERT_EQ(read->size(), 2u);
+  ExpectSame((*read)[0], answers[0]);
+  ExpectSame((*read)[1], answers[1]);
 }
 
 TEST(UnitContent, OfAnotherLengthIsRefused) {
