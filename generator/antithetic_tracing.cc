@@ -63,6 +63,7 @@ class AntitheticTracing final : public BeamTracing {
       } else {
         prepared.known = {MomentsOfSlopes(correlation, rays[b], spacing,
                                           SecantCurvature(options.incidence, options.azimuth, n)),
+                          FootprintSlopeCovariance(correlation, options, spacing),
                           ExpectedSlope(model.long_waves(), options, per_height)};
       }
       beams_.push_back(std::move(prepared));

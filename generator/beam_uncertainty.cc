@@ -49,7 +49,7 @@ class Prediction {
     const Eigen::Matrix2d answer = gain.out_of_plane * Eigen::Matrix2d::Identity() +
                                    (gain.in_plane - gain.out_of_plane) * azimuth_ * azimuth_.transpose();
     expectation_ = answer * known->mean;
-    covariance_ = answer * known->moments.covariance * answer.transpose();
+    covariance_ = answer * known->footprint_covariance * answer.transpose();
     const Eigen::Matrix2d form = SecantCurvature(beam.incidence, beam.azimuth, refractive_index);
     // The path per depth is 1 / cos(theta_r), of which sin(theta_r) is the derivative by the in-plane tangent.
     const double refracted = StillWaterRefraction(beam.incidence, refractive_index);

@@ -22,7 +22,10 @@ struct BeamUncertainty {
 // What is known beforehand of the slopes that a beam averages over: the expectations of the control variates. The `form`
 // of the moments is SecantCurvature (refraction.h).
 struct KnownSlopes {
+  // Of what the rays make of the slopes.
   SlopeMoments moments;
+  // Of the slope averaged over the footprint itself: with this as the expectation, what too few rays add is taken back.
+  Eigen::Matrix2d footprint_covariance;
   // Of the mean slope. A slanted line meets the side of the long waves that faces it more often: not zero, though slopes
   // are as often up as down.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "generator/fast_size.h"
@@ -62,7 +63,34 @@ class Sums {
   double form_squares_ = 0;
 };
 
+// How much of the footprint lies over itself moved by a vector, over what it does unmoved: by `apart`, the length of the
+// vector across the beam in diameters.
+double Overlap(BeamProfile profile, double apart) {
+  if (profile == BeamProfile::kGaussian) return std::exp(-4 * apart * apart);
+  return apart < 1 ? 2 / std::numbers::pi * (std::acos(apart) - apart * std::sqrt(1 - apart * apart)) : 0;
+}
+
 }  // namespace
+
+Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam, double spacing) {
+  const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
+  const auto overlap = [&](double x, double y) {
+    const Eigen::Vector2d lag = spacing / beam.footprint * Eigen::Vector2d(x, y);
+    return Overlap(beam.profile, std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
+  };
+  double xx = 0, xy = 0, yy = 0, weights = 0, half_a_cell_away = 0;
+  for (int x = -correlation.reach(); x <= correlation.reach(); ++x) {
+    for (int y = -correlation.reach(); y <= correlation.reach(); ++y) {
+      const double at_lag = overlap(x, y), beyond = overlap(x + 0.5, y + 0.5);
+      weights += at_lag;
+      half_a_cell_away += beyond;
+      xx += at_lag * correlation.xx(x, y);
+      yy += at_lag * correlation.yy(x, y);
+      xy += beyond * correlation.xy(x, y);
+    }
+  }
+  return (Eigen::Matrix2d() << xx / weights, xy / half_a_cell_away, xy / half_a_cell_away, yy / weights).finished();
+}
 
 int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
   return static_cast<int>(2 * FarthestOf(rays) / spacing) + 3;

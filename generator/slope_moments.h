@@ -25,6 +25,10 @@ struct SlopeMoments {
 SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vector<Ray>& rays, double spacing,
                              const Eigen::Matrix2d& form);
 
+// The covariance of the slope averaged over the footprint of a collimated beam itself, of which rays are a sample: these
+// see some of the waves that are too short for their spacing, as if they were long ones.
+Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam, double spacing);
+
 // How many cells of the side `spacing` the rays lie apart, at most, along an axis.
 int ReachOfRays(const std::vector<Ray>& rays, double spacing);
 

@@ -113,5 +113,24 @@ TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
   }
 }
 
+// A sum over lags and a sum over waves; facets and plane waves are the same.
+TEST(SlopeMoments, OfAFootprintAreThoseOfItsFilteredWaves) {
+  const SeaState sea(6, 2e4);
+  for (const BeamOptions& options : {BeamOptions{.footprint = 0.3},
+                                     BeamOptions{.incidence = 0.4, .azimuth = 0.7, .footprint = 1.5},
+                                     BeamOptions{.incidence = 0.2,
+                                                 .azimuth = 1.2,
+                                                 .footprint = 0.6,
+                                                 .profile = BeamProfile::kGaussian}}) {
+    const SurfaceModel model(sea, options, {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 4000});
+    const double spacing = model.patch().spacing();
+    const SlopeCorrelation correlation(model, ReachOfRays(Beam(options, 4000).Rays(0), spacing));
+    const Eigen::Matrix2d expected =
+        model.FacetSlopeCovariance([&](double k, double psi) { return FootprintPower(options, k, psi); });
+    const Eigen::Matrix2d covariance = FootprintSlopeCovariance(correlation, options, spacing);
+    EXPECT_LT((covariance - expected).norm() / expected.norm(), 1e-3) << options.footprint;
+  }
+}
+
 }  // namespace
 }  // namespace albtpu
