@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <utility>
+
+#include "generator/refraction.h"
 
 namespace albtpu::bench {
 namespace {
@@ -33,18 +35,19 @@ std::uint64_t Morton(std::uint32_t a, std::uint32_t b) {
   return code;
 }
 
-std::vector<Ray> AlongMortonCurve(const std::vector<Ray>& rays, double reach, double spacing) {
+// `reach` m from the centre are all rays; the curve goes from cell to cell of `spacing`.
+FloatRays AlongMortonCurve(const std::vector<Ray>& rays, double reach, double spacing) {
   const auto cell = [&](double x) { return static_cast<std::uint32_t>((x + reach) / spacing); };
-  std::vector<std::size_t> order(rays.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](std::size_t r) {
-    return Morton(cell(rays[r].at_zero.x()), cell(rays[r].at_zero.y()));
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  std::vector<Ray> sorted;
-  sorted.reserve(rays.size());
-  for (const std::size_t r : order) sorted.push_back(rays[r]);
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (const Ray& ray : rays) {
+    order.emplace_back(Morton(cell(ray.at_zero.x()), cell(ray.at_zero.y())), order.size());
+  }
+  std::sort(order.begin(), order.end());
+  FloatRays sorted{{}, {}, rays.front().direction};
+  for (const auto& [place, r] : order) {
+    sorted.x.push_back(static_cast<float>(rays[r].at_zero.x()));
+    sorted.y.push_back(static_cast<float>(rays[r].at_zero.y()));
+  }
   return sorted;
 }
 
@@ -55,11 +58,12 @@ BeamCase::BeamCase(const CaseOptions& options)
       sea_(options.wind_speed, std::numeric_limits<double>::infinity()),
       share_(PatchShare(PatchLength(options))),
       patch_(sea_, PatchLength(options), options.size, share_),
-      beam_(options.BeamOf(), options.rays) {
+      beam_(options.BeamOf(), options.rays),
+      rays_(beam_.Rays(0)),
+      bundle_(beam_, kRefractiveIndex),
+      sorted_(AlongMortonCurve(rays_, WidthOnWater(options), patch_.spacing())) {
   const double half = Margin(options.incidence) * WidthOnWater(options) / 2 / patch_.spacing();
   footprint_points_ = 2 * static_cast<int>(std::ceil(half)) + 1;
-  rays_ = beam_.Rays(0);
-  sorted_rays_ = AlongMortonCurve(rays_, WidthOnWater(options), patch_.spacing());
 }
 
 double BeamCase::ModePower(int i, int j) const {
@@ -70,21 +74,18 @@ double BeamCase::ModePower(int i, int j) const {
   return share_(k) == 0 ? 0 : share_(k) * sea_.Psi(k, std::atan2(j, i)) * dk * dk;
 }
 
-FloatRays BeamCase::InFloat() const {
-  FloatRays rays;
-  for (const Ray& ray : sorted_rays_) {
-    rays.x.push_back(static_cast<float>(ray.at_zero.x()));
-    rays.y.push_back(static_cast<float>(ray.at_zero.y()));
+std::vector<Ray> BeamCase::SortedRays() const {
+  std::vector<Ray> rays;
+  for (std::size_t r = 0; r < sorted_.x.size(); ++r) {
+    rays.push_back({sorted_.direction, {sorted_.x[r], sorted_.y[r]}});
   }
-  const Eigen::Vector3f direction = sorted_rays_.front().direction.cast<float>();
-  rays.direction_x = direction.x();
-  rays.direction_y = direction.y();
-  rays.direction_z = direction.z();
   return rays;
 }
 
+NormalStream BeamCase::Stream(std::uint32_t realization) { return {kSeed, 0, realization}; }
+
 FloatWindow BeamCase::Draw(std::uint32_t realization, int points) const {
-  const std::vector<double> patch = patch_.Draw(NormalStream(kSeed, 0, realization));
+  const std::vector<double> patch = patch_.Draw(Stream(realization));
   const int size = options_.size;
   const int first = size - (points - 1) / 2;  // the patch repeats
   FloatWindow window{{}, points, static_cast<float>(patch_.spacing())};

@@ -9,6 +9,9 @@
 #include "generator/beam.h"
 #include "generator/cross_fade.h"
 #include "generator/height_field.h"
+#include "generator/packet_tracer.h"
+#include "generator/random_stream.h"
+#include "generator/ray_bundle.h"
 #include "generator/ray_tracer.h"
 #include "generator/sea_state.h"
 #include "generator/wave_patch.h"
@@ -35,13 +38,15 @@ struct FloatWindow {
   std::vector<float> heights;  // m
   int points;                  // along a side, odd
   float spacing;               // m
+  HeightWindow View() const { return {heights.data(), points, points, spacing}; }
   HeightField InDouble() const { return {{heights.begin(), heights.end()}, points, spacing}; }
 };
 
-// The rays of a collimated beam in single precision, in an order in which neighbours meet neighbouring cells.
+// The rays of a collimated beam in single precision along a Morton curve, so that neighbours meet
+// neighbouring cells: the order in which peers are fastest.
 struct FloatRays {
-  std::vector<float> x, y;                      // m, where they cross z = 0
-  float direction_x, direction_y, direction_z;  // unit vector, downward
+  std::vector<float> x, y;    // m, where they cross z = 0
+  Eigen::Vector3d direction;  // unit vector, downward
 };
 
 // Immutable.
@@ -54,16 +59,18 @@ class BeamCase {
   // The expected |amplitude|^2 of the patch's mode (i, j), m^2.
   double ModePower(int i, int j) const;
   const Beam& beam() const { return beam_; }
-  const std::vector<Ray>& rays() const { return rays_; }                // as the beam gives them
-  const std::vector<Ray>& sorted_rays() const { return sorted_rays_; }  // the same along a Morton curve
-  FloatRays InFloat() const;                                            // of the sorted ones
+  const std::vector<Ray>& rays() const { return rays_; }  // as the beam gives them
+  const RayBundle& bundle() const { return bundle_; }     // for ours
+  const FloatRays& sorted() const { return sorted_; }     // for others
+  std::vector<Ray> SortedRays() const;                    // as in sorted()
 
   // Points along the side of a window, odd: one that holds every ray with a margin for the shift by waves;
   // the patch.
   int footprint_points() const { return footprint_points_; }
   int whole_points() const { return options_.size - 1; }
 
-  // The surface of one realization about patch point 0.
+  static NormalStream Stream(std::uint32_t realization);
+  // The surface of one realization about patch point 0, by the double transform.
   FloatWindow Draw(std::uint32_t realization, int points) const;
 
  private:
@@ -73,7 +80,9 @@ class BeamCase {
   WavePatchModel patch_;
   Beam beam_;
   int footprint_points_;
-  std::vector<Ray> rays_, sorted_rays_;
+  std::vector<Ray> rays_;
+  RayBundle bundle_;
+  FloatRays sorted_;
 };
 
 // Of what peers compute, that which all of them do, over heights above the mean of all meetings as in

@@ -124,24 +124,24 @@ struct EmbreeTracer::Hits {
 };
 
 template <int kWidth>
-void EmbreeTracer::TraceBlock(const FloatRays& rays, std::size_t first, int count, Hits& hits) {
+void EmbreeTracer::TraceBlock(const FloatRays& rays, int first, int count, Hits& hits) {
   static_assert(kBlock % kWidth == 0);
   static thread_local std::array<EmbreePacket<kWidth>, kBlock / kWidth> packets;
-  const float shift_x = kStart * rays.direction_x / rays.direction_z;
-  const float shift_y = kStart * rays.direction_y / rays.direction_z;
+  const Eigen::Vector3f direction = rays.direction.cast<float>();
+  const Eigen::Vector2f shift = kStart / direction.z() * direction.head<2>();
   const int used = (count + kWidth - 1) / kWidth;
   for (int p = 0; p < used; ++p) {
     EmbreePacket<kWidth>& packet = packets[p];
     for (int lane = 0; lane < kWidth; ++lane) {
-      const std::size_t r = first + std::min(p * kWidth + lane, count - 1);  // the last packet is filled up
-      packet.origin_x[lane] = rays.x[r] + shift_x;
-      packet.origin_y[lane] = rays.y[r] + shift_y;
+      const int r = first + std::min(p * kWidth + lane, count - 1);  // the last packet is filled up
+      packet.origin_x[lane] = rays.x[r] + shift.x();
+      packet.origin_y[lane] = rays.y[r] + shift.y();
     }
     std::fill_n(packet.origin_z, kWidth, kStart);
     std::fill_n(packet.near, kWidth, 0.0f);
-    std::fill_n(packet.direction_x, kWidth, rays.direction_x);
-    std::fill_n(packet.direction_y, kWidth, rays.direction_y);
-    std::fill_n(packet.direction_z, kWidth, rays.direction_z);
+    std::fill_n(packet.direction_x, kWidth, direction.x());
+    std::fill_n(packet.direction_y, kWidth, direction.y());
+    std::fill_n(packet.direction_z, kWidth, direction.z());
     std::fill_n(packet.time, kWidth, 0.0f);
     std::fill_n(packet.far, kWidth, kFar);
     std::fill_n(packet.mask, kWidth, ~0u);
@@ -162,7 +162,7 @@ void EmbreeTracer::TraceBlock(const FloatRays& rays, std::size_t first, int coun
       const int i = p * kWidth + lane;
       const bool found = packet.geometry[lane] != RTC_INVALID_GEOMETRY_ID;
       hits.found[i] = found ? 1.0f : 0.0f;
-      hits.height[i] = found ? kStart + packet.far[lane] * rays.direction_z : 0.0f;
+      hits.height[i] = found ? kStart + packet.far[lane] * direction.z() : 0.0f;
       hits.slope_x[i] = found ? -packet.normal_x[lane] / packet.normal_z[lane] : 0.0f;
       hits.slope_y[i] = found ? -packet.normal_y[lane] / packet.normal_z[lane] : 0.0f;
     }
@@ -170,14 +170,15 @@ void EmbreeTracer::TraceBlock(const FloatRays& rays, std::size_t first, int coun
 }
 
 BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
-  const std::size_t total = rays.x.size();
+  const int total = static_cast<int>(rays.x.size());
   hit_heights_.resize(total);
   const float ratio = static_cast<float>(1 / refractive_index);
-  const float dx = ratio * rays.direction_x, dy = ratio * rays.direction_y, dz = ratio * rays.direction_z;
+  const Eigen::Vector3f direction = ratio * rays.direction.cast<float>();
+  const float dx = direction.x(), dy = direction.y(), dz = direction.z();
   static thread_local Hits hits;
   double sums[8] = {};
-  for (std::size_t first = 0; first < total; first += kBlock) {
-    const int count = static_cast<int>(std::min<std::size_t>(kBlock, total - first));
+  for (int first = 0; first < total; first += kBlock) {
+    const int count = std::min(kBlock, total - first);
     switch (options_.rays) {
       case EmbreeRays::k1:
       case EmbreeRays::k1M:
@@ -230,7 +231,7 @@ BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
                   .height_tangent_x = sums[5] / count,
                   .height_tangent_y = sums[6] / count,
                   .height_secant = sums[7] / count,
-                  .lost = static_cast<int>(total - static_cast<std::size_t>(count))};
+                  .lost = total - static_cast<int>(count)};
   means.height_tangent_x -= height * means.tangent_x;
   means.height_tangent_y -= height * means.tangent_y;
   means.height_secant -= height * means.secant;

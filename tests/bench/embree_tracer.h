@@ -49,7 +49,7 @@ class EmbreeTracer {
  private:
   struct Hits;
   template <int kWidth>
-  void TraceBlock(const FloatRays& rays, std::size_t first, int count, Hits& hits);
+  void TraceBlock(const FloatRays& rays, int first, int count, Hits& hits);
 
   EmbreeOptions options_;
   int points_;

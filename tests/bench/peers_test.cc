@@ -1,10 +1,12 @@
 // The peers of the benchmarks answer what ours does, or a ratio says nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "generator/patch_window.h"
 #include "generator/refraction.h"
 #include "tests/bench/beam_case.h"
 #include "tests/bench/plain_realization.h"
@@ -37,6 +39,35 @@ std::vector<double> AroundTheCentre(const BeamCase& beam_case, const FloatWindow
     }
   }
   return heights;
+}
+
+TEST(PacketTracer, MeetsTheSurfaceWhereTheScalarWalkDoes) {
+  for (const double incidence : kIncidences) {
+    const BeamCase beam_case = SmallCase(incidence);
+    const FloatWindow window = beam_case.Draw(1, beam_case.footprint_points());
+    const HeightField surface = window.InDouble();
+    for (const Ray& ray : beam_case.SortedRays()) {
+      const double height = TracePackets(RayBundle({ray}, kRefractiveIndex), window.View()).height;
+      ASSERT_NEAR(height, Intersect(surface, ray).height, 1e-5 * std::cos(incidence));
+    }
+    const BeamMeans means = MeansOf(Trace(beam_case.bundle(), window.View()));
+    // One ray that meets an edge within rounding may take the facet beside it.
+    EXPECT_LT(Difference(means, Exact(beam_case, window), beam_case.options().footprint),
+              1.0 / beam_case.bundle().count());
+  }
+}
+
+TEST(OurRealization, HasTheMeansOfTheSlowOne) {
+  for (const double incidence : kIncidences) {
+    const BeamCase beam_case = SmallCase(incidence);
+    FloatWindow fast = beam_case.Draw(1, beam_case.footprint_points());
+    const BeamMeans expected = Exact(beam_case, fast);
+    std::fill(fast.heights.begin(), fast.heights.end(), 0.0f);
+    PatchWindow::Workspace workspace;
+    PatchWindow(beam_case.patch(), fast.points).Draw(BeamCase::Stream(1), fast.heights, workspace);
+    const BeamMeans means = MeansOf(Trace(beam_case.bundle(), fast.View()));
+    EXPECT_LT(Difference(means, expected, beam_case.options().footprint), 1.0 / beam_case.bundle().count());
+  }
 }
 
 TEST(PlainRealization, PutsTheSpotWhereTheScalarWalkDoes) {
@@ -98,22 +129,22 @@ TEST(EmbreeTracer, MeetsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
     const FloatWindow still = beam_case.Draw(1, beam_case.footprint_points());
     const FloatWindow window = beam_case.Draw(2, beam_case.footprint_points());
     const HeightField surface = window.InDouble();
-    const FloatRays rays = beam_case.InFloat();
+    const std::vector<Ray> rays = beam_case.SortedRays();
     const BeamMeans expected = Exact(beam_case, window);
     for (const EmbreeOptions& mode : AllModes()) {
       SCOPED_TRACE(Name(mode));
       EmbreeTracer tracer(mode, window.points, window.spacing);
       tracer.SetHeights(still.heights.data());
       tracer.SetHeights(window.heights.data());
-      const BeamMeans means = tracer.Trace(rays, kRefractiveIndex);
+      const BeamMeans means = tracer.Trace(beam_case.sorted(), kRefractiveIndex);
       // Robust or not, rays that meet an edge within rounding may be lost or take the facet beside it. Such
       // rays are few; each moves a mean by less than 1 / rays.
       const double rays_aside = mode.robust ? 1 : 5;
       EXPECT_LE(means.lost, mode.robust ? 0 : 5);
-      EXPECT_LT(Difference(means, expected, beam_case.options().footprint), rays_aside / rays.x.size());
-      for (std::size_t r = 0; r < rays.x.size(); ++r) {
+      EXPECT_LT(Difference(means, expected, beam_case.options().footprint), rays_aside / rays.size());
+      for (std::size_t r = 0; r < rays.size(); ++r) {
         if (std::isnan(tracer.hit_heights()[r])) continue;
-        const double height = Intersect(surface, beam_case.sorted_rays()[r]).height;
+        const double height = Intersect(surface, rays[r]).height;
         ASSERT_NEAR(tracer.hit_heights()[r], height, 1e-5 * std::cos(incidence));
       }
     }

@@ -2,7 +2,7 @@
 // a scalar walk in double precision, over the same surface.
 //
 // Names are TRACER/INCIDENCE in degrees; items per second are rays, lost is the rays that found no surface,
-// miss_m the greatest difference of a hit from the scalar walk's.
+// miss_m the greatest distance of a hit from the scalar walk's, means_off the greatest difference of a mean.
 #include <absl/strings/str_cat.h>
 #include <benchmark/benchmark.h>
 
@@ -22,7 +22,8 @@ namespace albtpu::bench {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kSameHit = 1e-5;  // m
+constexpr double kSameHit = 1e-5;    // m
+constexpr double kSameMeans = 1e-5;  // few rays in 10 000 meet the facet beside their own
 
 // Under a beam of one incidence: 10 000 rays, 128 points across the footprint, 7 m/s.
 struct Bench {
@@ -30,15 +31,20 @@ struct Bench {
       : beam_case({.size = 320, .wind_speed = 7, .incidence = degrees * kDegree}),
         window(beam_case.Draw(1, beam_case.footprint_points())),
         surface(window.InDouble()),
-        rays(beam_case.InFloat()) {
-    for (const Ray& ray : beam_case.sorted_rays()) hit_heights.push_back(Intersect(surface, ray).height);
-    means = MeansOf(Trace(beam_case.sorted_rays(), surface, kRefractiveIndex));
+        rays(beam_case.SortedRays()) {
+    for (const Ray& ray : rays) hit_heights.push_back(Intersect(surface, ray).height);
+    means = MeansOf(Trace(rays, surface, kRefractiveIndex));
   }
+  // How far, m, ray `r` met the surface at `height` from where it should.
+  double Miss(std::size_t r, double height) const {
+    return std::abs(height - hit_heights[r]) / -beam_case.bundle().direction().z();
+  }
+
   BeamCase beam_case;
   FloatWindow window;
   HeightField surface;
-  FloatRays rays;
-  std::vector<double> hit_heights;  // by the scalar walk, of the sorted rays
+  std::vector<Ray> rays;            // sorted, in single precision
+  std::vector<double> hit_heights;  // by the scalar walk, of these rays
   BeamMeans means;
 };
 
@@ -53,8 +59,38 @@ void CountRays(benchmark::State& state, const Bench& bench) {
   state.SetItemsProcessed(state.iterations() * bench.beam_case.options().rays);
 }
 
-void ScalarWalk(benchmark::State& state, const Bench& bench, const std::vector<Ray>& rays) {
-  for (auto _ : state) benchmark::DoNotOptimize(Trace(rays, bench.surface, kRefractiveIndex));
+void ScalarWalk(benchmark::State& state, const Bench& bench) {
+  for (auto _ : state) benchmark::DoNotOptimize(Trace(bench.rays, bench.surface, kRefractiveIndex));
+  CountRays(state, bench);
+}
+
+// Says how far a tracer's answers are from the scalar walk's, and ends its benchmark if that is too far.
+bool Agrees(benchmark::State& state, const Bench& bench, const BeamMeans& means, double miss) {
+  state.counters["lost"] = means.lost;
+  state.counters["miss_m"] = miss;
+  const double off = Difference(means, bench.means, bench.beam_case.options().footprint);
+  state.counters["means_off"] = off;
+  const bool agrees = miss <= kSameHit && off <= kSameMeans * (1 + means.lost);
+  if (!agrees) state.SkipWithError("differs from the scalar walk");
+  return agrees;
+}
+
+void Packets(benchmark::State& state, const Bench& bench) {
+  double miss = 0;
+  for (std::size_t r = 0; r < bench.rays.size(); ++r) {
+    const RayBundle alone({bench.rays[r]}, kRefractiveIndex);
+    miss = std::max(miss, bench.Miss(r, TracePackets(alone, bench.window.View()).height));
+  }
+  const RayBundle& bundle = bench.beam_case.bundle();
+  if (!Agrees(state, bench, MeansOf(Trace(bundle, bench.window.View())), miss)) return;
+  for (auto _ : state) benchmark::DoNotOptimize(Trace(bundle, bench.window.View()));
+  CountRays(state, bench);
+}
+
+// With the sums that control variates want.
+void PacketsAndUndisturbed(benchmark::State& state, const Bench& bench) {
+  const RayBundle& bundle = bench.beam_case.bundle();
+  for (auto _ : state) benchmark::DoNotOptimize(TracePackets(bundle, bench.window.View()));
   CountRays(state, bench);
 }
 
@@ -62,16 +98,14 @@ void ScalarWalk(benchmark::State& state, const Bench& bench, const std::vector<R
 void Embree(benchmark::State& state, const Bench& bench, const EmbreeOptions& options) {
   EmbreeTracer tracer(options, bench.window.points, bench.window.spacing);
   tracer.SetHeights(bench.window.heights.data());
-  const BeamMeans means = tracer.Trace(bench.rays, kRefractiveIndex);
+  const BeamMeans means = tracer.Trace(bench.beam_case.sorted(), kRefractiveIndex);
   double miss = 0;
-  for (std::size_t r = 0; r < bench.hit_heights.size(); ++r) {
-    if (std::isnan(tracer.hit_heights()[r])) continue;
-    miss = std::max(miss, std::abs(tracer.hit_heights()[r] - bench.hit_heights[r]) / -bench.rays.direction_z);
+  for (std::size_t r = 0; r < bench.rays.size(); ++r) {
+    const float height = tracer.hit_heights()[r];
+    if (!std::isnan(height)) miss = std::max(miss, bench.Miss(r, height));
   }
-  state.counters["lost"] = means.lost;
-  state.counters["miss_m"] = miss;
-  if (miss > kSameHit) return state.SkipWithError("hits differ from the scalar walk's");
-  for (auto _ : state) benchmark::DoNotOptimize(tracer.Trace(bench.rays, kRefractiveIndex));
+  if (!Agrees(state, bench, means, miss)) return;
+  for (auto _ : state) benchmark::DoNotOptimize(tracer.Trace(bench.beam_case.sorted(), kRefractiveIndex));
   CountRays(state, bench);
 }
 
@@ -98,9 +132,9 @@ void RegisterAt(int degrees) {
       run(state, BenchAt(degrees));
     })->MeasureProcessCPUTime();
   };
-  add("scalar", [](auto& state, const Bench& bench) { ScalarWalk(state, bench, bench.beam_case.rays()); });
-  add("scalar_sorted",
-      [](auto& state, const Bench& bench) { ScalarWalk(state, bench, bench.beam_case.sorted_rays()); });
+  add("packets", Packets);
+  add("packets_and_undisturbed", PacketsAndUndisturbed);
+  add("scalar", ScalarWalk);
 #ifdef ALBTPU_EMBREE
   for (EmbreeOptions mode : EmbreeModes()) {
     mode.device = "isa=avx2";

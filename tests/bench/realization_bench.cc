@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "generator/fftw_planner.h"
+#include "generator/patch_window.h"
 #include "generator/refraction.h"
 #include "tests/bench/beam_case.h"
 #include "tests/bench/plain_realization.h"
@@ -47,31 +48,54 @@ void Plain(benchmark::State& state, const BeamCase& beam_case) {
   }
 }
 
-#ifdef ALBTPU_EMBREE
-void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole) {
-  const int points = whole ? beam_case.whole_points() : beam_case.footprint_points();
-  const FloatRays rays = beam_case.InFloat();
-  EmbreeTracer tracer(options, points, static_cast<float>(beam_case.patch().spacing()));
+// The fast surface, of `points` along a side.
+class FastSurface {
+ public:
+  FastSurface(const BeamCase& beam_case, int points)
+      : window_(beam_case.patch(), points), heights_(static_cast<std::size_t>(points) * points) {}
+
+  const std::vector<float>& Draw(std::uint32_t realization) {
+    window_.Draw(BeamCase::Stream(realization), heights_, workspace_);
+    return heights_;
+  }
+
+ private:
+  PatchWindow window_;
+  PatchWindow::Workspace workspace_;
+  std::vector<float> heights_;
+};
+
+void OurSurface(benchmark::State& state, const BeamCase& beam_case) {
+  FastSurface surface(beam_case, beam_case.footprint_points());
   std::uint32_t realization = 0;
-  tracer.SetHeights(
-      beam_case.Draw(realization, points).heights.data());  // the first tree is built, not refitted
+  for (auto _ : state) benchmark::DoNotOptimize(surface.Draw(++realization).data());
+}
+
+void Ours(benchmark::State& state, const BeamCase& beam_case) {
+  const int points = beam_case.footprint_points();
+  FastSurface surface(beam_case, points);
+  const float spacing = static_cast<float>(beam_case.patch().spacing());
+  std::uint32_t realization = 1000000u * static_cast<std::uint32_t>(state.thread_index());
   for (auto _ : state) {
-    const FloatWindow window = beam_case.Draw(++realization, points);
-    tracer.SetHeights(window.heights.data());
-    benchmark::DoNotOptimize(SpotsOf(tracer.Trace(rays, kRefractiveIndex)));
+    const HeightWindow window{surface.Draw(++realization).data(), points, points, spacing};
+    benchmark::DoNotOptimize(SpotsOf(MeansOf(Trace(beam_case.bundle(), window))));
   }
 }
 
-void EmbreeTree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options,
-                bool whole) {
+#ifdef ALBTPU_EMBREE
+// With `draw` unset, of the same surface again and again: what its tree and its tracing cost.
+void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole,
+            bool draw) {
   const int points = whole ? beam_case.whole_points() : beam_case.footprint_points();
+  FastSurface surface(beam_case, points);
   EmbreeTracer tracer(options, points, static_cast<float>(beam_case.patch().spacing()));
-  const FloatRays rays = beam_case.InFloat();
-  const FloatWindow window = beam_case.Draw(1, points);
-  tracer.SetHeights(window.heights.data());
+  std::uint32_t realization = 0;
+  const float* heights = surface.Draw(realization).data();
+  tracer.SetHeights(heights);  // the first tree is built, not refitted
   for (auto _ : state) {
-    tracer.SetHeights(window.heights.data());
-    benchmark::DoNotOptimize(SpotsOf(tracer.Trace(rays, kRefractiveIndex)));
+    if (draw) surface.Draw(++realization);
+    tracer.SetHeights(heights);
+    benchmark::DoNotOptimize(SpotsOf(tracer.Trace(beam_case.sorted(), kRefractiveIndex)));
   }
 }
 #endif
@@ -104,6 +128,8 @@ void RegisterAt(int degrees) {
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMicrosecond);
   };
+  add("ours", Ours);
+  add("our_surface", OurSurface);
   add("plain", Plain);
 #ifdef ALBTPU_EMBREE
   for (const bool whole : {true, false}) {
@@ -112,9 +138,10 @@ void RegisterAt(int degrees) {
         const EmbreeOptions options{
             .geometry = geometry, .build = build, .robust = false, .coherent = false, .device = "isa=avx2"};
         const std::string name = absl::StrCat(whole ? "whole/" : "cropped/", Name(options));
-        add("embree/" + name, [=](auto& state, const BeamCase& of) { Embree(state, of, options, whole); });
-        add("embree_tracing/" + name,
-            [=](auto& state, const BeamCase& of) { EmbreeTree(state, of, options, whole); });
+        for (const bool draw : {true, false}) {
+          add((draw ? "embree/" : "embree_tracing/") + name,
+              [=](auto& state, const BeamCase& of) { Embree(state, of, options, whole, draw); });
+        }
       }
     }
   }
@@ -133,6 +160,12 @@ int main(int argc, char** argv) {
       ->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("transform/measured", Transform, FFTW_MEASURE)->Unit(benchmark::kMicrosecond);
   for (const int degrees : {0, 20}) albtpu::bench::RegisterAt(degrees);
+  benchmark::RegisterBenchmark(
+      "ours_on_threads",
+      [](benchmark::State& state) { albtpu::bench::Ours(state, albtpu::bench::CaseAt(0)); })
+      ->ThreadRange(1, 2)
+      ->UseRealTime()
+      ->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();
