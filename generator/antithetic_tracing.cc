@@ -25,8 +25,10 @@ struct PreparedBeam {
   std::optional<KnownSlopes> known;
 };
 
-// E[(1 - per_height . long slope) mean slope] over the surfaces: slopes go together with those of the same waves.
-Eigen::Vector2d ExpectedSlope(const LongWaveModel& long_waves, const BeamOptions& beam, const Eigen::Vector2d& per_height) {
+// E[(1 - per_height . long slope) mean slope] over the surfaces: slopes go together with those of the same
+// waves.
+Eigen::Vector2d ExpectedSlope(const LongWaveModel& long_waves, const BeamOptions& beam,
+                              const Eigen::Vector2d& per_height) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const LongWaveModel::Wave& wave : long_waves.waves()) {
     const double psi = std::atan2(wave.wavenumber.y(), wave.wavenumber.x());
