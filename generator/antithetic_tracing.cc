@@ -1,7 +1,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
-#include <cassert>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 
@@ -101,7 +101,9 @@ class AntitheticTracing final : public BeamTracing {
     }
   }
 
-  const std::optional<KnownSlopes>& known_slopes(std::size_t beam) const override { return beams_[beam].known; }
+  const std::optional<KnownSlopes>& known_slopes(std::size_t beam) const override {
+    return beams_[beam].known;
+  }
 
  private:
   struct Workspace {
@@ -110,7 +112,9 @@ class AntitheticTracing final : public BeamTracing {
   };
 
   // At nadir there is no azimuth: one beam stands for those of all azimuths.
-  static bool OneBeam(const BeamOptions& a, const BeamOptions& b) { return a.incidence == 0 && b.incidence == 0; }
+  static bool OneBeam(const BeamOptions& a, const BeamOptions& b) {
+    return a.incidence == 0 && b.incidence == 0;
+  }
 
   SharedWindow window_;
   std::vector<PreparedBeam> beams_;

@@ -51,10 +51,10 @@ class Beam {
       cross_section_;  // at the mean surface, relative to the axis, perpendicular to it
 };
 
-// What the footprint's average leaves of a wave with wavenumber `k` [rad/m] travelling at `psi` [rad] from downwind: W
-// of the small-slope theory. The footprint on the water is an ellipse, longer by 1/cos(incidence) along the azimuth. With
-// kappa = sqrt((k_along / cos(incidence))^2 + k_across^2), W = 2 J1(kappa D/2) / (kappa D/2) for a uniform beam and
-// exp(-kappa^2 D^2 / 32) for a gaussian one.
+// What the footprint's average leaves of a wave with wavenumber `k` [rad/m] travelling at `psi` [rad] from
+// downwind: W of the small-slope theory. The footprint on the water is an ellipse, longer by 1/cos(incidence)
+// along the azimuth. With kappa = sqrt((k_along / cos(incidence))^2 + k_across^2), W = 2 J1(kappa D/2) /
+// (kappa D/2) for a uniform beam and exp(-kappa^2 D^2 / 32) for a gaussian one.
 double FootprintAverage(const BeamOptions& beam, double k, double psi);
 
 // Its square, the part of the wave's power that is left.

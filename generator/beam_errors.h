@@ -10,10 +10,11 @@ namespace albtpu {
 
 // Errors are linear in the depth d.
 struct BeamErrors {
-  Eigen::Vector2d tangent = Eigen::Vector2d::Zero();               // t - t_still
-  Eigen::Vector2d horizontal_offset = Eigen::Vector2d::Zero();     // m, and
-  Eigen::Vector2d horizontal_per_depth = Eigen::Vector2d::Zero();  // the spot's horizontal error is offset + d per_depth
-  double vertical_offset = 0;                                      // m, the same of elevation
+  Eigen::Vector2d tangent = Eigen::Vector2d::Zero();  // t - t_still
+  // The spot's horizontal error is offset [m] + d per_depth,
+  Eigen::Vector2d horizontal_offset = Eigen::Vector2d::Zero();
+  Eigen::Vector2d horizontal_per_depth = Eigen::Vector2d::Zero();
+  double vertical_offset = 0;  // m, the same of elevation
   double vertical_per_depth = 0;
 };
 
@@ -25,15 +26,17 @@ inline BeamErrors ErrorsOf(const TracedBeam& traced, const TracedBeam& still) {
           1 - traced.secant / still.secant};
 }
 
-// What one realization of the sea does to a beam: the errors on its surface and, where the surface is traced the other way
-// up too (which a Gaussian sea is as likely to be), on that. Each has a share in the realization's means; shares add up to 1.
+// What one realization of the sea does to a beam: the errors on its surface and, where the surface is traced
+// the other way up too (which a Gaussian sea is as likely to be), on that. Each has a share in the
+// realization's means; shares add up to 1.
 struct BeamRealization {
   struct Part {
     double share = 0;
     BeamErrors errors;
   };
   std::array<Part, 2> parts;
-  // Of the facets over which the rays cross z = 0 on the surface of parts[0], where that is known (slope_moments.h).
+  // Of the facets over which the rays cross z = 0 on the surface of parts[0], where that is known
+  // (slope_moments.h).
   Eigen::Vector2d mean_slope = Eigen::Vector2d::Zero();
   Eigen::Vector3d mean_squares = Eigen::Vector3d::Zero();
 };

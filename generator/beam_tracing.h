@@ -36,13 +36,15 @@ class BeamTracing {
   virtual const std::optional<KnownSlopes>& known_slopes(std::size_t beam) const = 0;
 };
 
-// The slow twin: each beam meets the very surface at its place, in double precision, and nothing else is known of it.
-// `model` must outlive it. Of beams at nadir, where there is no azimuth, the first stands for all.
+// The slow twin: each beam meets the very surface at its place, in double precision, and nothing else is
+// known of it. `model` must outlive it. Of beams at nadir, where there is no azimuth, the first stands for
+// all.
 std::unique_ptr<BeamTracing> MakePlainTracing(const SurfaceModel& model, const TracedBeams& traced);
 
-// The fast one, for collimated beams: in single precision, many rays at a time. All beams share the surface about one
-// point; how often each would meet it there is the weight of the realization (sea_surface.h), which is exact. The surface is
-// traced both ways up, so that what is odd in its heights cancels, and its slopes are known beforehand.
+// The fast one, for collimated beams: in single precision, many rays at a time. All beams share the surface
+// about one point; how often each would meet it there is the weight of the realization (sea_surface.h), which
+// is exact. The surface is traced both ways up, so that what is odd in its heights cancels, and its slopes
+// are known beforehand.
 std::unique_ptr<BeamTracing> MakeAntitheticTracing(const SurfaceModel& model, const TracedBeams& traced);
 
 }  // namespace albtpu

@@ -107,12 +107,12 @@ class Prediction {
   Eigen::Vector2d azimuth_;
   Eigen::Vector2d expectation_;  // of the predicted tangent, less that of still water
   Eigen::Matrix2d covariance_;
-  Eigen::Vector2d vertical_;   // the vertical error per depth and tangent
-  double square_gain_ = 0;     // the vertical error per depth and form
-  double expected_form_ = 0;   // of the squared slopes
-  Eigen::ArrayX2d tangent_;    // predicted on the surfaces of parts[0]; on the others it is the opposite
-  Eigen::ArrayXd form_;        // alike on both
-  Eigen::ArrayXd imbalance_;   // of the shares of the two
+  Eigen::Vector2d vertical_;  // the vertical error per depth and tangent
+  double square_gain_ = 0;    // the vertical error per depth and form
+  double expected_form_ = 0;  // of the squared slopes
+  Eigen::ArrayX2d tangent_;   // predicted on the surfaces of parts[0]; on the others it is the opposite
+  Eigen::ArrayXd form_;       // alike on both
+  Eigen::ArrayXd imbalance_;  // of the shares of the two
 };
 
 }  // namespace
@@ -137,7 +137,8 @@ BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const 
       });
     };
     const Column x = horizontal(Eigen::Vector2d::UnitX()), y = horizontal(Eigen::Vector2d::UnitY());
-    const Column z(sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
+    const Column z(sample,
+                   [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
     result.thu.push_back(TwoSigmaOfSquares(x.Squares() + y.Squares(), x.VarianceOfMean() + y.VarianceOfMean(),
                                            prediction.SquaredHorizontal(depth)));
     result.tvu.push_back(TwoSigma(z, prediction.SquaredVertical(depth)));

@@ -18,7 +18,8 @@ constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
 // `t` from 0 to 1 along an axis, in its scale.
 float AlongAxis(const Axis& axis, double t) {
   const double first = axis.nodes().front(), last = axis.nodes().back();
-  const double x = axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
+  const double x =
+      axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
   return static_cast<float>(std::clamp(x, first, last));
 }
 

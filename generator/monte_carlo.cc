@@ -24,19 +24,22 @@ bool Meets(const BeamUncertainty& beam, double relative_error) {
     return estimate.value < negligible || estimate.standard_error <= relative_error * estimate.value;
   };
   const auto length_meets = [&](const Estimate& estimate) { return meets(estimate, kNegligibleLength); };
-  return meets(beam.refraction_along_wind, kNegligibleAngle) && meets(beam.refraction_cross_wind, kNegligibleAngle) &&
+  return meets(beam.refraction_along_wind, kNegligibleAngle) &&
+         meets(beam.refraction_cross_wind, kNegligibleAngle) &&
          std::all_of(beam.thu.begin(), beam.thu.end(), length_meets) &&
          std::all_of(beam.tvu.begin(), beam.tvu.end(), length_meets);
 }
 
-// The beams of the least and of the greatest incidence, one of them at nadir: what holds for these holds between them.
+// The beams of the least and of the greatest incidence, one of them at nadir: what holds for these holds
+// between them.
 std::vector<BeamOptions> Extremes(const std::vector<BeamOptions>& beams) {
   const auto less = [](const BeamOptions& a, const BeamOptions& b) { return a.incidence < b.incidence; };
   const auto [least, greatest] = std::minmax_element(beams.begin(), beams.end(), less);
   std::vector<BeamOptions> extremes;
   for (const BeamOptions& beam : beams) {
     const bool again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
-    if (!again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence)) extremes.push_back(beam);
+    if (!again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence))
+      extremes.push_back(beam);
   }
   return extremes;
 }
@@ -78,7 +81,8 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
   result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
   result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(encounter.beams));
 
-  const TracedBeams traced{encounter.beams, encounter.refractive_index, discretization.rays, all_slopes - facet_slopes};
+  const TracedBeams traced{encounter.beams, encounter.refractive_index, discretization.rays,
+                           all_slopes - facet_slopes};
   const bool collimated = std::isinf(encounter.beams.front().source_height);
   const std::unique_ptr<BeamTracing> tracing = effort.estimator == Estimator::kControlVariate && collimated
                                                    ? MakeAntitheticTracing(model, traced)
@@ -92,9 +96,8 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
     const int first = result.realizations;
     result.realizations = goal;
     realizations.resize(goal, std::vector<BeamRealization>(count));
-    tbb::parallel_for(first, goal, [&](int i) {
-      tracing->Realize(NormalStream(seed, cell, i), wanted, realizations[i]);
-    });
+    tbb::parallel_for(first, goal,
+                      [&](int i) { tracing->Realize(NormalStream(seed, cell, i), wanted, realizations[i]); });
     result.converged = true;
     for (std::size_t b = 0; b < count; ++b) {
       if (!wanted[b]) continue;

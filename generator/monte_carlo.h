@@ -20,13 +20,13 @@ enum class Estimator {
 std::string_view Name(Estimator estimator);  // "control_variate", "plain"
 std::optional<Estimator> FindEstimator(std::string_view name);
 
-// How long to go on. Realizations beyond the first are counted in whole batches of `kBatch`; every beam goes on for itself,
-// on the surfaces that all share.
+// How long to go on. Realizations beyond the first are counted in whole batches of `kBatch`; every beam goes
+// on for itself, on the surfaces that all share.
 struct Effort {
   int realizations = 1000;       // at least so many, 2 or more
   int most_realizations = 1000;  // and no more
-  // Go on until refraction, THU and TVU have this standard error over their value, where they are 0.01 degrees or 1 mm
-  // and more; 0: don't.
+  // Go on until refraction, THU and TVU have this standard error over their value, where they are 0.01
+  // degrees or 1 mm and more; 0: don't.
   double relative_error = 0;
   Estimator estimator = Estimator::kControlVariate;
 };
@@ -44,7 +44,7 @@ struct Encounter {
 
 struct EncounterResult {
   std::vector<BeamUncertainty> beams;
-  int realizations = 0;    // the most of any beam
+  int realizations = 0;   // the most of any beam
   bool converged = true;  // false: `most_realizations` came before `relative_error`
   // What the surface was.
   int rays = 0;

@@ -21,7 +21,8 @@ std::vector<double> Lowering(const std::vector<double>& x, const std::vector<dou
   std::vector<double> curvature(x.size()), lowering(x.size());
   for (std::size_t i = 1; i < last; ++i) {
     const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
-    curvature[i] = 2 * ((values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before) / (before + after);
+    curvature[i] =
+        2 * ((values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before) / (before + after);
     lowering[i] = curvature[i] * (std::pow(before, 3) + std::pow(after, 3)) / (12 * (before + after));
   }
   lowering[0] = curvature[1] * std::pow(x[1] - x[0], 2) / 12;

@@ -34,7 +34,8 @@ class PlainTracing final : public BeamTracing {
       const TracedBeam traced =
           Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(window.elevation),
                 window.heights, refractive_index_);
-      realized[b].parts[0] = {1, ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water)};
+      realized[b].parts[0] = {
+          1, ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water)};
     }
   }
 

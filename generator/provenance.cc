@@ -93,9 +93,10 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
            kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
            " significant bits")},
       {"node_values",
-       campaign.balanced_nodes ? "less a twelfth of their second difference along each axis but depth, which halves the "
-                                 "error of interpolation in the root mean square"
-                               : "as computed at the nodes"},
+       campaign.balanced_nodes
+           ? "less a twelfth of their second difference along each axis but depth, which halves the error of "
+             "interpolation in the root mean square"
+           : "as computed at the nodes"},
       {"realizations", Range(results, &EncounterResult::realizations)},
       {"rays", Range(results, &EncounterResult::rays)},
       {"domain", Range(results, &EncounterResult::patch_length)},
@@ -108,9 +109,11 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
 
 void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance) {
   provenance.attributes["interpolation_error"] =
-      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, by the random "
-      "numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: root mean square, 99th percentile, greatest, "
-      "rms standard error of the direct values, number of pulses";
+      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, by "
+      "the random "
+      "numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: root mean square, 99th "
+      "percentile, "
+      "greatest, rms standard error of the direct values, number of pulses";
   for (std::size_t q = 0; q < errors.size(); ++q) {
     const InterpolationError& error = errors[q];
     provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] =

@@ -13,8 +13,8 @@ SlopeGain SmallSlopeGain(double incidence, double n) {
 // By central differences: the fourth order is some 1e-6 of the second.
 Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n) {
   constexpr double kStep = 1e-3;
-  const Eigen::Vector3d incident(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
-                                 -std::cos(incidence));
+  const Eigen::Vector3d incident(std::sin(incidence) * std::cos(azimuth),
+                                 std::sin(incidence) * std::sin(azimuth), -std::cos(incidence));
   const auto secant = [&](double x, double y) {
     return RefractAtSlope(incident, Eigen::Vector2d(x, y) * kStep, n).secant;
   };

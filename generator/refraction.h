@@ -30,8 +30,8 @@ struct RefractedRay {
   double secant;
 };
 
-// The same law on a facet of slope m, without unit normals: with q = 1 + |m|^2, v = -incident . (-m, 1) and r = 1 / n,
-// the refracted direction is r incident + (-m, 1) (r v - sqrt(q (1 - r^2) + r^2 v^2)) / q.
+// The same law on a facet of slope m, without unit normals: with q = 1 + |m|^2, v = -incident . (-m, 1) and r
+// = 1 / n, the refracted direction is r incident + (-m, 1) (r v - sqrt(q (1 - r^2) + r^2 v^2)) / q.
 inline RefractedRay RefractAtSlope(const Eigen::Vector3d& incident, const Eigen::Vector2d& slope, double n) {
   const double ratio = 1 / n;
   const double q = 1 + slope.squaredNorm();
@@ -52,8 +52,8 @@ struct SlopeGain {
 };
 SlopeGain SmallSlopeGain(double incidence, double n);
 
-// The second derivatives, by the slope of the surface, of the secant of the refracted direction: how the path per depth
-// answers to the squares of small slopes. At nadir (1 - 1/n)^2 times the identity.
+// The second derivatives, by the slope of the surface, of the secant of the refracted direction: how the path
+// per depth answers to the squares of small slopes. At nadir (1 - 1/n)^2 times the identity.
 Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n);
 
 }  // namespace albtpu

@@ -14,7 +14,8 @@ namespace {
 // sampling the spectrum on the patch's lattice of wavenumbers becomes as good as the rings and sectors of the
 // plane waves.
 constexpr double kAllLong = 3, kAllPatch = 6;
-// Nodes along the shortest plane wave, about. Cubic interpolation of heights is then right to 2e-4 amid the cross-fade.
+// Nodes along the shortest plane wave, about. Cubic interpolation of heights is then right to 2e-4 amid the
+// cross-fade.
 constexpr double kNodesPerLongWave = 14;
 
 CrossFade PatchShare(double patch_length) {

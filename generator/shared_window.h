@@ -10,10 +10,10 @@
 
 namespace albtpu {
 
-// Draws the same waves as SeaSurface, about a point of the mean surface instead of the place where a beam meets them. A line
-// with per_height p meets the long waves at places where they are as anywhere, but with the weight 1 - p . slope there
-// (a slanted line meets the side that faces it more often): with that weight this is the law of SeaSurface's window,
-// exactly, for every beam at once. Immutable.
+// Draws the same waves as SeaSurface, about a point of the mean surface instead of the place where a beam
+// meets them. A line with per_height p meets the long waves at places where they are as anywhere, but with
+// the weight 1 - p . slope there (a slanted line meets the side that faces it more often): with that weight
+// this is the law of SeaSurface's window, exactly, for every beam at once. Immutable.
 class SharedWindow {
  public:
   explicit SharedWindow(const SurfaceModel& model);
@@ -42,9 +42,9 @@ class SharedWindow {
   PatchWindow patch_;
   int points_;
   float spacing_;
-  std::vector<Cubic> cubics_;         // along a side
-  Eigen::MatrixXcf phases_x_;         // nodes x waves
-  Eigen::MatrixXf cos_and_sin_y_;     // 2 waves x nodes
+  std::vector<Cubic> cubics_;      // along a side
+  Eigen::MatrixXcf phases_x_;      // nodes x waves
+  Eigen::MatrixXf cos_and_sin_y_;  // 2 waves x nodes
 };
 
 }  // namespace albtpu

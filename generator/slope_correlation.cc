@@ -32,7 +32,8 @@ Eigen::MatrixXcd Phases(const Eigen::ArrayXd& phase_per_lag, int reach) {
 }
 
 // The real part of phases_x diag(power) phases_y^T.
-Eigen::MatrixXd Sum(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& power, const Eigen::MatrixXcd& phases_y) {
+Eigen::MatrixXd Sum(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& power,
+                    const Eigen::MatrixXcd& phases_y) {
   const Eigen::MatrixXcd weighted = phases_x * power.asDiagonal();
   return weighted.real() * phases_y.real().transpose() - weighted.imag() * phases_y.imag().transpose();
 }

@@ -7,12 +7,13 @@
 
 namespace albtpu {
 
-// The covariance of the slopes of two sides of triangles as a function of what lies between their middles, for the waves
-// of a SurfaceModel, all of them stationary: exact for the modes of the patch and for the plane waves (of which the window
-// holds an interpolation, right to 1e-3 of their own slopes and better). Immutable.
+// The covariance of the slopes of two sides of triangles as a function of what lies between their middles,
+// for the waves of a SurfaceModel, all of them stationary: exact for the modes of the patch and for the plane
+// waves (of which the window holds an interpolation, right to 1e-3 of their own slopes and better).
+// Immutable.
 //
-// Sides along x lie whole cells apart from each other, and so do those along y; the one kind lies half a cell along both
-// axes away from the other.
+// Sides along x lie whole cells apart from each other, and so do those along y; the one kind lies half a cell
+// along both axes away from the other.
 class SlopeCorrelation {
  public:
   // For lags up to `reach` cells along each axis; less than half the patch.

@@ -25,9 +25,10 @@ double FarthestOf(const std::vector<Ray>& rays) {
 
 // The shares of the rays that meet the triangles of each kind, by cell, transformed on a grid of `size` cells.
 std::array<Waves, 2> SharesOfTriangles(const std::vector<Ray>& rays, double spacing, int cells, int size) {
-  const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0), cells + 1,
-                          spacing);
-  std::array<Eigen::MatrixXd, 2> shares = {Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size)};
+  const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0),
+                          cells + 1, spacing);
+  std::array<Eigen::MatrixXd, 2> shares = {Eigen::MatrixXd::Zero(size, size),
+                                           Eigen::MatrixXd::Zero(size, size)};
   for (const Ray& ray : rays) {
     const HeightField::Triangle triangle = still.TriangleAt(ray.at_zero);
     shares[triangle.beside_x](triangle.ix, triangle.iy) += 1.0 / static_cast<double>(rays.size());
@@ -53,7 +54,8 @@ class Sums {
   }
 
   Eigen::Matrix2d covariance() const {
-    return (Eigen::Matrix2d() << covariance_[0], covariance_[1] / 2, covariance_[1] / 2, covariance_[2]).finished();
+    return (Eigen::Matrix2d() << covariance_[0], covariance_[1] / 2, covariance_[1] / 2, covariance_[2])
+        .finished();
   }
   double variance_of_form() const { return 2 * form_squares_; }
 
@@ -63,8 +65,8 @@ class Sums {
   double form_squares_ = 0;
 };
 
-// How much of the footprint lies over itself moved by a vector, over what it does unmoved: by `apart`, the length of the
-// vector across the beam in diameters.
+// How much of the footprint lies over itself moved by a vector, over what it does unmoved: by `apart`, the
+// length of the vector across the beam in diameters.
 double Overlap(BeamProfile profile, double apart) {
   if (profile == BeamProfile::kGaussian) return std::exp(-4 * apart * apart);
   return apart < 1 ? 2 / std::numbers::pi * (std::acos(apart) - apart * std::sqrt(1 - apart * apart)) : 0;
@@ -72,7 +74,8 @@ double Overlap(BeamProfile profile, double apart) {
 
 }  // namespace
 
-Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam, double spacing) {
+Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam,
+                                         double spacing) {
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
   const auto overlap = [&](double x, double y) {
     const Eigen::Vector2d lag = spacing / beam.footprint * Eigen::Vector2d(x, y);
@@ -89,23 +92,24 @@ Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, co
       xy += beyond * correlation.xy(x, y);
     }
   }
-  return (Eigen::Matrix2d() << xx / weights, xy / half_a_cell_away, xy / half_a_cell_away, yy / weights).finished();
+  return (Eigen::Matrix2d() << xx / weights, xy / half_a_cell_away, xy / half_a_cell_away, yy / weights)
+      .finished();
 }
 
 int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
   return static_cast<int>(2 * FarthestOf(rays) / spacing) + 3;
 }
 
-SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vector<Ray>& rays, double spacing,
-                             const Eigen::Matrix2d& form) {
+SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vector<Ray>& rays,
+                             double spacing, const Eigen::Matrix2d& form) {
   const int cells = 2 * (static_cast<int>(FarthestOf(rays) / spacing) + 1);
   const int reach = cells - 1;  // of two cells
   assert(reach + 1 <= correlation.reach());
   const int size = FastSize(2 * cells);
   const auto [beside_y, beside_x] = SharesOfTriangles(rays, spacing, cells, size);
 
-  // How many pairs of rays, over their number squared, lie a lag apart: on triangles of the same kind, and on one of
-  // each.
+  // How many pairs of rays, over their number squared, lie a lag apart: on triangles of the same kind, and on
+  // one of each.
   const InverseFft transform(size);
   InverseFft::Modes same = transform.Allocate(), mixed = transform.Allocate();
   const double points = static_cast<double>(size) * size;
@@ -116,7 +120,8 @@ SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vec
       mixed[row * (size / 2 + 1) + j] = y * std::conj(x) / points;
     }
   }
-  const std::vector<double> same_pairs = transform(std::move(same)), mixed_pairs = transform(std::move(mixed));
+  const std::vector<double> same_pairs = transform(std::move(same)),
+                            mixed_pairs = transform(std::move(mixed));
 
   Sums sums(form);
   const SlopeCorrelation& r = correlation;

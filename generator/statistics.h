@@ -21,14 +21,14 @@ struct Control {
 // The mean; with a control, the expectation of that and the sample's mean difference from it.
 Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& control = {});
 
-// Twice the root of a variance, from the squared deviations of each realization from a mean that the same realizations
-// gave, with `variance_of_mean`. The standard error comes from the scatter of the squares themselves, so that it holds
-// for distributions that are not normal (vertical errors at nadir are closer to chi-squared). Zero for a sample that does
-// not scatter.
+// Twice the root of a variance, from the squared deviations of each realization from a mean that the same
+// realizations gave, with `variance_of_mean`. The standard error comes from the scatter of the squares
+// themselves, so that it holds for distributions that are not normal (vertical errors at nadir are closer to
+// chi-squared). Zero for a sample that does not scatter.
 //
-// With a control of the squares it is the expectation of that times b and the mean difference between the squares and
-// b times the control. b is fitted to the other half of the sample, so that the variance is unbiased; with fewer
-// than 64 realizations there is nothing to fit it to, b = 0.
+// With a control of the squares it is the expectation of that times b and the mean difference between the
+// squares and b times the control. b is fitted to the other half of the sample, so that the variance is
+// unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0.
 Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double variance_of_mean,
                            const std::optional<Control>& control = {});
 

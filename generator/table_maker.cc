@@ -113,7 +113,8 @@ absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
     Round(variable);
   }
   Provenance provenance = MakeProvenance(campaign, parts_->results);
-  const absl::StatusOr<UncertaintyTable> table = UncertaintyTable::Create(campaign.axes, variables, provenance);
+  const absl::StatusOr<UncertaintyTable> table =
+      UncertaintyTable::Create(campaign.axes, variables, provenance);
   if (!table.ok()) return table.status();
   std::vector<InterpolationError> errors;
   for (std::size_t q = 0; q < kChecked.size(); ++q) {

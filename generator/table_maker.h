@@ -15,9 +15,9 @@
 
 namespace albtpu {
 
-// The cell of the random numbers (random_stream.h) of every encounter and every checked pulse of a table. The same for all:
-// what chance does to one node it does to its neighbours, so that a table is smoother than its standard errors, which are
-// those of each value by itself.
+// The cell of the random numbers (random_stream.h) of every encounter and every checked pulse of a table. The
+// same for all: what chance does to one node it does to its neighbours, so that a table is smoother than its
+// standard errors, which are those of each value by itself.
 inline constexpr std::uint32_t kCellOfTables = 0;
 
 // Puts the units of a campaign together. The table is a function of the campaign and of the date that

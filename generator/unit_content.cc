@@ -14,8 +14,10 @@ void Fields(Stream& stream, Self& self) {
 
 template <typename Stream, SameStruct<BeamUncertainty> Self>
 void Fields(Stream& stream, Self& self) {
-  auto& [refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical, realizations] = self;
-  stream(refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical, realizations);
+  auto& [refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
+         realizations] = self;
+  stream(refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
+         realizations);
 }
 
 template <typename Stream, SameStruct<EncounterResult> Self>
@@ -42,7 +44,8 @@ absl::StatusOr<Content> Decode(std::string_view bytes) {
   reader(content);
   if (!reader.ReadAll()) {
     return absl::DataLossError(
-        "holds other fields than this program computes, as from another build of its commit: begin in another work "
+        "holds other fields than this program computes, as from another build of its commit: begin in "
+        "another work "
         "folder");
   }
   return content;
@@ -52,7 +55,9 @@ absl::StatusOr<Content> Decode(std::string_view bytes) {
 
 std::string EncodeResult(const EncounterResult& result) { return Encode(result); }
 
-absl::StatusOr<EncounterResult> DecodeResult(std::string_view bytes) { return Decode<EncounterResult>(bytes); }
+absl::StatusOr<EncounterResult> DecodeResult(std::string_view bytes) {
+  return Decode<EncounterResult>(bytes);
+}
 
 std::string EncodeAnswers(const std::vector<Estimate>& answers) { return Encode(answers); }
 

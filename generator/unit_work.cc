@@ -54,7 +54,8 @@ std::string Compute(const Campaign& campaign, const UnitOrigin& origin, UnitId u
                       EncodeResult(Simulate(EncounterOf(campaign, unit.index), campaign.effort, campaign.seed,
                                             kCellOfTables)));
     case UnitKind::kPulse:
-      return SealUnit(unit, origin, EncodeAnswers(AnswerDirectly(campaign, CheckedPulse(campaign, unit.index))));
+      return SealUnit(unit, origin,
+                      EncodeAnswers(AnswerDirectly(campaign, CheckedPulse(campaign, unit.index))));
   }
   std::abort();  // every kind has its case
 }

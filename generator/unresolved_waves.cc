@@ -29,7 +29,8 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
       (Eigen::Vector3d() << std::sin(beam.incidence) * azimuth, -std::cos(beam.incidence)).finished();
   const Eigen::Vector2d facing = std::tan(beam.incidence) * azimuth;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(slope_covariance);
-  const Eigen::Matrix2d deviation = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::Matrix2d deviation =
+      axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 
   const auto tangents_and_secant = [&](const Eigen::Vector2d& slope) {
     const Eigen::Vector3d refracted = Refract(incident, NormalOfSlope(slope), refractive_index);
@@ -40,7 +41,8 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
     double weights = 0;
     for (int i = 0; i < 7; ++i) {
       for (int j = 0; j < 7; ++j) {
-        const Eigen::Vector2d tilted = slope + deviation * Eigen::Vector2d(kHermiteNodes[i], kHermiteNodes[j]);
+        const Eigen::Vector2d tilted =
+            slope + deviation * Eigen::Vector2d(kHermiteNodes[i], kHermiteNodes[j]);
         const double facing_area = std::max(0.0, 1 + facing.dot(tilted));  // none if turned away
         const double weight = kHermiteWeights[i] * kHermiteWeights[j] * facing_area;
         sum += weight * tangents_and_secant(tilted);

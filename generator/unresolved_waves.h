@@ -27,8 +27,8 @@ inline Eigen::Vector3d SlopeSquares(const Eigen::Vector2d& slope) {
 }
 
 // A facet of slope m stands for a patch of water with the slopes m + delta, delta normal with
-// `slope_covariance` (that of the sea less that of the facets: the cut along one diagonal makes the facets' slopes go
-// together, which the sea's do not, and this takes it back). Rays see the slopes with the weight of
+// `slope_covariance` (that of the sea less that of the facets: the cut along one diagonal makes the facets'
+// slopes go together, which the sea's do not, and this takes it back). Rays see the slopes with the weight of
 // the facing area, 1 + tan(theta) (m + delta) . phi. The mean over delta is taken by quadrature, its
 // departure from delta = 0 expanded to second order in m.
 UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refractive_index,

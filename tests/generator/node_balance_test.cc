@@ -9,8 +9,8 @@ namespace albtpu {
 namespace {
 
 UncertaintyTable::Axes Axes(const std::vector<double>& winds, const std::vector<double>& footprints) {
-  return {*Axis::Create(AxisId::kWindSpeed, winds),           *Axis::Create(AxisId::kFetch, {1e5}),
-          *Axis::Create(AxisId::kIncidence, {0}),             *Axis::Create(AxisId::kAzimuth, {0}),
+  return {*Axis::Create(AxisId::kWindSpeed, winds),      *Axis::Create(AxisId::kFetch, {1e5}),
+          *Axis::Create(AxisId::kIncidence, {0}),        *Axis::Create(AxisId::kAzimuth, {0}),
           *Axis::Create(AxisId::kFootprint, footprints), *Axis::Create(AxisId::kDepth, {0, 10})};
 }
 
@@ -29,8 +29,8 @@ TEST(NodeBalance, LeavesWhatIsLinearInTheScaleOfEachAxis) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(balanced[i], values[i], 1e-5) << i;
 }
 
-// x^2 on an even grid: interpolation errs by h^2 / 4 - t^2 about the middles, of which the mean is h^2 / 6; the root of the
-// mean square is h^2 sqrt(1 / 30) before, and h^2 sqrt(1 / 180) without the mean.
+// x^2 on an even grid: interpolation errs by h^2 / 4 - t^2 about the middles, of which the mean is h^2 / 6;
+// the root of the mean square is h^2 sqrt(1 / 30) before, and h^2 sqrt(1 / 180) without the mean.
 TEST(NodeBalance, TakesTheMeanOfTheErrorAway) {
   const std::vector<double> x = {2, 3, 4, 5, 6, 7};
   const UncertaintyTable::Axes axes = Axes(x, {1});

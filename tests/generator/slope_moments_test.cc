@@ -27,7 +27,8 @@ double Form(const Eigen::Vector3d& squares) {
   return kForm(0, 0) * squares[0] + kForm(1, 1) * squares[1] + 2 * kForm(0, 1) * squares[2];
 }
 
-// A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages over many.
+// A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages
+// over many.
 TEST(SlopeMoments, AreThoseOfManySurfaces) {
   constexpr int kSurfaces = 4000;
   const SeaState sea(8, std::numeric_limits<double>::infinity());
@@ -60,7 +61,8 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     }
     const Estimate mean = Mean(forms), spread = TwoSigma(forms);
     EXPECT_NEAR(mean.value, Form(moments.expected_squares), 4 * mean.standard_error) << footprint;
-    EXPECT_NEAR(spread.value, 2 * std::sqrt(moments.variance_of_form), 4 * spread.standard_error) << footprint;
+    EXPECT_NEAR(spread.value, 2 * std::sqrt(moments.variance_of_form), 4 * spread.standard_error)
+        << footprint;
   }
 }
 
@@ -87,7 +89,8 @@ TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
     BeamOptions beam;
   };
   for (const auto& [wind_speed, fetch, options] :
-       {Case{2, 1e3, {.footprint = 0.25}}, Case{2, INFINITY, {.incidence = 0.4, .azimuth = 0.5, .footprint = 2}},
+       {Case{2, 1e3, {.footprint = 0.25}},
+        Case{2, INFINITY, {.incidence = 0.4, .azimuth = 0.5, .footprint = 2}},
         Case{12, INFINITY, {.incidence = 0.1, .azimuth = 1.2, .footprint = 0.5}}}) {
     const SeaState sea(wind_speed, fetch);
     const std::vector<Ray> rays = Beam(options, 12).Rays(0);
@@ -101,14 +104,16 @@ TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
       for (const auto& b : slopes) {
         Eigen::Matrix2d r;
         for (const int i : {0, 1}) {
-          for (const int j : {0, 1}) r(i, j) = model.MomentsOf({a[i], b[j]}, Eigen::Vector2d::Zero()).covariance(0, 1);
+          for (const int j : {0, 1})
+            r(i, j) = model.MomentsOf({a[i], b[j]}, Eigen::Vector2d::Zero()).covariance(0, 1);
         }
         covariance += weight * r;
         variance_of_form += 2 * weight * (kForm * r * kForm * r.transpose()).trace();
       }
     }
     const SlopeMoments moments = MomentsOn(model, rays);
-    EXPECT_LT((moments.covariance - covariance).norm() / covariance.norm(), 2e-4) << wind_speed << ' ' << fetch;
+    EXPECT_LT((moments.covariance - covariance).norm() / covariance.norm(), 2e-4)
+        << wind_speed << ' ' << fetch;
     EXPECT_NEAR(moments.variance_of_form / variance_of_form, 1, 4e-4) << wind_speed << ' ' << fetch;
   }
 }
@@ -116,12 +121,9 @@ TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
 // A sum over lags and a sum over waves; facets and plane waves are the same.
 TEST(SlopeMoments, OfAFootprintAreThoseOfItsFilteredWaves) {
   const SeaState sea(6, 2e4);
-  for (const BeamOptions& options : {BeamOptions{.footprint = 0.3},
-                                     BeamOptions{.incidence = 0.4, .azimuth = 0.7, .footprint = 1.5},
-                                     BeamOptions{.incidence = 0.2,
-                                                 .azimuth = 1.2,
-                                                 .footprint = 0.6,
-                                                 .profile = BeamProfile::kGaussian}}) {
+  for (const BeamOptions& options :
+       {BeamOptions{.footprint = 0.3}, BeamOptions{.incidence = 0.4, .azimuth = 0.7, .footprint = 1.5},
+        BeamOptions{.incidence = 0.2, .azimuth = 1.2, .footprint = 0.6, .profile = BeamProfile::kGaussian}}) {
     const SurfaceModel model(sea, options, {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 4000});
     const double spacing = model.patch().spacing();
     const SlopeCorrelation correlation(model, ReachOfRays(Beam(options, 4000).Rays(0), spacing));

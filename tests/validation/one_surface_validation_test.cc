@@ -1,5 +1,6 @@
-// The sea in bands (a patch under the beam, plane waves beyond it, a weight for where a slanted beam meets them, nothing
-// below the grid) against one surface that holds every wave down to the same grid, met by beams at many places.
+// The sea in bands (a patch under the beam, plane waves beyond it, a weight for where a slanted beam meets
+// them, nothing below the grid) against one surface that holds every wave down to the same grid, met by beams
+// at many places.
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -42,8 +43,8 @@ HeightField Middle(const WavePatchModel& model, const NormalStream& stream) {
   return HeightField(std::move(middle), points, model.spacing());
 }
 
-// What beams at all places of one surface make: sums of the errors (tangent x, y, horizontal x, y, vertical) and of their
-// squares.
+// What beams at all places of one surface make: sums of the errors (tangent x, y, horizontal x, y, vertical)
+// and of their squares.
 struct Sums {
   Eigen::Array<double, 5, 1> errors = Eigen::Array<double, 5, 1>::Zero(), squares = errors;
 };
@@ -58,10 +59,10 @@ Sums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedW
     const BeamErrors e =
         ErrorsOf(WithUnresolvedWaves(Trace(rays, surface, kRefractiveIndex), unresolved), still);
     const Eigen::Vector2d horizontal = e.horizontal_offset + kDepth * e.horizontal_per_depth;
-    const Eigen::Array<double, 5, 1> errors(
-        (Eigen::Array<double, 5, 1>() << std::atan(e.tangent.x()), std::atan(e.tangent.y()), horizontal.x(), horizontal.y(),
-         e.vertical_offset + kDepth * e.vertical_per_depth)
-            .finished());
+    const Eigen::Array<double, 5, 1> errors((Eigen::Array<double, 5, 1>() << std::atan(e.tangent.x()),
+                                             std::atan(e.tangent.y()), horizontal.x(), horizontal.y(),
+                                             e.vertical_offset + kDepth * e.vertical_per_depth)
+                                                .finished());
     sums.errors += errors / kPlaces;
     sums.squares += errors.square() / kPlaces;
   }
@@ -104,9 +105,11 @@ TEST(OneSurface, DoesToABeamWhatTheSeaInBandsDoes) {
     const HeightField surface = Middle(model, NormalStream(9, 0, i));
     for (std::size_t b = 0; b < kBeams.size(); ++b) {
       const Beam beam(kBeams[b], kRays);
-      const TracedBeam still = Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
-      of_beams[b][i] = AtAllPlaces(
-          surface, beam, EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes), still, length);
+      const TracedBeam still =
+          Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
+      of_beams[b][i] =
+          AtAllPlaces(surface, beam, EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes),
+                      still, length);
     }
   });
 
@@ -118,8 +121,10 @@ TEST(OneSurface, DoesToABeamWhatTheSeaInBandsDoes) {
   const EncounterResult bands = Simulate(encounter, {.realizations = 512, .most_realizations = 512}, 9, 1);
   for (std::size_t b = 0; b < kBeams.size(); ++b) {
     const double incidence = kBeams[b].incidence;
-    ExpectAlike(bands.beams[b].refraction_along_wind, TwoSigmaOf(of_beams[b], {0}), "refraction along wind", incidence);
-    ExpectAlike(bands.beams[b].refraction_cross_wind, TwoSigmaOf(of_beams[b], {1}), "refraction cross wind", incidence);
+    ExpectAlike(bands.beams[b].refraction_along_wind, TwoSigmaOf(of_beams[b], {0}), "refraction along wind",
+                incidence);
+    ExpectAlike(bands.beams[b].refraction_cross_wind, TwoSigmaOf(of_beams[b], {1}), "refraction cross wind",
+                incidence);
     ExpectAlike(bands.beams[b].thu[0], TwoSigmaOf(of_beams[b], {2, 3}), "THU", incidence);
     ExpectAlike(bands.beams[b].tvu[0], TwoSigmaOf(of_beams[b], {4}), "TVU", incidence);
   }
