@@ -35,6 +35,7 @@ absl::Status RunMerge(const MergeOptions& options);
 
 struct PlanOptions {
   std::filesystem::path campaign;
+  int cores = 0;  // to say the time of, beside this machine's; 0: none
 };
 absl::Status RunPlan(const PlanOptions& options);
 

@@ -177,6 +177,8 @@ int Run(int argc, char** argv) {
   PlanOptions plan_options;
   CLI::App* plan = app.add_subcommand("plan", "say what a campaign will take, before the work");
   plan->add_option("--campaign", plan_options.campaign, "TOML file")->required();
+  plan->add_option("--cores", plan_options.cores, "say also how long so many cores would take")
+      ->check(CLI::Range(1, 1'000'000));
 
   PointOptions point_options;
   CLI::App* point = app.add_subcommand("point", "the uncertainty of one beam over one sea");

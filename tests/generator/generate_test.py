@@ -146,7 +146,14 @@ class Table(unittest.TestCase):
         result = generate("plan", "--campaign", self.campaign)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"cells +64\n")
-        self.assertRegex(result.stdout, r"time, at least +\d+ s")
+        self.assertRegex(result.stdout, r"time of one core +\d+ s")
+        self.assertNotIn("so many cores", result.stdout)
+
+    def test_plans_for_other_machines(self):
+        result = generate("plan", "--campaign", self.campaign, "--cores", "1000")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"on so many cores +1000: 0 s")
+        self.assertIn("--cores", self.refused(2, "plan", "--campaign", self.campaign, "--cores", "0"))
 
 
 class Point(unittest.TestCase):
