@@ -106,28 +106,6 @@ HeightField SurfaceModel::StillWindow() const {
                      patch_.spacing());
 }
 
-SurfaceModel::Moments SurfaceModel::MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights,
-                                              const Eigen::Vector2d& per_height) const {
-  Moments moments{Eigen::Vector2d::Zero(),
-                  patch_.Covariance({patch_.Folded(weights[0]), patch_.Folded(weights[1])})};
-
-  // A functional of the long waves is the real part of the sum of A c, A their amplitudes about the meeting.
-  std::array<Eigen::VectorXcd, 2> of_wave;
-  for (int f = 0; f < 2; ++f) {
-    const Eigen::MatrixXd at_nodes = refine_.transpose() * weights[f] * refine_;
-    of_wave[f] = (at_nodes * phase_y_).cwiseProduct(phase_x_).colwise().sum().transpose();
-  }
-  for (Eigen::Index m = 0; m < of_wave[0].size(); ++m) {
-    const LongWaveModel::Wave& wave = long_waves_.waves()[m];
-    const Eigen::Vector2cd c(of_wave[0][m], of_wave[1][m]);
-    moments.covariance += wave.variance * (c * c.adjoint()).real();
-    moments.mean -= wave.variance * wave.wavenumber.dot(per_height) * c.imag();
-  }
-  // The third moments of a Gaussian field vanish: the weight leaves the mean of squares alone.
-  moments.covariance -= moments.mean * moments.mean.transpose();
-  return moments;
-}
-
 SeaSurface::SeaSurface(const SurfaceModel& model, NormalStream stream)
     : model_(model), long_amplitudes_(model.long_waves_.Draw(stream)), patch_(model.patch_.Draw(stream)) {}
 

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -31,17 +30,6 @@ class SurfaceModel {
 
   // Covariance of the slopes of the facets of the surface, waves weighted by `weight(k, psi)`.
   Eigen::Matrix2d FacetSlopeCovariance(const std::function<double(double k, double psi)>& weight) const;
-
-  // Mean and covariance over all surfaces of two linear functionals of the heights of SeaSurface::Window
-  // under a beam whose axis has `per_height`, each the sum of its weights (as the heights of the window, ix
-  // the row) times the heights. The weights of a functional sum to zero. Exact: the waves are a Gaussian
-  // field, but a line through them meets places with the weight 1 - per_height . slope of the long waves,
-  // which gives the mean.
-  struct Moments {
-    Eigen::Vector2d mean;
-    Eigen::Matrix2d covariance;
-  };
-  Moments MomentsOf(const std::array<Eigen::MatrixXd, 2>& weights, const Eigen::Vector2d& per_height) const;
 
   // exp(i k x) and exp(i k y) for each wave of long_waves() (columns) at nodes about the centre of the window
   // (rows): their product is the wave. And the matrix that takes values at nodes to the points of the window:

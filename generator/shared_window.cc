@@ -1,5 +1,6 @@
 #include "generator/shared_window.h"
 
+#include <algorithm>
 #include <complex>
 
 namespace albtpu {

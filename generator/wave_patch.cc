@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "generator/forward_fft.h"
-
 namespace albtpu {
 
 WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share)
@@ -42,30 +40,6 @@ std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
   // Both halves of the column j = 0 are stored: the lower one must be the mirror of the upper.
   for (int i = 1; i < size_ / 2; ++i) amplitude[(size_ - i) * half] = std::conj(amplitude[i * half]);
   return transform_(std::move(amplitude));
-}
-
-Eigen::MatrixXd WavePatchModel::Folded(const Eigen::MatrixXd& weights) const {
-  Eigen::MatrixXd folded = Eigen::MatrixXd::Zero(size_, size_);
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    for (Eigen::Index j = 0; j < weights.cols(); ++j) folded(i % size_, j % size_) += weights(i, j);
-  }
-  return folded;
-}
-
-Eigen::Matrix2d WavePatchModel::Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const {
-  const std::array<Eigen::MatrixXcd, 2> of_wave = {ForwardFft(weights[0]), ForwardFft(weights[1])};
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  for (int row = 0; row < size_; ++row) {
-    for (int j = 0; j < size_ / 2; ++j) {
-      const double power = (j == 0 ? 1 : 2) * power_[row * (size_ / 2 + 1) + j];
-      const std::complex<double> x = of_wave[0](row, j), y = of_wave[1](row, j);
-      covariance(0, 0) += power * std::norm(x);
-      covariance(0, 1) += power * (x * std::conj(y)).real();
-      covariance(1, 1) += power * std::norm(y);
-    }
-  }
-  covariance(1, 0) = covariance(0, 1);
-  return covariance;
 }
 
 WavePatchModel::SlopeCorrelations WavePatchModel::CorrelateSlopes() const {

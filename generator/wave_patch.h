@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <complex>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -41,14 +39,6 @@ class WavePatchModel {
   // Each row of modes has a part of the stream to itself, whatever the size of the grid; part 0 is the long
   // waves'.
   static std::uint32_t PartOfRow(int i) { return i >= 0 ? 2 * i + 1 : -2 * i; }
-
-  // Weights of points of any part of the plane, ix the row, on the patch: those a period apart fall on the
-  // same point.
-  Eigen::MatrixXd Folded(const Eigen::MatrixXd& weights) const;
-
-  // The covariance of two linear functionals of the heights, each the sum of its weights (size x size) times the
-  // heights, exactly.
-  Eigen::Matrix2d Covariance(const std::array<Eigen::MatrixXd, 2>& weights) const;
 
   // The expectation of the product of two slopes of sides of triangles as a function of what lies between
   // their middles, at all lags of the grid (as Draw gives heights): along x, along y, and of one along x and
