@@ -180,7 +180,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, kRefractiveIndex);
   const SeaOptions sea = ReadSea(toml);
   const Effort effort = ReadEffort(toml);
-  const auto rays = toml.Integer("effort", "rays", 100, 1'000'000);
+  const auto rays = toml.Integer("effort", "rays", 100, kMostRays);
   const std::string node_values = toml.Text("interpolation", "nodes", "exact");
   if (node_values != "exact" && node_values != "balanced") {
     toml.Fail("'interpolation.nodes' must be \"exact\" or \"balanced\"");

@@ -22,7 +22,7 @@ constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;    // widths of the be
 constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footprint
 // Fewer rays sample the squares of slopes too coarsely, on which vertical errors at nadir rest: 1000 were seen to
 // add 3 % to them, 4000 add 0.1 %.
-constexpr int kFewestRays = 4000, kMostRays = 64000;
+constexpr int kFewestRays = 4000;
 
 // The part of the slope variance seen by the footprint that facets of the side `spacing` take away: waves
 // under two facets long, and of the others what a difference quotient misses of the slope.

@@ -18,6 +18,9 @@ struct Discretization {
 // nothing is refined for the sake of what it does see, and nobody needs to know it.
 inline constexpr double kLeastSeenFraction = 3e-5;
 
+// The outermost of so many rays of a gaussian beam are still as far apart as half of the patch.
+inline constexpr int kMostRays = 64000;
+
 // The discretization with which doubling the patch, halving the spacing and doubling the rays moves
 // refraction, THU and TVU by less than 1 %. It starts coarse and refines
 //   * the grid, until its facets cost the footprint less than 0.4 % of the slope variance that it sees (a

@@ -64,11 +64,15 @@ std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& puls
   encounter.sea.wind_speed_10m = pulse.wind_speed;
   encounter.sea.fetch = pulse.fetch;
   encounter.depths = {pulse.depth};
-  encounter.beams = {{.incidence = RadiansOfDegrees(pulse.incidence),
-                      .azimuth = RadiansOfDegrees(*pulse.azimuth),
-                      .footprint = pulse.footprint,
-                      .profile = campaign.profile,
-                      .source_height = campaign.source_height}};
+  const BeamOptions beam{.incidence = RadiansOfDegrees(pulse.incidence),
+                         .azimuth = RadiansOfDegrees(*pulse.azimuth),
+                         .footprint = pulse.footprint,
+                         .profile = campaign.profile,
+                         .source_height = campaign.source_height};
+  // The widest beam of an encounter decides on grid, patch and rays: it comes along, as at the nodes.
+  BeamOptions widest = beam;
+  widest.incidence = RadiansOfDegrees(campaign.nodes(AxisId::kIncidence).back());
+  encounter.beams = {beam, widest};
   const EncounterResult result = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
   std::vector<Estimate> answers;
   for (const Quantity quantity : kChecked) answers.push_back(ValueOf(result.beams[0], quantity));
@@ -84,7 +88,9 @@ InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyT
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const Estimate& direct = answers[i][checked];
     if (direct.value < least) continue;
-    errors.push_back(std::abs(Interpolate(table, CheckedPulse(campaign, i))[quantity] / direct.value - 1));
+    const PulseUncertainty interpolated = Interpolate(table, CheckedPulse(campaign, i));
+    assert(interpolated.outcome == Outcome::kInterpolated);
+    errors.push_back(std::abs(interpolated[quantity] / direct.value - 1));
     summary.rms += errors.back() * errors.back();
     summary.noise += std::pow(direct.standard_error / direct.value, 2);
   }

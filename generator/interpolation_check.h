@@ -31,7 +31,7 @@ std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& puls
 struct InterpolationError {
   int pulses = 0;  // that count; the others are zero when none does
   double rms = 0, percentile_99 = 0, greatest = 0;
-  double noise = 0;  // rms standard error of the direct answers: the most that is left of chance
+  double noise = 0;  // rms standard error of the direct answers; the table's own goes with it
 };
 // `answers` are those to the pulses 0, 1, ... of the campaign; `checked` is an index in kChecked.
 InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,

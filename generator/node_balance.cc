@@ -18,15 +18,13 @@ std::vector<double> Scaled(const Axis& axis) {
 // What each of the values at `x` is lowered by.
 std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values) {
   const std::size_t last = x.size() - 1;
-  std::vector<double> curvature(x.size()), lowering(x.size());
+  std::vector<double> lowering(x.size());  // none at the ends
   for (std::size_t i = 1; i < last; ++i) {
     const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
-    curvature[i] =
+    const double curvature =
         2 * ((values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before) / (before + after);
-    lowering[i] = curvature[i] * (std::pow(before, 3) + std::pow(after, 3)) / (12 * (before + after));
+    lowering[i] = curvature * (std::pow(before, 3) + std::pow(after, 3)) / (12 * (before + after));
   }
-  lowering[0] = curvature[1] * std::pow(x[1] - x[0], 2) / 12;
-  lowering[last] = curvature[last - 1] * std::pow(x[last] - x[last - 1], 2) / 12;
   return lowering;
 }
 
@@ -34,6 +32,7 @@ std::vector<double> Lowering(const std::vector<double>& x, const std::vector<dou
 
 void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::vector<float>& values) {
   assert(values.size() == ValueCount(axes, quantity));
+  const std::vector<float> exact = values;
   std::size_t stride = values.size();  // from one node of the axis to the next
   for (const AxisId id : kAxes) {
     if (id == AxisId::kDepth) break;  // the last
@@ -48,9 +47,10 @@ void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::ve
       for (std::size_t i = 0; i < nodes; ++i) line[i] = values[first + i * stride];
       const std::vector<double> lowering = Lowering(x, line);
       for (std::size_t i = 0; i < nodes; ++i) {
+        const std::size_t at = first + i * stride;
         const double lowered = line[i] - lowering[i];
-        const double least = Describe(quantity).is_bias ? lowered : 0.5 * line[i];
-        values[first + i * stride] = static_cast<float>(std::max(lowered, least));
+        const double least = Describe(quantity).is_bias ? lowered : 0.5 * exact[at];
+        values[at] = static_cast<float>(std::max(lowered, least));
       }
     }
   }

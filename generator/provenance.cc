@@ -92,12 +92,14 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
            "Values to a power of two, the largest not above a quarter of their standard error, and to ",
            kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
            " significant bits")},
-      {"node_values",
-       campaign.balanced_nodes
-           ? "less a twelfth of their second difference along each axis but depth, which halves the error of "
-             "interpolation in the root mean square"
-           : "as computed at the nodes"},
+      {"node_values", campaign.balanced_nodes ? "less a twelfth of their second difference along each axis "
+                                                "but depth, ends aside, which nearly halves "
+                                                "the error of interpolation in the root mean square"
+                                              : "as computed at the nodes"},
       {"realizations", Range(results, &EncounterResult::realizations)},
+      {"encounters_above_relative_error",
+       std::int64_t{std::count_if(results.begin(), results.end(),
+                                  [](const EncounterResult& result) { return !result.converged; })}},
       {"rays", Range(results, &EncounterResult::rays)},
       {"domain", Range(results, &EncounterResult::patch_length)},
       {"spacing", Range(results, &EncounterResult::spacing)},

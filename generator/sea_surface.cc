@@ -18,6 +18,10 @@ constexpr double kAllLong = 3, kAllPatch = 6;
 // cross-fade.
 constexpr double kNodesPerLongWave = 14;
 
+// The patch is no narrower than the window, which goes a node or two beyond the reach on either side. Beams
+// steeper than some 40 degrees want that.
+constexpr double kPatchPerReach = 2.2;
+
 CrossFade PatchShare(double patch_length) {
   const double dk = 2 * std::numbers::pi / patch_length;
   return CrossFade(kAllLong * dk, kAllPatch * dk);
@@ -30,13 +34,6 @@ double WidthOnWater(const BeamOptions& beam) {
   return width / std::cos(beam.incidence);
 }
 
-WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,
-                         const Discretization& discretization) {
-  const double length = discretization.patch_per_beam * WidthOnWater(widest);
-  const int size = FastSize(length / widest.footprint * discretization.points_per_footprint);
-  return WavePatchModel(sea, length, size, PatchShare(length));
-}
-
 // How far from its axis the rays of a beam meet the water, m: half the footprint, and the shift of rays that
 // meet waves as much as six standard deviations above or below the point on the axis.
 double Reach(const SeaState& sea, const BeamOptions& widest) {
@@ -47,6 +44,14 @@ double Reach(const SeaState& sea, const BeamOptions& widest) {
                                       return std::min(1.0, 2 / (across * across));
                                     }).trace());
   return half_width * (1 + tilt * std::tan(widest.incidence));
+}
+
+WavePatchModel MakePatch(const SeaState& sea, const BeamOptions& widest,
+                         const Discretization& discretization) {
+  const double length =
+      std::max(discretization.patch_per_beam * WidthOnWater(widest), kPatchPerReach * Reach(sea, widest));
+  const int size = FastSize(length / widest.footprint * discretization.points_per_footprint);
+  return WavePatchModel(sea, length, size, PatchShare(length));
 }
 
 Eigen::MatrixXcd Phases(const LongWaveModel& long_waves, int half_nodes, double node_spacing, int axis) {

@@ -60,6 +60,17 @@ TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
   EXPECT_LE(dense.percentile_99, dense.greatest);
 }
 
+// A pulse at a node of a table with more incidences: the widest beam decides on grid and patch, there as here.
+TEST(InterpolationCheck, MeetsTheSurfacesOfTheNodes) {
+  const Campaign campaign = TwoSeas();
+  const Pulse pulse{
+      .wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
+  const Encounter encounter = EncounterOf(campaign, 4);  // the second wind, the first fetch and footprint
+  ASSERT_EQ(encounter.sea.wind_speed_10m, 6);
+  const EncounterResult node = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
+  EXPECT_EQ(AnswerDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
+}
+
 // A pulse at the nodes meets the very same surfaces: what is left is how values are rounded (rounding.h).
 TEST(InterpolationCheck, FindsNoErrorAtANode) {
   std::string text = TwoSeas().text;

@@ -83,8 +83,8 @@ std::array<Eigen::MatrixXd, 2> FacetSlope(const SurfaceModel& model, const Ray& 
   return weights;
 }
 
-// The covariance of two linear functionals of the heights of the window, each the sum of its weights (ix the row) times the
-// heights, from the modes of the patch and from the plane waves as the window interpolates them.
+// The covariance of two linear functionals of the heights of the window, each the sum of its weights (ix the row)
+// times the heights, from the modes of the patch and from the plane waves as the window interpolates them.
 double Covariance(const SurfaceModel& model, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const int size = model.patch().size();
   const auto of_patch = [&](const Eigen::MatrixXd& weights) {
