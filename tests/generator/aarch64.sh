@@ -23,9 +23,10 @@ sources=(generator/{apel_spectrum,beam,discretization,elfouhaily_spectrum,float_
 
 # Needs no root: apt-get keeps its lists of another architecture in a folder of ours.
 unpack_libraries() {
-  [[ -e $root/complete ]] && return
+  [[ ! -e $root/complete || $(<"$root/complete") != "${libraries[*]}" ]] || return 0
   echo "== Fetching ${#libraries[@]} Debian packages for aarch64"
   local apt=$build/apt
+  rm -rf "$apt" "$root"
   mkdir -p "$apt"/{state/lists,cache/archives}/partial "$apt/packages" "$root"
   : >"$apt/state/status"
   local get=(apt-get -qq -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o Acquire::Retries=3
@@ -35,7 +36,7 @@ unpack_libraries() {
   (cd "$apt/packages" && "${get[@]}" download "${libraries[@]}")
   local package
   for package in "$apt"/packages/*.deb; do dpkg-deb --extract "$package" "$root"; done
-  touch "$root/complete"
+  echo "${libraries[*]}" >"$root/complete"
 }
 
 # As cmake/house_rules.cmake and generator/CMakeLists.txt have it.
