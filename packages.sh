@@ -1,9 +1,12 @@
 # Sourced by quickstart.sh and test.sh: the Debian packages of packages.txt.
 
-# Prints the names in packages.txt; without `tests`, those above its line "# tests only".
+# Prints the names in packages.txt: those above its line "# tests only"; with `tests` those down to its line
+# "# aarch64 only" too; with `aarch64` those below that.
 package_names() {
-  if [[ ${1:-} == tests ]]; then
-    sed '/^#/d; /^$/d' packages.txt
+  if [[ ${1:-} == aarch64 ]]; then
+    sed '1,/^# aarch64 only$/d; /^#/d; /^$/d' packages.txt
+  elif [[ ${1:-} == tests ]]; then
+    sed '/^# aarch64 only$/,$d; /^#/d; /^$/d' packages.txt
   else
     sed '/^# tests only$/,$d; /^#/d; /^$/d' packages.txt
   fi

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# The kernels on another architecture: compiles them and what they need for aarch64 and runs their tests under
+# qemu. Debian's libraries for aarch64 are unpacked into the build folder; of the machine nothing changes but that
+# a cross-compiler and qemu are installed.
+#
+# Usage: aarch64.sh [GoogleTest flags]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source ./packages.sh
+
+build=$PWD/build/aarch64
+root=$build/root
+libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev libhwy1 librandom123-dev)
+
+# What one sea under one beam takes, in heights and in rays. The rest of the generator needs more libraries.
+sources=(generator/{apel_spectrum,beam,discretization,elfouhaily_spectrum,float_normals,forward_fft,height_field}.cc
+         generator/{height_window,inverse_fft,lane_fft,long_waves,packet_sums,packet_tracer,patch_window}.cc
+         generator/{random_stream,ray_bundle,ray_tracer,refraction,rounding,sea_state,sea_surface}.cc
+         generator/{slope_correlation,slope_moments,spreading,statistics,unresolved_waves,wave_patch}.cc
+         generator/{wind_profile,window_plan}.cc
+         tests/generator/{beam,float_normals,height_field,inverse_fft,packet_tracer,patch_window}_test.cc
+         tests/generator/{random_stream,ray_tracer,refraction}_test.cc)
+
+# Needs no root: apt-get keeps its lists of another architecture in a folder of ours.
+unpack_libraries() {
+  [[ ! -e $root/complete || $(<"$root/complete") != "${libraries[*]}" ]] || return 0
+  echo "== Fetching ${#libraries[@]} Debian packages for aarch64"
+  local apt=$build/apt
+  rm -rf "$apt" "$root"
+  mkdir -p "$apt"/{state/lists,cache/archives}/partial "$apt/packages" "$root"
+  : >"$apt/state/status"
+  local get=(apt-get -qq -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o Acquire::Retries=3
+             -o "Dir::State=$apt/state" -o "Dir::State::status=$apt/state/status" -o "Dir::Cache=$apt/cache"
+             -o "APT::Sandbox::User=$(id -un)")
+  "${get[@]}" update
+  (cd "$apt/packages" && "${get[@]}" download "${libraries[@]}")
+  local package
+  for package in "$apt"/packages/*.deb; do dpkg-deb --extract "$package" "$root"; done
+  echo "${libraries[*]}" >"$root/complete"
+}
+
+# As cmake/house_rules.cmake and generator/CMakeLists.txt have it.
+compile() {
+  local object=$build/${1%.cc}.o
+  mkdir -p "$(dirname "$object")"
+  ccache aarch64-linux-gnu-g++ -std=c++20 -O3 -march=armv8-a+crypto \
+    -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-psabi \
+    "-DHWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)" \
+    -I. -isystem "$root/usr/include" -isystem "$root/usr/include/eigen3" -c "$1" -o "$object"
+}
+export -f compile
+export build root
+
+install_packages aarch64
+unpack_libraries
+echo "== Building for aarch64"
+printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -I{} bash -c 'compile "$1"' compile {}
+objects=("${sources[@]%.cc}")
+objects=("${objects[@]/#/$build/}")
+aarch64-linux-gnu-g++ "${objects[@]/%/.o}" -L "$root/usr/lib/aarch64-linux-gnu" -lgtest_main -lgtest -lfftw3 -lhwy \
+  -o "$build/kernels_test"
+
+echo "== Testing on aarch64, emulated"
+# Highway is a shared library; those of the compiler are in its own folder.
+qemu-aarch64-static -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$root/usr/lib/aarch64-linux-gnu" \
+  "$build/kernels_test" --gtest_brief=1 "$@"
