@@ -14,7 +14,8 @@ namespace albtpu {
 // Draws the same waves as SeaSurface, about a point of the mean surface instead of the place where a beam
 // meets them. A line with per_height p meets the long waves at places where they are as anywhere, but with
 // the weight 1 - p . slope there (a slanted line meets the side that faces it more often): with that weight
-// this is the law of SeaSurface's window, exactly, for every beam at once. Immutable.
+// this is the law of SeaSurface's window, exactly, for every beam at once, as long as the line is steeper
+// than the long waves. Immutable.
 class SharedWindow {
  public:
   explicit SharedWindow(const SurfaceModel& model);

@@ -28,7 +28,8 @@ Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& contro
 //
 // With a control of the squares it is the expectation of that times b and the mean difference between the
 // squares and b times the control. b is fitted to the other half of the sample, so that the variance is
-// unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0.
+// unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0. Where the correction leaves no
+// variance, as chance may where there is next to none, the control is left alone too.
 Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double variance_of_mean,
                            const std::optional<Control>& control = {});
 

@@ -1,5 +1,6 @@
 #include "generator/table_maker.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "generator/angle.h"
@@ -69,6 +70,21 @@ void Store(const BeamUncertainty& result, std::size_t encounter, std::size_t bea
   }
 }
 
+bool HasShapeOf(const Campaign& campaign, const EncounterResult& result) {
+  const std::size_t beams =
+      campaign.nodes(AxisId::kIncidence).size() * campaign.nodes(AxisId::kAzimuth).size();
+  const std::size_t depths = campaign.nodes(AxisId::kDepth).size();
+  return result.beams.size() == beams &&
+         std::all_of(result.beams.begin(), result.beams.end(), [&](const BeamUncertainty& beam) {
+           return beam.thu.size() == depths && beam.tvu.size() == depths &&
+                  beam.bias_along_beam.size() == depths && beam.bias_vertical.size() == depths;
+         });
+}
+
+absl::Status OfAnotherShape() {
+  return absl::DataLossError("holds other beams and depths than its campaign has: delete it");
+}
+
 }  // namespace
 
 struct TableBuilder::Parts {
@@ -92,11 +108,13 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
   if (unit.kind == UnitKind::kPulse) {
     absl::StatusOr<std::vector<Estimate>> answers = DecodeAnswers(*content);
     if (!answers.ok()) return answers.status();
+    if (answers->size() != kChecked.size()) return OfAnotherShape();
     parts_->answers[unit.index] = *std::move(answers);
     return absl::OkStatus();
   }
   absl::StatusOr<EncounterResult> result = DecodeResult(*content);
   if (!result.ok()) return result.status();
+  if (!HasShapeOf(parts_->campaign, *result)) return OfAnotherShape();
   for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
     Store(result->beams[beam], unit.index, beam, parts_->grid);
   result->beams.clear();
