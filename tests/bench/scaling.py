@@ -55,7 +55,8 @@ rows("beams (incidences x azimuths)", None, [
     ("4 x 1", {"azimuth": [45]}), ("4 x 3", {}), ("8 x 3", {"incidence": [0, 2, 5, 10, 15, 19, 22, 25]}),
     ("8 x 6", {"incidence": [0, 2, 5, 10, 15, 19, 22, 25], "azimuth": [0, 18, 36, 54, 72, 90]})])
 rows("depths", "depth", [("3", [0, 1, 60]), ("12", [0, 1, 2, 3, 5, 8, 12, 18, 25, 35, 45, 60])])
-rows("wind, m/s", "wind_speed", [(str(w), [w, w + 0.1]) for w in (1, 2, 5, 15)])
+rows("wind, m/s", None,
+     [(str(wind), {"wind_speed": [wind, wind + 0.1], "fetch": ["2000", "inf"]}) for wind in (2, 5, 15)])
 rows("footprint, m", "footprint", [(str(d), [d, round(d * 1.02, 4)]) for d in (0.1, 0.5, 2, 5)])
 rows("footprint, m, at 2 m/s and 1 km of fetch", None,
      [(str(d), {"wind_speed": [2, 2.1], "fetch": ["1000", "1100", "inf"], "footprint": [d]}) for d in (0.5, 2, 5)])

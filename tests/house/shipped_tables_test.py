@@ -1,4 +1,4 @@
-"""The tables that are shipped are those of the campaigns that are shipped.
+"""The tables that are shipped are those of the campaigns that are shipped, and as good as they should be.
 
 Usage: shipped_tables_test.py SOURCE_FOLDER
 """
@@ -8,8 +8,10 @@ import sys
 import unittest
 
 import h5py
+import numpy as np
 
 SOURCE = pathlib.Path(sys.argv[1])
+CHECKED = ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu")
 
 
 def text(attribute):
@@ -28,6 +30,35 @@ class ShippedTables(unittest.TestCase):
                 self.assertEqual(campaign, (SOURCE / f"generator/campaigns/{path.stem}.toml").read_text(), path.name)
                 self.assertNotIn("dirty", text(table.attrs["commit"]), path.name)
         self.assertGreater(made, 0)
+
+
+class TheSurveyTable(unittest.TestCase):
+    def setUp(self):
+        self.path = SOURCE / "tables/survey.h5"
+        self.table = h5py.File(self.path)
+        self.addCleanup(self.table.close)
+
+    def test_is_small_enough_to_ship(self):
+        self.assertLess(self.path.stat().st_size, 15e6)
+
+    def test_is_right_between_its_nodes(self):
+        for name in CHECKED:
+            rms, percentile_99, _, _, pulses = self.table.attrs[f"interpolation_error_{name}"]
+            self.assertLessEqual(rms, 0.005, name)
+            self.assertLessEqual(percentile_99, 0.02, name)
+            self.assertGreater(pulses, 250, name)
+
+    # Depth 0, where nothing is known beforehand of a THU of some millimetres, is stated and not promised.
+    def test_knows_its_values_to_a_per_cent_or_two(self):
+        deep = self.table["depth"][:] >= 0.3
+        for name, least, most in (("refraction_along_wind", 0.01, 0.015), ("refraction_cross_wind", 0.01, 0.015),
+                                  ("thu", 1e-3, 0.01), ("tvu", 1e-3, 0.02)):
+            values, errors = self.table[name][:], self.table[f"{name}_standard_error"][:]
+            if name in ("thu", "tvu"):
+                values, errors = values[..., deep], errors[..., deep]
+            relative = errors[values >= least] / values[values >= least]
+            self.assertLessEqual(relative.max(), most, name)
+            self.assertLessEqual(np.percentile(relative, 99), 0.01, name)
 
 
 if __name__ == "__main__":
