@@ -181,12 +181,6 @@ int main(int argc, char** argv) {
       ->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("transform/measured", Transform, FFTW_MEASURE)->Unit(benchmark::kMicrosecond);
   for (const int degrees : {0, 20}) albtpu::bench::RegisterAt(degrees);
-  benchmark::RegisterBenchmark(
-      "ours_on_threads",
-      [](benchmark::State& state) { albtpu::bench::Ours(state, albtpu::bench::CaseAt(0)); })
-      ->ThreadRange(1, 2)
-      ->UseRealTime()
-      ->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();
