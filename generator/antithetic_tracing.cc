@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "generator/beam_tracing.h"
+#include "generator/height_slope_product.h"
 #include "generator/packet_tracer.h"
 #include "generator/ray_tracer.h"
 #include "generator/refraction.h"
@@ -50,7 +51,8 @@ class AntitheticTracing final : public BeamTracing {
       rays.push_back(Beam(options, traced.rays).Rays(0));
       reach = std::max(reach, ReachOfRays(rays.back(), spacing));
     }
-    const SlopeCorrelation correlation(model, reach);
+    const SurfaceCorrelation correlation(model, reach);
+    const HeightSlopeProduct height_slope(correlation, spacing);
     for (std::size_t b = 0; b < rays.size(); ++b) {
       const BeamOptions& options = traced.beams[b];
       const Eigen::Vector2d per_height = rays[b].front().per_height();
@@ -66,6 +68,7 @@ class AntitheticTracing final : public BeamTracing {
         prepared.known = {MomentsOfSlopes(correlation, rays[b], spacing,
                                           SecantCurvature(options.incidence, options.azimuth, n)),
                           FootprintSlopeCovariance(correlation, options, spacing),
+                          height_slope.Covariance(options),
                           ExpectedSlope(model.long_waves(), options, per_height)};
       }
       beams_.push_back(std::move(prepared));
@@ -98,6 +101,7 @@ class AntitheticTracing final : public BeamTracing {
       realized[b].parts = {part(1 - lean, first.beam), part(1 + lean, Trace(beam.rays, turned))};
       realized[b].mean_slope = first.undisturbed_slope;
       realized[b].mean_squares = first.undisturbed_slope_squares;
+      realized[b].height_slope = first.undisturbed_height_slope;
     }
   }
 

@@ -36,9 +36,10 @@ struct BeamRealization {
   };
   std::array<Part, 2> parts;
   // Of the facets over which the rays cross z = 0 on the surface of parts[0], where that is known
-  // (slope_moments.h).
+  // (slope_moments.h, height_slope_product.h).
   Eigen::Vector2d mean_slope = Eigen::Vector2d::Zero();
   Eigen::Vector3d mean_squares = Eigen::Vector3d::Zero();
+  Eigen::Vector2d height_slope = Eigen::Vector2d::Zero();  // m, their covariance over the rays
 };
 
 }  // namespace albtpu

@@ -8,8 +8,9 @@
 namespace albtpu {
 
 // What is summed over the rays: the height [m] where they met the water, tangent and secant less those of
-// still water, the product of the height and these, slopes of the facets that they met and that are
-// undisturbed, and their squares.
+// still water, the product of the height and these, slopes of the facets that they met, and their squares; of
+// what is undisturbed the product of height and slope, the height, the slopes and their squares. For vertical
+// rays, which nothing disturbs, the rest is not summed again after the first of these.
 enum PacketSum {
   kHeight,
   kTangentX,
@@ -23,6 +24,9 @@ enum PacketSum {
   kSlopeXX,
   kSlopeYY,
   kSlopeXY,
+  kUndisturbedHeightX,
+  kUndisturbedHeightY,
+  kUndisturbedHeight,
   kUndisturbedX,
   kUndisturbedY,
   kUndisturbedXX,

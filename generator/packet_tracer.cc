@@ -220,8 +220,16 @@ struct Optics {
     sum[kSlopeXY] = hn::MulAdd(mx, my, sum[kSlopeXY]);
   }
 
+  HWY_INLINE void AddHeightSlope(const Packet& packet, V* sum) const {
+    const V z = hn::Mul(packet.z, steps_per_metre);
+    sum[kUndisturbedHeightX] = hn::MulAdd(z, packet.rise_x, sum[kUndisturbedHeightX]);
+    sum[kUndisturbedHeightY] = hn::MulAdd(z, packet.rise_y, sum[kUndisturbedHeightY]);
+  }
+
   HWY_INLINE void AddUndisturbed(const Packet& packet, V* sum) const {
+    AddHeightSlope(packet, sum);
     const V mx = hn::Mul(packet.rise_x, steps_per_metre), my = hn::Mul(packet.rise_y, steps_per_metre);
+    sum[kUndisturbedHeight] = hn::Add(sum[kUndisturbedHeight], packet.z);
     sum[kUndisturbedX] = hn::Add(sum[kUndisturbedX], mx);
     sum[kUndisturbedY] = hn::Add(sum[kUndisturbedY], my);
     sum[kUndisturbedXX] = hn::MulAdd(mx, mx, sum[kUndisturbedXX]);
@@ -259,6 +267,7 @@ void SumRays(const RayBundle& rays, const HeightWindow& surface, PacketSums* sum
           p.TakeFacet(grid);
           p.z = p.SurfaceHeight();
           if (ragged) p.KeepFirst(rays.count() - first);
+          if constexpr (kWalk == Walk::kVertical) optics.AddHeightSlope(p, sum);
           if constexpr (kWalk == Walk::kSlantedAndUndisturbed) optics.AddUndisturbed(p, sum);
         }
         if constexpr (kWalk != Walk::kVertical) {

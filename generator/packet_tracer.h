@@ -21,6 +21,7 @@ struct TracedBundle {
   // not to shift them: linear and quadratic in the heights.
   Eigen::Vector2d undisturbed_slope;
   Eigen::Vector3d undisturbed_slope_squares;  // as SlopeSquares
+  Eigen::Vector2d undisturbed_height_slope;   // m, covariance of height and slope (height_slope_product.h)
   int met_alone;  // rays that had to be met one by one, because their packet did not settle
 };
 

@@ -74,7 +74,7 @@ double Overlap(BeamProfile profile, double apart) {
 
 }  // namespace
 
-Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam,
+Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, const BeamOptions& beam,
                                          double spacing) {
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
   const auto overlap = [&](double x, double y) {
@@ -100,7 +100,7 @@ int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
   return static_cast<int>(2 * FarthestOf(rays) / spacing) + 3;
 }
 
-SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vector<Ray>& rays,
+SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
                              double spacing, const Eigen::Matrix2d& form) {
   const int cells = 2 * (static_cast<int>(FarthestOf(rays) / spacing) + 1);
   const int reach = cells - 1;  // of two cells
@@ -124,7 +124,7 @@ SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vec
                             mixed_pairs = transform(std::move(mixed));
 
   Sums sums(form);
-  const SlopeCorrelation& r = correlation;
+  const SurfaceCorrelation& r = correlation;
   const auto wrapped = [&](int lag) { return lag < 0 ? lag + size : lag; };
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "generator/beam.h"
-#include "generator/slope_correlation.h"
+#include "generator/surface_correlation.h"
 
 namespace albtpu {
 
@@ -22,12 +22,12 @@ struct SlopeMoments {
 // and b and w their shares of the rays, slopes being Gaussian of mean zero,
 //     covariance = sum w_a w_b R(a, b),    variance_of_form = 2 sum w_a w_b tr(form R(a, b) form R(a, b)^T).
 // `form` is symmetric. Exact for the waves of `correlation`, which must reach as far as the rays lie apart.
-SlopeMoments MomentsOfSlopes(const SlopeCorrelation& correlation, const std::vector<Ray>& rays,
+SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
                              double spacing, const Eigen::Matrix2d& form);
 
 // The covariance of the slope averaged over the footprint of a collimated beam itself, of which rays are a
 // sample: these see some of the waves that are too short for their spacing, as if they were long ones.
-Eigen::Matrix2d FootprintSlopeCovariance(const SlopeCorrelation& correlation, const BeamOptions& beam,
+Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, const BeamOptions& beam,
                                          double spacing);
 
 // How many cells of the side `spacing` the rays lie apart, at most, along an axis.

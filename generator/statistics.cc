@@ -47,16 +47,16 @@ Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& contro
 }
 
 // The standard error of 2 sqrt(V) is that of V over sqrt(V).
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double variance_of_mean,
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double of_mean,
                            const std::optional<Control>& control) {
   const double n = static_cast<double>(squares.size());
   assert(n >= 2);
   if (control && squares.size() >= kFewestToFit) {
     const Eigen::ArrayXd corrected = Corrected(squares, *control);
-    const double variance = corrected.mean() + variance_of_mean;
+    const double variance = corrected.mean() + of_mean;
     if (variance > 0) return {2 * std::sqrt(variance), std::sqrt(ScatterInHalves(corrected) / n / variance)};
   }
-  const double variance = squares.mean() + variance_of_mean;
+  const double variance = squares.mean() + of_mean;
   if (variance <= 0) return {};
   const double scatter = (squares - squares.mean()).square().sum() / (n - 1);
   return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};

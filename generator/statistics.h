@@ -22,7 +22,7 @@ struct Control {
 Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& control = {});
 
 // Twice the root of a variance, from the squared deviations of each realization from a mean that the same
-// realizations gave, with `variance_of_mean`. The standard error comes from the scatter of the squares
+// realizations gave, with `of_mean` to make up for that. The standard error comes from the scatter of the squares
 // themselves, so that it holds for distributions that are not normal (vertical errors at nadir are closer to
 // chi-squared). Zero for a sample that does not scatter.
 //
@@ -30,7 +30,7 @@ Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& contro
 // squares and b times the control. b is fitted to the other half of the sample, so that the variance is
 // unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0. Where the correction leaves no
 // variance, as chance may where there is next to none, the control is left alone too.
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double variance_of_mean,
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double of_mean,
                            const std::optional<Control>& control = {});
 
 // Twice the standard deviation of a sample.

@@ -42,23 +42,18 @@ std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
   return transform_(std::move(amplitude));
 }
 
-WavePatchModel::SlopeCorrelations WavePatchModel::CorrelateSlopes() const {
+std::vector<double> WavePatchModel::Correlate(
+    const std::function<std::complex<double>(double phase_x, double phase_y)>& factor) const {
   const int half = size_ / 2 + 1;
-  std::vector<std::complex<double>> rise(size_);  // of a wave along one side of a cell, over its length
-  for (int row = 0; row < size_; ++row) {
-    const double phase = 2 * std::numbers::pi * SignedIndex(row, size_) / size_;
-    rise[row] = (std::polar(1.0, phase) - 1.0) / spacing();
-  }
-  InverseFft::Modes xx = transform_.Allocate(), yy = transform_.Allocate(), xy = transform_.Allocate();
+  const double turn = 2 * std::numbers::pi / size_;
+  InverseFft::Modes product = transform_.Allocate();
   for (int row = 0; row < size_; ++row) {
     for (int j = 0; j < half; ++j) {
       const std::size_t mode = static_cast<std::size_t>(row) * half + j;
-      xx[mode] = power_[mode] * std::norm(rise[row]);
-      yy[mode] = power_[mode] * std::norm(rise[j]);
-      xy[mode] = -power_[mode] * rise[row] * rise[j];  // conj(rise) turned by a cell is -rise
+      product[mode] = power_[mode] == 0 ? 0 : power_[mode] * factor(turn * SignedIndex(row, size_), turn * j);
     }
   }
-  return {transform_(std::move(xx)), transform_(std::move(yy)), transform_(std::move(xy))};
+  return transform_(std::move(product));
 }
 
 double WavePatchModel::elevation_variance() const {

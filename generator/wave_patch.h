@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -40,13 +41,11 @@ class WavePatchModel {
   // waves'.
   static std::uint32_t PartOfRow(int i) { return i >= 0 ? 2 * i + 1 : -2 * i; }
 
-  // The expectation of the product of two slopes of sides of triangles as a function of what lies between
-  // their middles, at all lags of the grid (as Draw gives heights): along x, along y, and of one along x and
-  // one along y half a cell farther along both axes.
-  struct SlopeCorrelations {
-    std::vector<double> xx, yy, xy;
-  };
-  SlopeCorrelations CorrelateSlopes() const;
+  // The expectation of the product of two linear functionals of the heights as a function of what lies between
+  // them, at all lags of the grid (as Draw gives heights), from what the product makes of each mode's power,
+  // given the phase of the mode along one cell: a Hermitian function, factor(-x, -y) = conj(factor(x, y)).
+  std::vector<double> Correlate(
+      const std::function<std::complex<double>(double phase_x, double phase_y)>& factor) const;
 
   double elevation_variance() const;
   // Covariance of the slopes of the triangles of the grid, each mode weighted by `weight(k, psi)`. A triangle

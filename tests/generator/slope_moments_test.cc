@@ -22,7 +22,7 @@ const Eigen::Matrix2d kForm = (Eigen::Matrix2d() << 1, 0.4, 0.4, 0.7).finished()
 
 SlopeMoments MomentsOn(const SurfaceModel& model, const std::vector<Ray>& rays) {
   const double spacing = model.patch().spacing();
-  return MomentsOfSlopes(SlopeCorrelation(model, ReachOfRays(rays, spacing)), rays, spacing, kForm);
+  return MomentsOfSlopes(SurfaceCorrelation(model, ReachOfRays(rays, spacing)), rays, spacing, kForm);
 }
 
 double Form(const Eigen::Vector3d& squares) {
@@ -158,7 +158,7 @@ TEST(SlopeMoments, OfAFootprintAreThoseOfItsFilteredWaves) {
         BeamOptions{.incidence = 0.2, .azimuth = 1.2, .footprint = 0.6, .profile = BeamProfile::kGaussian}}) {
     const SurfaceModel model(sea, options, {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 4000});
     const double spacing = model.patch().spacing();
-    const SlopeCorrelation correlation(model, ReachOfRays(Beam(options, 4000).Rays(0), spacing));
+    const SurfaceCorrelation correlation(model, ReachOfRays(Beam(options, 4000).Rays(0), spacing));
     const Eigen::Matrix2d expected =
         model.FacetSlopeCovariance([&](double k, double psi) { return FootprintPower(options, k, psi); });
     const Eigen::Matrix2d covariance = FootprintSlopeCovariance(correlation, options, spacing);

@@ -16,6 +16,7 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr int kRepetitions = 200;
 constexpr int kRealizations = 64;  // of each repetition
 constexpr std::size_t kNadir = 0, kSlanted = 1;
+constexpr std::size_t kNoDepth = 0, kShallow = 1, kDeep = 2;
 
 struct Quantity {
   const char* name;
@@ -25,17 +26,23 @@ struct Quantity {
 
 const std::vector<Quantity> kQuantities = {
     {"refraction along wind, nadir", kNadir, [](const auto& beam) { return beam.refraction_along_wind; }},
-    {"THU, nadir", kNadir, [](const auto& beam) { return beam.thu[0]; }},
-    {"TVU, nadir", kNadir, [](const auto& beam) { return beam.tvu[0]; }},
-    {"vertical bias, nadir", kNadir, [](const auto& beam) { return beam.bias_vertical[0]; }},
+    {"THU, nadir", kNadir, [](const auto& beam) { return beam.thu[kDeep]; }},
+    {"THU, nadir, depth 0", kNadir, [](const auto& beam) { return beam.thu[kNoDepth]; }},
+    {"TVU, nadir", kNadir, [](const auto& beam) { return beam.tvu[kDeep]; }},
+    {"vertical bias, nadir", kNadir, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
     {"refraction along wind, 20 degrees", kSlanted,
      [](const auto& beam) { return beam.refraction_along_wind; }},
     {"refraction cross wind, 20 degrees", kSlanted,
      [](const auto& beam) { return beam.refraction_cross_wind; }},
-    {"THU, 20 degrees", kSlanted, [](const auto& beam) { return beam.thu[0]; }},
-    {"TVU, 20 degrees", kSlanted, [](const auto& beam) { return beam.tvu[0]; }},
-    {"bias along the beam, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_along_beam[0]; }},
-    {"vertical bias, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_vertical[0]; }},
+    {"THU, 20 degrees", kSlanted, [](const auto& beam) { return beam.thu[kDeep]; }},
+    {"THU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.thu[kNoDepth]; }},
+    {"THU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.thu[kShallow]; }},
+    {"TVU, 20 degrees", kSlanted, [](const auto& beam) { return beam.tvu[kDeep]; }},
+    {"TVU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.tvu[kNoDepth]; }},
+    {"TVU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.tvu[kShallow]; }},
+    {"bias along the beam, 20 degrees", kSlanted,
+     [](const auto& beam) { return beam.bias_along_beam[kDeep]; }},
+    {"vertical bias, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
 };
 
 std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, std::uint32_t cell) {
@@ -43,7 +50,7 @@ std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, st
   encounter.sea.wind_speed_10m = 5;
   encounter.beams = {{.footprint = 0.5},
                      {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
-  encounter.depths = {10};
+  encounter.depths = {0, 0.1, 10};
   return Simulate(encounter,
                   {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
                   5, cell)

@@ -1,4 +1,4 @@
-#include "generator/slope_correlation.h"
+#include "generator/surface_correlation.h"
 
 #include <cassert>
 #include <cmath>
@@ -40,31 +40,39 @@ Eigen::MatrixXd Sum(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& po
 
 }  // namespace
 
-SlopeCorrelation::SlopeCorrelation(const SurfaceModel& model, int reach) : reach_(reach) {
+SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : reach_(reach) {
   assert(2 * reach < model.patch().size());
   const double spacing = model.patch().spacing();
   const std::vector<LongWaveModel::Wave>& waves = model.long_waves().waves();
-  Eigen::ArrayX2d half_phase(waves.size(), 2);  // along half a cell
-  Eigen::ArrayXd variance(waves.size());
+  Eigen::ArrayX2d phase(waves.size(), 2);  // along a cell
   for (std::size_t m = 0; m < waves.size(); ++m) {
-    half_phase.row(m) = (0.5 * spacing * waves[m].wavenumber).transpose().array();
-    variance[m] = waves[m].variance;
+    phase.row(m) = (spacing * waves[m].wavenumber).transpose().array();
   }
-  const Eigen::ArrayX2d quotient = half_phase.sin() * (2 / spacing);  // what a side makes of a wave's slope
-  const Eigen::MatrixXcd x = Phases(2 * half_phase.col(0), reach), y = Phases(2 * half_phase.col(1), reach);
-  const auto real = [](const Eigen::ArrayXd& power) { return Eigen::VectorXcd(power.matrix()); };
-  xx_ = Sum(x, real(variance * quotient.col(0).square()), y);
-  yy_ = Sum(x, real(variance * quotient.col(1).square()), y);
-  Eigen::VectorXcd half_a_cell_away = real(variance * quotient.col(0) * quotient.col(1));
-  for (Eigen::Index m = 0; m < half_a_cell_away.size(); ++m) {
-    half_a_cell_away[m] *= std::polar(1.0, half_phase.row(m).sum());
-  }
-  xy_ = Sum(x, half_a_cell_away, y);
+  const Eigen::MatrixXcd x = Phases(phase.col(0), reach), y = Phases(phase.col(1), reach);
+  const auto correlate = [&](const auto& factor) {
+    Eigen::VectorXcd power(waves.size());
+    for (std::size_t m = 0; m < waves.size(); ++m) {
+      power[m] = waves[m].variance * factor(phase(m, 0), phase(m, 1));
+    }
+    Eigen::MatrixXd sum = Sum(x, power, y);
+    AddPatch(model.patch().Correlate(factor), model.patch().size(), sum);
+    return sum;
+  };
+  // What a side makes of a wave of height 1, over i: a little less than its wavenumber.
+  const auto quotient = [&](double phase_along) { return std::sin(phase_along / 2) * (2 / spacing); };
+  using Complex = std::complex<double>;
+  xx_ = correlate([&](double px, double) { return Complex(std::pow(quotient(px), 2)); });
+  yy_ = correlate([&](double, double py) { return Complex(std::pow(quotient(py), 2)); });
+  xy_ = correlate(
+      [&](double px, double py) { return quotient(px) * quotient(py) * std::polar(1.0, (px + py) / 2); });
 
-  const WavePatchModel::SlopeCorrelations patch = model.patch().CorrelateSlopes();
-  AddPatch(patch.xx, model.patch().size(), xx_);
-  AddPatch(patch.yy, model.patch().size(), yy_);
-  AddPatch(patch.xy, model.patch().size(), xy_);
+  at_points_.height = correlate([](double, double) { return Complex(1); });
+  at_points_.height.array() -= at_points_.height(reach, reach);
+  at_points_.height_x = correlate([&](double px, double) { return Complex(0, quotient(px)); });
+  at_points_.height_y = correlate([&](double, double py) { return Complex(0, quotient(py)); });
+  at_points_.slope_xx = xx_;
+  at_points_.slope_xy = correlate([&](double px, double py) { return Complex(quotient(px) * quotient(py)); });
+  at_points_.slope_yy = yy_;
 }
 
 }  // namespace albtpu
