@@ -39,13 +39,8 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   traced.beam.slope = {mean[kSlopeX], mean[kSlopeY]};
   traced.beam.slope_squares = {mean[kSlopeXX], mean[kSlopeYY], mean[kSlopeXY]};
   traced.height = mean[kHeight];
-  if (rays.vertical()) {
-    traced.undisturbed_slope = traced.beam.slope;
-    traced.undisturbed_slope_squares = traced.beam.slope_squares;
-  } else {
-    traced.undisturbed_slope = {mean[kUndisturbedX], mean[kUndisturbedY]};
-    traced.undisturbed_slope_squares = {mean[kUndisturbedXX], mean[kUndisturbedYY], mean[kUndisturbedXY]};
-  }
+  traced.undisturbed_slope = {mean[kUndisturbedX], mean[kUndisturbedY]};
+  traced.undisturbed_slope_squares = {mean[kUndisturbedXX], mean[kUndisturbedYY], mean[kUndisturbedXY]};
   traced.met_alone = sums.met_alone;
   return traced;
 }

@@ -31,6 +31,9 @@ enum PacketSum {
   kPacketSums
 };
 
+// Which of them; a beam needs none of the undisturbed.
+enum class Wanted { kBeam, kBeamAndUndisturbed };
+
 struct PacketSums {
   double sum[kPacketSums] = {};
   int met_alone = 0;
