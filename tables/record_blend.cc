@@ -143,16 +143,19 @@ class Cell {
  private:
   static constexpr std::size_t kAhead = 4;  // pulses
 
-  // What a pulse to come will read, if it is in another cell.
+  // Asks for what a pulse to come will read, if it is in another cell: a large table is bound by memory.
   HWY_INLINE void Prefetch(std::size_t i) const {
     if (i >= pulses_.count || pulses_.rows[i] == pulses_.rows[i - kAhead]) return;
     const float* at = records_ + static_cast<std::ptrdiff_t>(pulses_.rows[i]) * kRecordSize;
+    const std::ptrdiff_t fetch = steps_[BlendedPulses::kFetch],
+                         wind_speed = steps_[BlendedPulses::kWindSpeed];
     for (std::size_t p = 0; p < 2 * kPairs; ++p) {
-      const float* row = at + offsets_[p];
-      hwy::Prefetch(row);
-      hwy::Prefetch(row + steps_[BlendedPulses::kFetch]);
-      hwy::Prefetch(row + steps_[BlendedPulses::kWindSpeed]);
-      hwy::Prefetch(row + steps_[BlendedPulses::kFetch] + steps_[BlendedPulses::kWindSpeed]);
+      for (const float* end : {at + offsets_[p], at + offsets_[p] + kPair - 1}) {
+        hwy::Prefetch(end);
+        hwy::Prefetch(end + fetch);
+        hwy::Prefetch(end + wind_speed);
+        hwy::Prefetch(end + fetch + wind_speed);
+      }
     }
   }
 
