@@ -22,7 +22,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenFile(std::string name,
                                                             const std::filesystem::path& path) {
   absl::StatusOr<UncertaintyTable> table = ReadTable(path);
   if (!table.ok()) return table.status();
-  return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *std::move(table)));
+  return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *table));
 }
 
 // What else can be done where no installed table answers.
