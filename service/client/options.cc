@@ -106,7 +106,7 @@ void AddSharedOptions(CLI::App& command, SharedOptions& options) {
   AddStyleOptions(command, options.style);
   command.add_flag_callback(
       "--standard-errors",
-      [&options] { options.style.standard_errors = options.source.standard_errors = true; },
+      [&options] { options.style.standard_errors = true; },
       "Give the standard error of each value too");
   AddOverwrite(command, options.existing);
 }

@@ -3,10 +3,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
-#include <cstring>
-#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -53,54 +50,57 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   return FromWire(response.table());
 }
 
+PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
+  PulseColumns slice = pulses;
+  slice.size = count;
+  for (std::span<const float>& column : slice.axis) {
+    if (column.size() > 1) column = column.subspan(begin, count);
+  }
+  return slice;
+}
+
+AnswerColumns From(AnswerColumns answers, std::size_t begin) {
+  const auto advance = [begin](auto*& column) {
+    if (column != nullptr) column += begin;
+  };
+  advance(answers.outcomes);
+  advance(answers.outcome_axes);
+  for (float*& column : answers.values) advance(column);
+  for (float*& column : answers.standard_errors) advance(column);
+  advance(answers.best_s44_orders);
+  advance(answers.remaining_thu);
+  advance(answers.remaining_tvu);
+  return answers;
+}
+
 }  // namespace
 
-ServerSource::ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary,
-                           bool standard_errors)
-    : address_(std::move(address)),
-      stub_(std::move(stub)),
-      summary_(std::move(summary)),
-      standard_errors_(standard_errors) {}
+ServerSource::ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary)
+    : address_(std::move(address)), stub_(std::move(stub)), summary_(std::move(summary)) {}
 
 absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::string& address,
-                                                                 const std::string& table,
-                                                                 bool standard_errors) {
+                                                                 const std::string& table) {
   std::unique_ptr<Stub> stub = Connect(address);
   absl::StatusOr<TableSummary> summary = GetTable(address, *stub, table);
   if (!summary.ok()) return summary.status();
-  return std::unique_ptr<ServerSource>(
-      new ServerSource(address, std::move(stub), *std::move(summary), standard_errors));
+  return std::unique_ptr<ServerSource>(new ServerSource(address, std::move(stub), *std::move(summary)));
 }
 
-absl::Status ServerSource::Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
-  assert(pulses.size() == answers.size());
-  // An answer at 2 sigma and without azimuth does not tell its THU at 95 %. So pulses without azimuth are
-  // asked about at 0 degrees, in their place, and at 90, behind all others.
-  std::vector<Pulse> asked(pulses.begin(), pulses.end());
-  for (std::size_t i = 0; i < pulses.size(); ++i) {
-    if (pulses[i].azimuth.has_value()) continue;
-    asked[i].azimuth = 0;
-    asked.push_back(pulses[i]);
-    asked.back().azimuth = 90;
-  }
-  std::vector<PulseUncertainty> replies(asked.size());
-  for (std::size_t begin = 0; begin < asked.size(); begin += kMostPulses) {
-    const std::size_t count = std::min(kMostPulses, asked.size() - begin);
-    absl::Status status =
-        AnswerBatch(std::span(asked).subspan(begin, count), std::span(replies).subspan(begin, count));
+absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses,
+                                  const AnswerColumns& answers) {
+  for (std::size_t begin = 0; begin < pulses.size; begin += kMostPulses) {
+    const std::size_t count = std::min(kMostPulses, pulses.size - begin);
+    absl::Status status = AnswerBatch(query, Slice(pulses, begin, count), From(answers, begin));
     if (!status.ok()) return status;
-  }
-  auto crosswind = replies.cbegin() + static_cast<std::ptrdiff_t>(pulses.size());
-  for (std::size_t i = 0; i < pulses.size(); ++i) {
-    answers[i] = pulses[i].azimuth.has_value() ? replies[i] : LargerOf(replies[i], *crosswind++);
   }
   return absl::OkStatus();
 }
 
-absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
+absl::Status ServerSource::AnswerBatch(const Query& query, const PulseColumns& pulses,
+                                       const AnswerColumns& answers) {
   albtpu::v1::QueryColumnsRequest request;
   request.mutable_options()->set_table(summary_.name);
-  request.mutable_options()->set_standard_errors(standard_errors_);
+  ToWire(query, answers, request);
   ToWire(pulses, *request.mutable_pulses());
   grpc::ClientContext context;
   SetDeadline(context);
@@ -112,7 +112,7 @@ absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<
                                            " changed from digest ", summary_.digest, " to ",
                                            response.table().digest(), " while it was asked: start again"));
   }
-  const absl::Status read = FromWire(response, standard_errors_, answers);
+  const absl::Status read = FromWire(response, pulses.size, answers);
   return read.ok() ? read : absl::InternalError(absl::StrCat("server ", address_, ": ", read.message()));
 }
 

@@ -15,26 +15,24 @@ namespace albtpu::client {
 // opened: every answer must come from its content.
 class ServerSource : public UncertaintySource {
  public:
-  // `address` is HOST:PORT, `table` what to ask for, empty for the server's default. Without
-  // `standard_errors` those of the answers are not a number, and half as much travels.
+  // `address` is HOST:PORT, `table` what to ask for, empty for the server's default.
   static absl::StatusOr<std::unique_ptr<ServerSource>> Open(const std::string& address,
-                                                            const std::string& table, bool standard_errors);
+                                                            const std::string& table);
 
   const TableSummary& table() const override { return summary_; }
-  absl::Status Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) override;
+  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
   using Stub = albtpu::v1::UncertaintyService::StubInterface;
 
-  ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary, bool standard_errors);
+  ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary);
 
-  // Pulses of one message, all of them with an azimuth.
-  absl::Status AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers);
+  // Pulses of one message.
+  absl::Status AnswerBatch(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers);
 
   std::string address_;
   std::unique_ptr<Stub> stub_;
   TableSummary summary_;
-  bool standard_errors_;
 };
 
 // All tables of a server.
