@@ -111,7 +111,7 @@ class Uncertainties:
         words = np.array([*OUTCOMES, *(f"{OUTCOMES[OUT_OF_DOMAIN]}:{axis}" for axis in AXES)], object)
         axis_at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0))
         with_axis = np.uint8(len(OUTCOMES) - 1) + axis_at_fault
-        return words[np.where(axis_at_fault > 0, with_axis, self.outcomes)]
+        return np.asarray(words[np.where(axis_at_fault > 0, with_axis, self.outcomes)], object)
 
     @property
     def interpolated(self) -> NDArray[np.bool_]:
@@ -132,7 +132,9 @@ class Uncertainties:
     @property
     def best_s44_order(self) -> NDArray[np.object_] | None:
         """Names: "exclusive", "special", "1a", "1b", "2", "" for none; None if not asked for."""
-        return None if self.best_s44_orders is None else np.array(S44_ORDERS, object)[self.best_s44_orders]
+        if self.best_s44_orders is None:
+            return None
+        return np.asarray(np.array(S44_ORDERS, object)[self.best_s44_orders], object)
 
     @property
     def units(self) -> dict[str, str]:
