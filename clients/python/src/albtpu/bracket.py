@@ -41,6 +41,6 @@ def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
     if nodes.size == 1:
         return Brackets(valid, inside, np.zeros(coordinate.shape, np.intp), np.zeros(coordinate.shape))
     lower = np.clip(np.searchsorted(nodes, coordinate, side="right") - 1, 0, nodes.size - 2)
-    scaled = np.log if axis.scale == "log" else np.positive
-    below, above = scaled(nodes)[lower], scaled(nodes)[lower + 1]
-    return Brackets(valid, inside, lower, (scaled(coordinate) - below) / (above - below))
+    if axis.scale == "log":
+        nodes, coordinate = np.log(nodes), np.log(coordinate)
+    return Brackets(valid, inside, lower, (coordinate - nodes[lower]) / (nodes[lower + 1] - nodes[lower]))

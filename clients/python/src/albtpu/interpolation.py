@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,11 +41,11 @@ class Interpolator:
         self._constant = self._locate(constant)
         self._log = [name for name in values if content.table.quantities[name].scale == "log"]
         self._grids: list[tuple[list[tuple[str, bool]], _Grid]] = []
-        for axes, has_axes in ((list(AXES), lambda name: name not in REFRACTIONS),
-                               (list(AXES)[:-1], lambda name: name in REFRACTIONS)):
-            variables = {(name, False): content.values[name] for name in values if has_axes(name)}
+        for over_depth, axes in ((True, list(AXES)), (False, list(AXES)[:-1])):
+            variables = {(name, False): content.values[name]
+                         for name in values if (name not in REFRACTIONS) == over_depth}
             variables.update({(name, True): content.standard_errors[name]
-                              for name in standard_errors if has_axes(name)})
+                              for name in standard_errors if (name not in REFRACTIONS) == over_depth})
             if variables:
                 stacked = np.stack([np.log(array, dtype=np.float64) if name in self._log and not is_error else array
                                     for (name, is_error), array in variables.items()], axis=-1)
@@ -100,7 +100,7 @@ def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
 class _Grid:
     """Variables over the same axes, interpolated together; on axes where all pulses agree, before they come."""
 
-    def __init__(self, variables: NDArray[np.floating], axes: Sequence[str], constant: dict[str, Brackets]) -> None:
+    def __init__(self, variables: NDArray[Any], axes: Sequence[str], constant: dict[str, Brackets]) -> None:
         grid = variables.astype(np.float64)
         self._axes: list[str] = []
         for axis in axes:

@@ -85,7 +85,7 @@ def _read_column(axis: str, values: ArrayLike | None) -> NDArray[Any]:
     if array.dtype.kind not in "iuf":
         raise ArgumentError(f"{axis} is of type {array.dtype}: it should be numbers, in {AXES[axis].units}")
     if isinstance(array, np.ma.MaskedArray):  # What is masked is not known: such a pulse is invalid.
-        return array.astype(np.promote_types(array.dtype, "f4")).filled(np.nan)
+        return np.where(np.ma.getmaskarray(array), np.nan, np.ma.getdata(array))
     return np.asarray(array)
 
 

@@ -61,7 +61,7 @@ class Service(UncertaintySource):
         table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
         return Table(
             TableReference.of(table.reference), table.title,
-            {axis.name: Axis(np.float32(axis.nodes), axis.units, axis.long_name, _SCALES[axis.scale])
+            {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name, _SCALES[axis.scale])
              for axis in table.axes},
             {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
                                      quantity.has_standard_error) for quantity in table.quantities},

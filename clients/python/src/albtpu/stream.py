@@ -124,7 +124,7 @@ class _Sender:
     def requests(self) -> Iterator[Any]:
         """Yields the batches, and then waits until they are answered."""
         numbers = list(QUANTITIES)
-        options = wire.QueryOptions(
+        options = dict(
             table=self._query.table, coverage=COVERAGES[self._query.coverage],
             standard_errors=self._query.standard_errors, best_s44_order=self._query.best_s44_order,
             s44_order=S44_ORDERS.index(self._query.s44_order or ""))

@@ -193,7 +193,8 @@ def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[An
     if axis in dims and over != (axis,):
         raise ArgumentError(f"{axis} varies along {', '.join(over) or 'nothing'}: it is no index of a dimension "
                             f"'{axis}'")
-    return over, array[tuple(slice(None) if along else 0 for along in varies)], AXES[axis]._asdict()
+    index: tuple[Any, ...] = tuple(slice(None) if along else 0 for along in varies)
+    return over, array[index], AXES[axis]._asdict()
 
 
 def _units(name: str) -> str:

@@ -1,0 +1,113 @@
+"""The package asks albtpu-serve, and gets what it reads from the table file itself.
+
+Usage: service_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE SHIPPED_TABLES...
+"""
+
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import albtpu
+from random_pulses import pulses_of_all_kinds
+from serving import Server
+
+SERVE, SYNTHETIC_TABLE, *SHIPPED_TABLES = sys.argv[1:]
+PULSES = 70_000  # Two batches.
+# What single precision may make of a sum, relative; and of one in which a bias cancels, of its greatest value.
+RELATIVE, CANCELLED = 1e-5, 1e-6
+
+
+class Service(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        subprocess.run([SYNTHETIC_TABLE, cls.folder / "synthetic.h5"], check=True)
+        subprocess.run([SYNTHETIC_TABLE, cls.folder / "angles.h5", "--published"], check=True)
+        for table in SHIPPED_TABLES:
+            shutil.copy(table, cls.folder)
+        cls.files = {path.stem: albtpu.open_table(path) for path in sorted(cls.folder.glob("*.h5"))}
+        cls.server = Server(SERVE, "--tables", cls.folder, "--default-table", "synthetic")
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.service = albtpu.connect(cls.server.address)
+        cls.addClassCleanup(cls.service.close)
+
+    def assert_alike(self, ours, theirs, what):
+        self.assertEqual(ours.table, theirs.table)
+        arrays = theirs.to_dict()
+        self.assertEqual(list(ours.to_dict()), list(arrays))
+        for name, array in ours.to_dict().items():
+            message = f"{what}: {name}"
+            if name == "best_s44_orders":  # Where a limit is met to the last digit, either order is right.
+                self.assertLess(np.mean(array != arrays[name]), 1e-4, message)
+            elif array.dtype == np.uint8:
+                np.testing.assert_array_equal(array, arrays[name], message)
+            else:
+                finite = np.abs(arrays[name][np.isfinite(arrays[name])])
+                cancelled = CANCELLED * finite.max(initial=0) if "bias" in name else 0
+                np.testing.assert_allclose(array, arrays[name], rtol=RELATIVE, atol=cancelled, err_msg=message)
+
+    def test_agrees_with_the_file(self):
+        options = dict(standard_errors=True, best_s44_order=True, s44_order="special")
+        for name, file in self.files.items():
+            pulses = pulses_of_all_kinds(file.table(), PULSES if name == "synthetic" else 5000)
+            for left_out in ((), ("azimuth",), ("fetch", "azimuth")):
+                asked = {axis: column for axis, column in pulses.items() if axis not in left_out}
+                for coverage in ("2sigma", "p95"):
+                    asks = dict(**asked, **options, coverage=coverage)
+                    self.assert_alike(self.service.query(**asks, table=name), file.query(**asks),
+                                      f"{name} at {coverage} without {left_out}")
+
+    def test_agrees_with_the_file_where_columns_are_constant(self):
+        file = self.files["synthetic"]
+        pulses = pulses_of_all_kinds(file.table(), 3000, seed=5)
+        for axis, number in (("wind_speed", 5), ("fetch", np.inf), ("depth", 21), ("footprint", np.nan)):
+            asks = {**pulses, axis: number}
+            self.assert_alike(self.service.query(**asks), file.query(**asks), f"{axis} {number}")
+
+    def test_lists_and_describes_tables_as_the_files_do(self):
+        listed = self.service.tables()
+        self.assertEqual([table.reference for table in listed],
+                         [file.table().reference for file in self.files.values()])
+        self.assertEqual([table.reference.name for table in listed if table.is_default], ["synthetic"])
+        for name, file in self.files.items():
+            theirs, ours = self.service.table(name), file.table()
+            for axis in albtpu.AXES:
+                np.testing.assert_array_equal(theirs.axes[axis].nodes, ours.axes[axis].nodes)
+                self.assertEqual(theirs.axes[axis][1:], ours.axes[axis][1:])
+            self.assertEqual(list(theirs.quantities), list(ours.quantities))
+            self.assertEqual([quantity[2:] for quantity in theirs.quantities.values()],
+                             [quantity[2:] for quantity in ours.quantities.values()])
+            self.assertEqual((theirs.title, theirs.campaign), (ours.title, ours.campaign))
+            self.assertEqual(theirs.attributes, ours.attributes)
+
+    def test_says_which_tables_there_are(self):
+        pulse = dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)
+        for ask in (lambda: self.service.query(**pulse, table="nowhere"), lambda: self.service.table("nowhere"),
+                    lambda: self.service.query(**{**pulse, "depth": []}, table="nowhere")):
+            with self.assertRaisesRegex(albtpu.TableNotFoundError, "synthetic"):
+                ask()
+
+    def test_answers_no_pulse_with_nothing(self):
+        answer = self.service.query(wind_speed=5, incidence=10, footprint=0.5, depth=np.empty((0, 3)))
+        self.assertEqual(answer.thu.shape, (0, 3))
+        self.assertEqual(answer.table, self.files["synthetic"].table().reference)
+
+    def test_waits_for_a_server_that_comes_back(self):
+        with Server(SERVE, "--tables", self.folder) as server:
+            client = albtpu.connect(server.address, patience=60)
+            self.addCleanup(client.close)
+            self.assertEqual(len(client.tables()), len(self.files))
+            server.stop(signal.SIGTERM)
+        with Server(SERVE, "--tables", self.folder, listen=server.address):
+            self.assertEqual(len(client.tables()), len(self.files))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
