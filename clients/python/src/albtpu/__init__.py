@@ -5,14 +5,15 @@
         answer = service.query(wind_speed=5, incidence=theta, footprint=0.5, depth=d)
     answer.thu, answer.tvu, answer.outcome, answer.units, answer.table.digest
 
-`help(albtpu.UncertaintySource.query)` has all that can be asked, `help(albtpu.Uncertainties)` what is answered.
+`help(albtpu.UncertaintySource.query)` has all that can be asked, `help(albtpu.Uncertainties)` what is
+answered.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError, TableNotFoundError,
-                     UnreachableError)
+from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
+                     TableNotFoundError, UnreachableError)
 from .schema import AXES, QUANTITIES
 from .source import UncertaintySource
 from .tables import Axis, Quantity, Table, TableReference, TableSummary
@@ -23,12 +24,14 @@ if TYPE_CHECKING:
     from .table_file import TableFile, open_table
 
 __version__ = "0.1.0"
-__all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Service", "ServiceError", "Table",
-           "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError", "TableReference",
-           "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError", "connect", "open_table"]
+__all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Service", "ServiceError",
+           "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
+           "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
+           "connect", "open_table"]
 
 # Loaded when they are used: files want no gRPC, services no HDF5.
-_LATER = {"Service": ".service", "connect": ".service", "TableFile": ".table_file", "open_table": ".table_file"}
+_LATER = {"Service": ".service", "connect": ".service",
+          "TableFile": ".table_file", "open_table": ".table_file"}
 
 
 def __getattr__(name: str) -> Any:

@@ -24,8 +24,8 @@ class Brackets(NamedTuple):
 def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
     """Both ends of an axis belong to it, and nothing beyond.
 
-    But azimuths are folded into 0 to 90 degrees, fetches above the last node are held at it, and an axis of one
-    fetch answers at any fetch above zero.
+    But azimuths are folded into 0 to 90 degrees, fetches above the last node are held at it, and an axis of
+    one fetch answers at any fetch above zero.
     """
     nodes = axis.nodes.astype(np.float64)
     valid = np.isfinite(coordinate)

@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import re
+from typing import Union
 
 import grpc
 
@@ -17,30 +18,34 @@ _OPTIONS = (
     ("grpc.initial_reconnect_backoff_ms", 100),
     ("grpc.max_reconnect_backoff_ms", 2000),
 )
+File = Union[str, "os.PathLike[str]"]
 _LOOPBACK = re.compile(r"(localhost|127\.[\d.]+|\[::1\]):\d+|unix:.*")
 _TARGET = re.compile(r"(?:[a-z]+:.*)?\S+:\w+|unix:\S+")
 
 
-def open_channel(target: str, *, tls: bool, ca: str | os.PathLike[str] | None, cert: str | os.PathLike[str] | None,
-                 key: str | os.PathLike[str] | None, token: str | None) -> grpc.Channel:
+def open_channel(target: str, *, tls: bool, ca: File | None, cert: File | None, key: File | None,
+                 token: str | None) -> grpc.Channel:
     """A channel, not connected yet. Raises ArgumentError, for files too that cannot be read."""
     if not isinstance(target, str) or not _TARGET.fullmatch(target):
-        raise ArgumentError(f"the server is {target!r}: it should be HOST:PORT, dns:///HOST:PORT or unix:PATH")
+        raise ArgumentError(f"the server is {target!r}: it should be HOST:PORT, dns:///HOST:PORT or "
+                            "unix:PATH")
     options = list(_OPTIONS)
     if _LOOPBACK.fullmatch(target):  # A proxy in the environment does not know our loopback.
         options.append(("grpc.enable_http_proxy", 0))
     if not (tls or ca or cert or key or token):
         return grpc.insecure_channel(target, options)
     if (cert is None) != (key is None):
-        raise ArgumentError("a certificate needs its key, and a key its certificate: give both 'cert' and 'key'")
+        raise ArgumentError("a certificate needs its key and a key its certificate: give both 'cert' and "
+                            "'key'")
     credentials = grpc.ssl_channel_credentials(*(_read(name, path) for name, path in
                                                  (("ca", ca), ("key", key), ("cert", cert))))
     if token is not None:
-        credentials = grpc.composite_channel_credentials(credentials, grpc.access_token_call_credentials(token))
+        bearer = grpc.access_token_call_credentials(token)
+        credentials = grpc.composite_channel_credentials(credentials, bearer)
     return grpc.secure_channel(target, credentials, options)
 
 
-def _read(name: str, path: str | os.PathLike[str] | None) -> bytes | None:
+def _read(name: str, path: File | None) -> bytes | None:
     if path is None:
         return None
     try:

@@ -1,4 +1,4 @@
-"""What can go wrong with a query as a whole. What is wrong with one pulse is its outcome and raises nothing."""
+"""What can go wrong with a query as a whole. What is wrong with one pulse is its outcome, and no error."""
 
 
 class Error(Exception):
@@ -6,7 +6,7 @@ class Error(Exception):
 
 
 class ArgumentError(Error, ValueError):
-    """The arguments of a call are no query: an unknown name, an array of text, shapes that do not broadcast."""
+    """Arguments that are no query: an unknown name, an array of text, shapes that do not broadcast."""
 
 
 class TableFileError(Error, ValueError):
@@ -33,4 +33,4 @@ class UnreachableError(ServiceError, ConnectionError):
 
 
 class TableChangedError(ServiceError):
-    """The table was replaced by one of other content while it was asked: half of the answers would be another's."""
+    """The table was replaced by one of other content while it was asked; no answer mixes the two."""

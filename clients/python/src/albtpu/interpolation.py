@@ -47,13 +47,14 @@ class Interpolator:
             variables.update({(name, True): content.standard_errors[name]
                               for name in standard_errors if (name not in REFRACTIONS) == over_depth})
             if variables:
-                stacked = np.stack([np.log(array, dtype=np.float64) if name in self._log and not is_error else array
-                                    for (name, is_error), array in variables.items()], axis=-1)
+                stacked = np.stack([np.log(array, dtype=np.float64) if name in self._log and not is_error
+                                    else array for (name, is_error), array in variables.items()], axis=-1)
                 self._grids.append((list(variables), _Grid(stacked, axes, self._constant)))
 
     def __call__(self, columns: Columns, count: int) -> PulseNumbers:
         """The uncertainty of `count` pulses; `columns` has all axes that are not constant."""
-        located = self._locate({axis: column for axis, column in columns.items() if axis not in self._constant})
+        located = self._locate({axis: column for axis, column in columns.items()
+                                if axis not in self._constant})
         outcomes, outcome_axes = _outcomes(located | self._constant, count)
         values, standard_errors = {}, {}
         for names, grid in self._grids:
@@ -63,18 +64,21 @@ class Interpolator:
                 else:
                     values[name] = np.exp(numbers) if name in self._log else numbers
                     values[name] = values[name].astype(np.float32).astype(np.float64)
-        has_refractions = all(name in values for name in REFRACTIONS)
-        radius = radius_over_thu(*(values[name] for name in REFRACTIONS)) if has_refractions else np.ones(count)
+        radius = np.ones(count)
+        if all(name in values for name in REFRACTIONS):
+            radius = radius_over_thu(*(values[name] for name in REFRACTIONS))
         return PulseNumbers(outcomes, outcome_axes, values, standard_errors, radius)
 
     def _locate(self, columns: Columns) -> dict[str, Brackets]:
-        return {axis: locate(axis, self._axes[axis], column.astype(np.float64)) for axis, column in columns.items()}
+        return {axis: locate(axis, self._axes[axis], column.astype(np.float64))
+                for axis, column in columns.items()}
 
 
 def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
-    """The answer without azimuth, from those at 0 and 90 degrees: each value the larger in magnitude, with its
-    standard error. If not both have numbers neither has the answer: invalid before out of domain, then the
-    first axis.
+    """The answer without azimuth, from those at 0 and 90 degrees.
+
+    Each value is the larger in magnitude, with its standard error. If not both have numbers neither has the
+    answer: invalid before out of domain, then the first axis.
     """
     worse = (crosswind.outcomes > downwind.outcomes) | (
         (crosswind.outcomes == downwind.outcomes) & (crosswind.outcome_axes < downwind.outcome_axes))
@@ -98,9 +102,10 @@ def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
 
 
 class _Grid:
-    """Variables over the same axes, interpolated together; on axes where all pulses agree, before they come."""
+    """Variables over the same axes, interpolated together; along constant axes once and for all."""
 
-    def __init__(self, variables: NDArray[Any], axes: Sequence[str], constant: dict[str, Brackets]) -> None:
+    def __init__(self, variables: NDArray[Any], axes: Sequence[str],
+                 constant: dict[str, Brackets]) -> None:
         grid = variables.astype(np.float64)
         self._axes: list[str] = []
         for axis in axes:
@@ -128,7 +133,7 @@ class _Grid:
 
 
 def _outcomes(located: dict[str, Brackets], count: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    """The outcome of each pulse and the first axis that made it: invalid on any comes before out of domain."""
+    """The outcome of each pulse and the first axis that made it: invalid on any before out of domain."""
     outcomes, outcome_axes = np.full(count, INTERPOLATED, np.uint8), np.zeros(count, np.uint8)
     for number, axis in reversed(list(enumerate(AXES, 1))):
         outside = np.broadcast_to(~located[axis].inside, count)

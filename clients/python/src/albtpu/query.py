@@ -65,12 +65,12 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
         _check_name("s44_order", s44_order, S44_ORDERS[1:])
     return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
                  columns=flat, quantities=_read_quantities(quantities), coverage=coverage,
-                 standard_errors=bool(standard_errors), s44_order=s44_order, best_s44_order=bool(best_s44_order),
-                 table=table)
+                 standard_errors=bool(standard_errors), s44_order=s44_order,
+                 best_s44_order=bool(best_s44_order), table=table)
 
 
 def refuse_unknown(names: Iterable[str], known: Iterable[str]) -> None:
-    """Raises ArgumentError for the first of `names`, none of which is an argument, with the likeliest of `known`."""
+    """Raises ArgumentError for `names` that are no arguments, and names the likeliest of `known`."""
     for name in names:
         close = get_close_matches(name, known := list(known), n=1, cutoff=0.5)
         hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(known)}"

@@ -40,7 +40,8 @@ def explained(target: str, error: grpc.RpcError) -> ServiceError:
     """The failure in the words of this package."""
     code, text = error.code(), f"server {target}: {error.details()}"
     if code == grpc.StatusCode.UNAVAILABLE:
-        return UnreachableError(f"{text}: start albtpu-serve there, or name the HOST:PORT where it listens", code.name)
+        hint = "start albtpu-serve there, or name the HOST:PORT where it listens"
+        return UnreachableError(f"{text}: {hint}", code.name)
     if code == grpc.StatusCode.DEADLINE_EXCEEDED:
         return UnreachableError(text, code.name)
     if code in (grpc.StatusCode.NOT_FOUND, grpc.StatusCode.FAILED_PRECONDITION):

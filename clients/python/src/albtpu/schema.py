@@ -27,11 +27,12 @@ QUANTITIES: dict[str, Description] = {
     "refraction_cross_wind": Description("degree", "uncertainty of the direction in water, across the wind"),
     "thu": Description("m", "total horizontal uncertainty of the sea surface"),
     "tvu": Description("m", "total vertical uncertainty of the sea surface"),
-    "bias_along_beam": Description("m", "horizontal bias, positive if reported too far along the azimuth of the beam"),
+    "bias_along_beam": Description(
+        "m", "horizontal bias, positive if reported too far along the azimuth of the beam"),
     "bias_vertical": Description("m", "vertical bias, positive if reported too shallow"),
 }
 REFRACTIONS = ("refraction_along_wind", "refraction_cross_wind")  # All axes but depth.
-BIASES = ("bias_along_beam", "bias_vertical")  # Means of the error, the same at any coverage; may be negative.
+BIASES = ("bias_along_beam", "bias_vertical")  # Means of the error, at any coverage; may be negative.
 STANDARD_ERROR = "_standard_error"  # Ends the name of the standard error of a quantity.
 
 # By their numbers.

@@ -1,4 +1,4 @@
-"""The user block before the HDF5 part of a table: whether every byte is as it was written (tables/FORMAT.md)."""
+"""The user block of a table, which tells whether every byte is as it was written (tables/FORMAT.md)."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _FORMAT_VERSION = 1
 
 
 def check_seal(file: bytes) -> None:
-    """Raises TableFileError, with a text that follows the name of the file, unless `file` is a sealed table."""
+    """Raises TableFileError unless `file` is a sealed table; its text follows the name of the file."""
     if not file:
         raise TableFileError("is empty: not a table")
     if file[:len(_MAGIC)] != _MAGIC[:len(file)]:
         if file.startswith(b"\x89HDF\r\n\x1a\n"):
-            raise TableFileError("is an HDF5 file without the seal of albtpu: not a table, or its first 512 bytes "
-                                 "are lost")
+            raise TableFileError("is an HDF5 file without the seal of albtpu: not a table, or its first 512 "
+                                 "bytes are lost")
         raise TableFileError("is not a table of albtpu: it does not begin with its seal")
     if len(file) < _SIZE:
         raise TableFileError(f"is truncated: {len(file)} bytes are there, a table has more than {_SIZE}")

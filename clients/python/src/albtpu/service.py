@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import grpc
 import numpy as np
 
-from .channel import open_channel
+from .channel import File, open_channel
 from .progress import Progress
 from .query import Query
 from .retries import Retries, explained
@@ -22,9 +21,9 @@ from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 _SCALES = ("", "linear", "log")  # By their numbers.
 
 
-def connect(target: str, *, tls: bool = False, ca: str | os.PathLike[str] | None = None,
-            cert: str | os.PathLike[str] | None = None, key: str | os.PathLike[str] | None = None,
-            token: str | None = None, timeout: float = 60.0, patience: float = 10.0) -> Service:
+def connect(target: str, *, tls: bool = False, ca: File | None = None, cert: File | None = None,
+            key: File | None = None, token: str | None = None, timeout: float = 60.0,
+            patience: float = 10.0) -> Service:
     """A service of tables (`albtpu-serve`), at "HOST:PORT", "dns:///NAME:PORT" or "unix:PATH".
 
     tls:       talk TLS, also meant by each of the following; else plain text.
@@ -53,7 +52,8 @@ class Service(UncertaintySource):
     def tables(self) -> list[TableSummary]:
         """All tables of the server, by name, versions of one name from the newest."""
         listed = self._ask(self._stub.ListTables, wire.ListTablesRequest())
-        return [TableSummary(TableReference.of(table.reference), table.title, table.reference.name == listed.default_table)
+        return [TableSummary(TableReference.of(table.reference), table.title,
+                             is_default=table.reference.name == listed.default_table)
                 for table in listed.tables]
 
     def table(self, name: str | None = None) -> Table:
@@ -61,8 +61,8 @@ class Service(UncertaintySource):
         table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
         return Table(
             TableReference.of(table.reference), table.title,
-            {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name, _SCALES[axis.scale])
-             for axis in table.axes},
+            {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
+                             _SCALES[axis.scale]) for axis in table.axes},
             {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
                                      quantity.has_standard_error) for quantity in table.quantities},
             table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())})
@@ -73,7 +73,9 @@ class Service(UncertaintySource):
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
         if query.size == 0:
             return self.table(query.table).reference
-        return ColumnStream(self._target, self._stub, query, columns, progress, self._timeout, self._patience).run()
+        stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout,
+                              self._patience)
+        return stream.run()
 
     def _ask(self, method: Any, request: Any) -> Any:
         retries = Retries(self._patience)

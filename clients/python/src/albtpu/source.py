@@ -43,7 +43,8 @@ class UncertaintySource(ABC):
         coverage:    "2sigma", or "p95" for 95 %; THU then is the radius that holds 95 %.
         quantities:  which of albtpu.QUANTITIES to answer. Left out: all.
         standard_errors: also the Monte Carlo standard error of each quantity.
-        s44_order:   "exclusive", "special", "1a", "1b" or "2": also what the sea surface leaves of its limits.
+        s44_order:   "exclusive", "special", "1a", "1b" or "2": also what the sea surface leaves of its
+                     limits.
         best_s44_order: also the strictest order of S-44 that the sea surface alone leaves open.
         progress:    a bar on standard error (with tqdm if it is installed), for large queries.
 
@@ -53,14 +54,15 @@ class UncertaintySource(ABC):
         >>> answer = albtpu.open_table("survey.h5").query(
         ...     wind_speed=7, incidence=12, azimuth=30, footprint=0.5, depth=[8, 20, 100])
         >>> answer.thu.round(3)
-        array([0.538, 1.338,   nan], dtype=float32)
+        array([0.538, 1.346,   nan], dtype=float32)
         >>> list(answer.outcome)
         ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth']
         """
-        refuse_unknown(unknown, [name for name in inspect.signature(self.query).parameters if name != "unknown"])
+        known = inspect.signature(self.query).parameters
+        refuse_unknown(unknown, [name for name in known if name != "unknown"])
         query = read_query(
-            dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth, footprint=footprint,
-                 depth=depth),
+            dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth,
+                 footprint=footprint, depth=depth),
             quantities=quantities, coverage=coverage, standard_errors=standard_errors, s44_order=s44_order,
             best_s44_order=best_s44_order, table=table)
         columns = AnswerColumns.for_query(query)

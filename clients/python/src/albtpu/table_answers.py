@@ -33,18 +33,20 @@ class TableAnswers:
         if "azimuth" not in columns:
             azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in (0, 90)]
         with np.errstate(all="ignore"):  # Of a constant out of domain nothing will be used.
-            self._interpolators = [Interpolator(content, values, errors, constant | azimuth) for azimuth in azimuths]
+            self._interpolators = [Interpolator(content, values, errors, constant | azimuth)
+                                   for azimuth in azimuths]
 
     def fill(self, columns: AnswerColumns, begin: int, end: int) -> None:
         """Writes the answers for the pulses from `begin` to `end`."""
         block, count = slice(begin, end), end - begin
         pulses = self._query.batch(begin, end)
-        with np.errstate(all="ignore"):  # Pulses out of domain are computed along, and what comes of it is dropped.
+        with np.errstate(all="ignore"):  # What is computed for pulses out of domain is dropped.
             two_sigma = [interpolate(pulses, count) for interpolate in self._interpolators]
             numbers = two_sigma[0] if len(two_sigma) == 1 else larger_of(*two_sigma)
             columns.outcomes[block], columns.outcome_axes[block] = numbers.outcomes, numbers.outcome_axes
             none = numbers.outcomes != INTERPOLATED
-            for target, source in ((columns.values, numbers.values), (columns.standard_errors, numbers.standard_errors)):
+            for target, source in ((columns.values, numbers.values),
+                                   (columns.standard_errors, numbers.standard_errors)):
                 for name, column in target.items():
                     column[block] = source[name] * self._factor(name, numbers) if name in source else np.nan
                     column[block][none] = np.nan

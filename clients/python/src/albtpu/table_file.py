@@ -36,10 +36,10 @@ def open_table(path: str | os.PathLike[str]) -> TableFile:
 
 
 class TableFile(UncertaintySource):
-    """A table in memory. It answers as a service with that table does: the same outcomes, numbers within 1e-5.
+    """A table in memory. It answers as a service does: the same outcomes, numbers within 1e-5.
 
-    Multilinear interpolation in double precision. For some hundred thousand pulses a second, more where few
-    axes vary; a service is a hundred times faster.
+    Multilinear interpolation in double precision, some hundred thousand pulses a second; more where few axes
+    vary. For millions a second ask a service.
     """
 
     def __init__(self, path: pathlib.Path) -> None:

@@ -60,11 +60,13 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
 def _read_axis(file: h5py.File, axis: str) -> Axis:
     nodes = _floats(file, "axis", axis, AXES[axis].units)
     if nodes.ndim != 1 or nodes.size == 0:
-        raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and a node")
+        raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and "
+                             "a node")
     largest = 90 if axis == "azimuth" else np.inf
-    if not (np.isfinite(nodes).all() and nodes[0] >= 0 and nodes[-1] <= largest and (np.diff(nodes) > 0).all()):
-        raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, or are "
-                             "azimuths above 90 degrees")
+    increase = bool((np.diff(nodes) > 0).all())
+    if not (np.isfinite(nodes).all() and nodes[0] >= 0 and nodes[-1] <= largest and increase):
+        raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, "
+                             "or are azimuths above 90 degrees")
     return Axis(nodes, *AXES[axis], _scale(file[axis], "axis", axis, nodes))
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from .errors import ArgumentError
 from .query import Query
-from .schema import AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS, STANDARD_ERROR
+from .schema import (AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS,
+                     STANDARD_ERROR)
 from .tables import TableReference
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ class Uncertainties:
     values:           the quantities by name.
     standard_errors:  their Monte Carlo standard errors by name; empty if not asked for.
     outcomes:         numbers 1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
-    outcome_axes:     the axis that made the outcome, by its position in albtpu.AXES from 1; 0 if interpolated.
+    outcome_axes:     the axis that made it, by its position in albtpu.AXES from 1; 0 if interpolated.
     best_s44_orders:  1 exclusive, 2 special, 3 1a, 4 1b, 5 2, 0 none (uint8); None if not asked for.
     remaining_thu, remaining_tvu: what the sea surface leaves of the limits of the S-44 order for all other
                       sources, m at 95 %, NaN if nothing; None if not asked for.
@@ -102,8 +103,8 @@ class Uncertainties:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {name}" for name, count in self.outcome_counts().items())
-        return (f"<albtpu.Uncertainties {', '.join(self.values)} of shape {self.outcomes.shape}, {self.coverage}, "
-                f"table {self.table.id} {self.table.version}: {counts or 'no pulse'}>")
+        return (f"<albtpu.Uncertainties {', '.join(self.values)} of shape {self.outcomes.shape}, "
+                f"{self.coverage}, table {self.table.id} {self.table.version}: {counts or 'no pulse'}>")
 
     @property
     def outcome(self) -> NDArray[np.object_]:
@@ -120,14 +121,11 @@ class Uncertainties:
 
     def outcome_counts(self) -> dict[str, int]:
         """How many pulses had each outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth": 1}."""
-        pairs = self.outcomes.reshape(-1).astype(np.uint16) * 8 + self.outcome_axes.reshape(-1)
-        counts = np.bincount(pairs, minlength=8 * len(OUTCOMES)).reshape(len(OUTCOMES), 8)
-        by_word: dict[str, int] = {}
-        for (outcome, axis), count in np.ndenumerate(counts):
-            if count:
-                word = OUTCOMES[outcome] + (f":{list(AXES)[axis - 1]}" if outcome == OUT_OF_DOMAIN and axis else "")
-                by_word[word] = by_word.get(word, 0) + int(count)
-        return by_word
+        at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0)).reshape(-1)
+        pairs = self.outcomes.reshape(-1) * np.uint16(8) + at_fault  # Fewer than 8 axes.
+        words = [OUTCOMES[OUT_OF_DOMAIN] + f":{axis}" for axis in AXES]
+        return {words[pair % 8 - 1] if pair % 8 else OUTCOMES[pair // 8]: int(count)
+                for pair, count in enumerate(np.bincount(pairs)) if count}
 
     @property
     def best_s44_order(self) -> NDArray[np.object_] | None:
@@ -153,8 +151,8 @@ class Uncertainties:
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
         """The same as an xarray.Dataset with CF attributes, the pulses as coordinates, needs xarray.
 
-        `dims` names the dimensions; left out, one dimension is "pulse", several are "dim_0", "dim_1", ... An axis
-        that gives its name to a dimension is its index, and must vary along it alone.
+        `dims` names the dimensions; left out, one dimension is "pulse", several are "dim_0", "dim_1", ...
+        An axis that gives its name to a dimension is its index, and must vary along it alone.
         """
         import xarray
 
@@ -170,9 +168,11 @@ class Uncertainties:
             "coverage": self.coverage, "azimuth_absent": int(self.azimuth_absent)})
 
     def _attributes(self, name: str) -> dict[str, Any]:
-        flags = {"outcomes": OUTCOMES, "outcome_axes": ("none", *AXES), "best_s44_orders": ("none", *S44_ORDERS[1:])}
+        flags = {"outcomes": OUTCOMES, "outcome_axes": ("none", *AXES),
+                 "best_s44_orders": ("none", *S44_ORDERS[1:])}
         if name in flags:
-            return {"flag_values": np.arange(len(flags[name]), dtype=np.uint8), "flag_meanings": " ".join(flags[name])}
+            return {"flag_values": np.arange(len(flags[name]), dtype=np.uint8),
+                    "flag_meanings": " ".join(flags[name])}
         attributes: dict[str, Any] = {"units": _units(name)}
         if name in QUANTITIES:
             suffix = "" if name in BIASES else f", {self.coverage}"
@@ -182,7 +182,8 @@ class Uncertainties:
         elif name.endswith(STANDARD_ERROR):
             attributes["long_name"] = f"standard error of {name[:-len(STANDARD_ERROR)]}"
         else:
-            attributes["long_name"] = f"{name[-3:].upper()} that the sea surface leaves to all other sources, 95 %"
+            total = name[-3:].upper()
+            attributes["long_name"] = f"{total} that the sea surface leaves to all other sources, 95 %"
         return attributes
 
 
@@ -191,8 +192,8 @@ def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[An
     varies = [stride != 0 or array.size == 0 for stride in array.strides]
     over = tuple(dim for dim, along in zip(dims, varies) if along)
     if axis in dims and over != (axis,):
-        raise ArgumentError(f"{axis} varies along {', '.join(over) or 'nothing'}: it is no index of a dimension "
-                            f"'{axis}'")
+        raise ArgumentError(f"{axis} varies along {', '.join(over) or 'nothing'}: it is no index of a "
+                            f"dimension '{axis}'")
     index: tuple[Any, ...] = tuple(slice(None) if along else 0 for along in varies)
     return over, array[index], AXES[axis]._asdict()
 
