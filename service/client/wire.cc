@@ -1,10 +1,12 @@
 #include "service/client/wire.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -15,8 +17,21 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-std::string Bytes(std::span<const float> column) {
-  return std::string(reinterpret_cast<const char*>(column.data()), column.size_bytes());
+// Into the memory that the message has from the last time.
+void Assign(std::span<const float> column, std::string& bytes) {
+  bytes.assign(reinterpret_cast<const char*>(column.data()), column.size_bytes());
+}
+
+v1::Coverage ToWire(Coverage coverage) {
+  return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+}
+
+absl::Status CheckNumbers(const std::string& column, const char* name, int first, int last) {
+  const auto known = [&](char number) { return number >= first && number <= last; };
+  const auto unknown = std::find_if_not(column.begin(), column.end(), known);
+  if (unknown == column.end()) return absl::OkStatus();
+  return absl::InternalError(absl::StrCat("answered ", static_cast<unsigned char>(*unknown), " among the ",
+                                          name, ", which this program does not know"));
 }
 
 template <typename Element>
@@ -69,7 +84,7 @@ std::string Text(const v1::AttributeValue& value) {
 
 void ToWire(const Query& query, const AnswerColumns& wanted, v1::QueryColumnsRequest& request) {
   v1::QueryOptions& options = *request.mutable_options();
-  options.set_coverage(query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA);
+  options.set_coverage(ToWire(query.coverage));
   options.set_best_s44_order(wanted.best_s44_orders != nullptr);
   if (query.s44_order.has_value()) {
     options.set_s44_order(static_cast<v1::S44Order>(static_cast<int>(*query.s44_order) + 1));
@@ -82,17 +97,29 @@ void ToWire(const Query& query, const AnswerColumns& wanted, v1::QueryColumnsReq
 }
 
 void ToWire(const PulseColumns& pulses, v1::PulseColumns& columns) {
-  columns.set_wind_speed(Bytes(pulses[AxisId::kWindSpeed]));
-  columns.set_fetch(Bytes(pulses[AxisId::kFetch]));
-  columns.set_incidence(Bytes(pulses[AxisId::kIncidence]));
-  columns.set_azimuth(Bytes(pulses[AxisId::kAzimuth]));
-  columns.set_footprint(Bytes(pulses[AxisId::kFootprint]));
-  columns.set_depth(Bytes(pulses[AxisId::kDepth]));
+  Assign(pulses[AxisId::kWindSpeed], *columns.mutable_wind_speed());
+  Assign(pulses[AxisId::kFetch], *columns.mutable_fetch());
+  Assign(pulses[AxisId::kIncidence], *columns.mutable_incidence());
+  Assign(pulses[AxisId::kAzimuth], *columns.mutable_azimuth());
+  Assign(pulses[AxisId::kFootprint], *columns.mutable_footprint());
+  Assign(pulses[AxisId::kDepth], *columns.mutable_depth());
+  const auto is_long = [](std::span<const float> column) { return column.size() > 1; };
+  if (pulses.size > 1 && std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long)) {
+    Assign(std::vector<float>(pulses.size, pulses[AxisId::kDepth][0]), *columns.mutable_depth());
+  }
 }
 
-absl::Status FromWire(const v1::QueryColumnsResponse& response, std::size_t pulse_count,
+absl::Status FromWire(const v1::QueryColumnsResponse& response, const Query& query, std::size_t pulse_count,
                       const AnswerColumns& answers) {
-  absl::Status status = Copy(response.outcomes(), "outcomes", pulse_count, answers.outcomes);
+  absl::Status status;
+  if (response.coverage() != ToWire(query.coverage)) {
+    status = absl::InternalError(absl::StrCat("answered coverage ", response.coverage(), ": ",
+                                              ToWire(query.coverage), " was asked for"));
+  }
+  status.Update(CheckNumbers(response.outcomes(), "outcomes", 1, v1::Outcome_MAX));
+  status.Update(CheckNumbers(response.outcome_axes(), "outcome_axes", 0, v1::Axis_MAX));
+  status.Update(CheckNumbers(response.s44().best_orders(), "best_orders", 0, v1::S44Order_MAX));
+  status.Update(Copy(response.outcomes(), "outcomes", pulse_count, answers.outcomes));
   status.Update(Copy(response.outcome_axes(), "outcome_axes", pulse_count, answers.outcome_axes));
   status.Update(Copy(response.sea_surface(), pulse_count, answers.values));
   status.Update(Copy(response.sea_surface_standard_error(), pulse_count, answers.standard_errors));
