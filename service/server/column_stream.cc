@@ -20,6 +20,7 @@ void ColumnStream::OnReadDone(bool ok) {
 }
 
 void ColumnStream::OnWriteDone(bool ok) {
+  answer_.Clear();
   {
     const std::lock_guard lock(mutex_);
     busy_ = false;
