@@ -34,7 +34,6 @@ grpc::Status Answer(absl::Status (*answer)(const TableCatalog&, const Request&, 
   Response message;
   const absl::Status status = answer(catalog, question, message);
   if (!status.ok()) return ToGrpcStatus(status);
-  response.Clear();  // A stream hands over the buffer of its last answer.
   bool own = false;
   return grpc::SerializationTraits<Response>::Serialize(message, &response, &own);
 } catch (const std::exception& error) {
