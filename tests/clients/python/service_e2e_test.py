@@ -10,19 +10,24 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
 import albtpu
 from albtpu.s44 import limits
+from albtpu.stream import ColumnStream
 from random_pulses import pulses_of_all_kinds
 from serving import Server
 
 SERVE, SYNTHETIC_TABLE, *SHIPPED_TABLES = sys.argv[1:]
 PULSES = 70_000  # Two batches.
-# What single precision may make of a sum, relative; and of one in which a bias cancels, of its greatest value.
+# What single precision may make of a sum, relative; of a bias, in which terms cancel, by its greatest value.
 RELATIVE, CANCELLED = 1e-5, 1e-6
 ORDER = "special"
+# Some batches more than are under way at a time.
+LINE = dict(wind_speed=5, incidence=np.linspace(0, 20, 600_000), footprint=0.5,
+            depth=np.linspace(20, 0, 600_000))
 
 
 class Service(unittest.TestCase):
@@ -104,7 +109,8 @@ class Service(unittest.TestCase):
 
     def test_says_which_tables_there_are(self):
         pulse = dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)
-        for ask in (lambda: self.service.query(**pulse, table="nowhere"), lambda: self.service.table("nowhere"),
+        for ask in (lambda: self.service.query(**pulse, table="nowhere"),
+                    lambda: self.service.table("nowhere"),
                     lambda: self.service.query(**{**pulse, "depth": []}, table="nowhere")):
             with self.assertRaisesRegex(albtpu.TableNotFoundError, "synthetic"):
                 ask()
@@ -122,6 +128,39 @@ class Service(unittest.TestCase):
             server.stop(signal.SIGTERM)
         with Server(SERVE, "--tables", self.folder, listen=server.address):
             self.assertEqual(len(client.tables()), len(self.files))
+
+    def ask_while_the_server_is_replaced(self, *flags):
+        """An answer of several batches, half of them by a server with the table that `flags` make."""
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        table = pathlib.Path(folder, "synthetic.h5")
+        subprocess.run([SYNTHETIC_TABLE, table], check=True)
+        servers = [Server(SERVE, "--tables", folder)]
+        take, taken = ColumnStream._take, []
+
+        def take_and_replace(stream, *answer):
+            take(stream, *answer)
+            taken.append(answer)
+            if len(taken) == 2:
+                servers[0].stop(signal.SIGKILL)
+                subprocess.run([SYNTHETIC_TABLE, table, *flags], check=True)
+                servers.append(Server(SERVE, "--tables", folder, listen=servers[0].address))
+
+        try:
+            with albtpu.connect(servers[0].address, patience=60) as client:
+                with mock.patch.object(ColumnStream, "_take", take_and_replace):
+                    return client.query(**LINE)
+        finally:
+            for server in servers:
+                server.__exit__()
+
+    def test_goes_on_when_a_server_is_killed_and_comes_back(self):
+        answer = self.ask_while_the_server_is_replaced()
+        np.testing.assert_array_equal(answer.thu, self.service.query(**LINE).thu)
+
+    def test_never_mixes_two_tables(self):
+        with self.assertRaisesRegex(albtpu.TableChangedError, "changed from digest"):
+            self.ask_while_the_server_is_replaced("--factor", "2")
 
 
 if __name__ == "__main__":
