@@ -2,8 +2,8 @@
 
 Usage: python_query.py ALBTPU_SERVE TABLES_FOLDER [MILLIONS_OF_PULSES]
 
-A flight line: wind, fetch and footprint constant, incidence and depth of each pulse in scan order. Medians and
-ranges of interleaved repetitions, with the processor time of client and server a million pulses.
+A flight line: wind, fetch and footprint constant, incidence and depth of each pulse in scan order. Medians
+and ranges of interleaved repetitions, with the processor time of client and server a million pulses.
 """
 
 import os
@@ -12,7 +12,8 @@ import statistics
 import sys
 import time
 
-sys.path[:0] = [str(pathlib.Path(__file__).parents[2] / folder) for folder in ("clients/python/src", "tests/e2e")]
+ROOT = pathlib.Path(__file__).parents[2]
+sys.path[:0] = [str(ROOT / folder) for folder in ("clients/python/src", "tests/e2e")]
 
 import numpy as np  # noqa: E402
 
@@ -56,10 +57,11 @@ def main():
                 after = time.perf_counter(), time.process_time(), processor_seconds(server.process.pid)
                 measured[name].append([b - a for a, b in zip(before, after)])
     for name, runs in measured.items():
-        wall, client, service_time = zip(*runs)
+        wall, *processors = zip(*runs)
         rates = [PULSES / 1e6 / seconds for seconds in wall]
+        client, serving = (statistics.median(seconds) * 1e6 / PULSES for seconds in processors)
         print(f"{name:42} {statistics.median(rates):5.1f} ({min(rates):.1f} to {max(rates):.1f})"
-              f"   {statistics.median(client) * 1e6 / PULSES:.3f} {statistics.median(service_time) * 1e6 / PULSES:.3f}")
+              f"   {client:.3f} {serving:.3f}")
 
 
 if __name__ == "__main__":

@@ -43,9 +43,10 @@ class Tls(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         for name in ("server", "client"):
             subprocess.run(
-                ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", f"/CN={name}",
-                 "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1", "-keyout", cls.folder / f"{name}.key",
-                 "-out", cls.folder / f"{name}.pem"], check=True, capture_output=True)
+                ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
+                 "-subj", f"/CN={name}", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1",
+                 "-keyout", cls.folder / f"{name}.key", "-out", cls.folder / f"{name}.pem"],
+                check=True, capture_output=True)
 
     def file(self, name):
         return self.folder / name
@@ -55,7 +56,8 @@ class Tls(unittest.TestCase):
 
     def run_service(self, **options):
         service = FakeService(TABLE)
-        credentials = grpc.ssl_server_credentials([(self.read("server.key"), self.read("server.pem"))], **options)
+        pair = self.read("server.key"), self.read("server.pem")
+        credentials = grpc.ssl_server_credentials([pair], **options)
         running = Running(service, credentials=credentials)
         self.addCleanup(running.stop)
         return service, running.address
@@ -72,7 +74,8 @@ class Tls(unittest.TestCase):
     def test_shows_its_certificate(self):
         _, address = self.run_service(root_certificates=self.read("client.pem"), require_client_auth=True)
         ca = self.file("server.pem")
-        with albtpu.connect(address, ca=ca, cert=self.file("client.pem"), key=self.file("client.key")) as client:
+        ours = dict(cert=self.file("client.pem"), key=self.file("client.key"))
+        with albtpu.connect(address, ca=ca, **ours) as client:
             self.assertEqual(len(client.tables()), 1)
         with albtpu.connect(address, ca=ca, patience=0.1) as client:
             with self.assertRaises(albtpu.UnreachableError):

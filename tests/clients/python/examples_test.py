@@ -1,4 +1,4 @@
-"""The examples do what they say. Arrays stand in for those that PDAL and laspy, not installed, would hand over.
+"""The examples do what they say. PDAL and laspy are not installed: arrays stand in for what they hand over.
 
 Usage: examples_test.py EXAMPLES_FOLDER TABLE.h5
 """
@@ -45,7 +45,8 @@ class Examples(unittest.TestCase):
     def test_annotate_in_a_pipeline_of_pdal(self):
         pipeline = json.loads((EXAMPLES / "pdal_pipeline.json").read_text())
         stage = pipeline[1]
-        self.assertEqual(pipeline[-1]["extra_dims"], ",".join(f"{name}=float" for name in stage["add_dimension"]))
+        written = [f"{name}=float" for name in stage["add_dimension"]]
+        self.assertEqual(pipeline[-1]["extra_dims"].split(","), written)
         self.assertTrue((EXAMPLES / stage["script"]).is_file())
         module = load(stage["module"])
         points = {"Z": Z, "ScanAngleRank": SCAN_ANGLE.astype("f4"), "Classification": CLASSIFICATION}
@@ -55,13 +56,14 @@ class Examples(unittest.TestCase):
                 annotated = {name: array.copy() for name, array in points.items()}
                 self.assertIs(getattr(module, stage["function"])(points, annotated), True)
                 for name in stage["add_dimension"]:
-                    np.testing.assert_allclose(annotated[name], expected(name.removeprefix("total_")), rtol=1e-5,
-                                               atol=1e-7)
+                    np.testing.assert_allclose(annotated[name], expected(name.removeprefix("total_")),
+                                               rtol=1e-5, atol=1e-7)
 
     def test_annotate_with_laspy(self):
         with albtpu.open_table(TABLE) as table:
             thu, tvu, answer = load("laspy_annotate").annotate(
-                table, Z, SCAN_ANGLE, CLASSIFICATION, water_level=-23.09, wind_speed=5, altitude=400, divergence=1.5)
+                table, Z, SCAN_ANGLE, CLASSIFICATION, water_level=-23.09, wind_speed=5, altitude=400,
+                divergence=1.5)
         self.assertEqual(thu.dtype, np.float32)
         np.testing.assert_allclose(thu, expected("thu"), rtol=1e-5, atol=1e-7)
         np.testing.assert_allclose(tvu, expected("tvu"), rtol=1e-5, atol=1e-7)
@@ -69,8 +71,9 @@ class Examples(unittest.TestCase):
 
     def test_map_uncertainty_with_xarray(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, "-B", EXAMPLES / "uncertainty_maps.py", TABLE, folder], check=True,
-                           env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": folder}, capture_output=True)
+            subprocess.run([sys.executable, "-B", EXAMPLES / "uncertainty_maps.py", TABLE, folder],
+                           env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": folder},
+                           check=True, capture_output=True)
             for plot in ("thu.png", "tvu.png", "special_order.png"):
                 self.assertTrue(pathlib.Path(folder, plot).read_bytes().startswith(b"\x89PNG"), plot)
             self.assertIn("wind_speed", pathlib.Path(folder, "best_orders.csv").read_text())

@@ -32,7 +32,8 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
     def ListTables(self, request, context):
         self.metadata = dict(context.invocation_metadata())
         self.before_answer(self, request, context)
-        return pb.ListTablesResponse(tables=[dict(reference=self.reference(), title="Fake")], default_table="fake")
+        only = dict(reference=self.reference(), title="Fake")
+        return pb.ListTablesResponse(tables=[only], default_table="fake")
 
     def reference(self):
         mine = self.source.table().reference

@@ -34,14 +34,14 @@ class Installation(unittest.TestCase):
         shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
         result = subprocess.run(
-            [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "--target",
-             cls.folder / "site", source], capture_output=True, text=True, env=environment)
+            [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index",
+             "--target", cls.folder / "site", source], capture_output=True, text=True, env=environment)
         assert result.returncode == 0, result.stdout + result.stderr
         cls.environment = {**environment, "PYTHONPATH": str(cls.folder / "site")}
 
     def run_python(self, program):
-        return subprocess.run([sys.executable, "-c", program, TABLE.resolve()], check=True, capture_output=True,
-                              text=True, cwd="/", env=self.environment).stdout
+        return subprocess.run([sys.executable, "-c", program, TABLE.resolve()], check=True,
+                              capture_output=True, text=True, cwd="/", env=self.environment).stdout
 
     def test_answers_from_there(self):
         where, outcome = self.run_python(ASK).splitlines()

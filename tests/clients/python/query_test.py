@@ -78,13 +78,15 @@ class Queries(unittest.TestCase):
         answer = self.ask(depth=[8, 30, np.nan, 9], standard_errors=True, best_s44_order=True, s44_order="2")
         self.assertEqual(answer.outcome_counts(), {"INTERPOLATED": 2, "OUT_OF_DOMAIN:depth": 1, "INVALID": 1})
         self.assertEqual(list(answer.interpolated), [True, False, False, True])
-        self.assertEqual((answer.table.id, answer.table.version, len(answer.table.digest)), ("synthetic", "1", 64))
+        self.assertEqual(answer.table[:3], ("synthetic", "synthetic", "1"))
+        self.assertEqual(len(answer.table.digest), 64)
         self.assertEqual((answer.coverage, answer.azimuth_absent), ("2sigma", False))
         self.assertEqual(set(answer.to_dict()), set(answer.units))
         units = {name: answer.units[name] for name in ("thu", "thu_standard_error", "refraction_along_wind",
                                                        "remaining_tvu", "outcomes", "best_s44_orders")}
         self.assertEqual(list(units.values()), ["m", "m", "degree", "m", "", ""])
-        self.assertIn("2 INTERPOLATED, 1 INVALID, 1 OUT_OF_DOMAIN:depth".split(", ")[0], repr(answer))
+        self.assertIn("of shape (4,), 2sigma, table synthetic 1: ", repr(answer))
+        self.assertIn("2 INTERPOLATED", repr(answer))
 
     def test_become_a_dataset_of_xarray(self):
         depth = np.linspace(0, 20, 3)

@@ -7,7 +7,7 @@ BAD = (np.nan, np.inf, -np.inf, -1.0, 0.0, -0.0, 1e38, 1e300)
 
 
 def pulses_of_all_kinds(table, count, seed=1):
-    """Six columns of float64: a third between nodes, a third on nodes, a third with a bad number here and there."""
+    """Six columns of float64, between nodes or on them; a third of the pulses may have bad numbers."""
     random = np.random.default_rng(seed)
     columns = {}
     for name in AXES:

@@ -15,7 +15,8 @@ STUBS = PACKAGE / "src/albtpu/v1"
 
 def make_stubs(output):
     protos = sorted(PROTO.glob("albtpu/v1/*.proto"))
-    subprocess.run(["protoc", "-I", PROTO, f"--python_out={output}", f"--pyi_out={output}", *protos], check=True)
+    subprocess.run(["protoc", "-I", PROTO, f"--python_out={output}", f"--pyi_out={output}", *protos],
+                   check=True)
     services = [proto for proto in protos if "\nservice " in proto.read_text()]
     subprocess.run(["protoc", "-I", PROTO, f"--grpc_out={output}",
                     "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin", *services], check=True)
@@ -29,7 +30,7 @@ class Stubs(unittest.TestCase):
         committed = {path.name: path.read_text() for path in STUBS.iterdir() if "_pb2" in path.stem}
         self.assertEqual(sorted(made), sorted(committed))
         for name, text in made.items():
-            self.assertEqual(committed[name], text, f"{name} is not what protoc makes: run {__file__} --write")
+            self.assertEqual(committed[name], text, f"protoc makes another {name}: run this with --write")
 
 
 if __name__ == "__main__":

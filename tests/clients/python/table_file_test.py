@@ -46,7 +46,8 @@ class TableFile(unittest.TestCase):
             for ours, dataset in ((answer.values, name), (answer.standard_errors, f"{name}_standard_error")):
                 values = self.file[dataset][:]
                 values = values if values.ndim == 6 else values[..., None]
-                np.testing.assert_array_equal(ours[name], np.broadcast_to(values, answer.outcomes.shape), dataset)
+                expected = np.broadcast_to(values, answer.outcomes.shape)
+                np.testing.assert_array_equal(ours[name], expected, dataset)
 
     def test_has_what_scipy_makes_of_the_file_between_nodes(self):
         random = np.random.default_rng(2)
@@ -58,15 +59,17 @@ class TableFile(unittest.TestCase):
         for name in albtpu.QUANTITIES:
             values = self.file[name][:].astype(float)
             over = AXES[:values.ndim]
-            theirs = RegularGridInterpolator([scaled[axis](axes[axis].nodes.astype(float)) for axis in over], values)(
-                np.column_stack([scaled[axis](pulses[axis].astype(float)) for axis in over]))
+            nodes = [scaled[axis](axes[axis].nodes.astype(float)) for axis in over]
+            at = np.column_stack([scaled[axis](pulses[axis].astype(float)) for axis in over])
+            theirs = RegularGridInterpolator(nodes, values)(at)
             # Both sum in double precision; ours is rounded once to single.
             np.testing.assert_allclose(answer.values[name], theirs, rtol=1e-7, atol=1e-9, err_msg=name)
 
     def test_is_the_same_whether_a_column_is_constant_or_not(self):
         pulses = pulses_of_all_kinds(self.table, 500)
         for axis in AXES:
-            for number in (self.table.axes[axis].nodes[1] * 0.9, self.table.axes[axis].nodes[-1], np.nan, 1e9):
+            nodes = self.table.axes[axis].nodes
+            for number in (nodes[1] * 0.9, nodes[-1], np.nan, 1e9):
                 once = self.source.query(**{**pulses, axis: number})
                 # Two numbers that differ, of which the first 500 pulses see one.
                 repeated = {name: np.append(column, column[0]) for name, column in pulses.items()}
@@ -101,7 +104,8 @@ class TableFile(unittest.TestCase):
         del pulses["azimuth"]
         without = self.source.query(**pulses, standard_errors=True)
         self.assertTrue(without.azimuth_absent)
-        along, across = (self.source.query(**pulses, azimuth=azimuth, standard_errors=True) for azimuth in (0, 90))
+        along, across = (self.source.query(**pulses, azimuth=azimuth, standard_errors=True)
+                         for azimuth in (0, 90))
         for name in albtpu.QUANTITIES:
             larger = np.abs(across.values[name]) > np.abs(along.values[name])
             for kind in ("values", "standard_errors"):
@@ -119,7 +123,8 @@ class TableFile(unittest.TestCase):
         answer = self.source.query(**{**PULSE, "depth": [8, 999]}, s44_order="1b", best_s44_order=True)
         p95 = self.source.query(**PULSE, coverage="p95")
         self.assertAlmostEqual(answer.remaining_thu[0], np.sqrt(5.4 ** 2 - p95.thu ** 2), 5)
-        self.assertAlmostEqual(answer.remaining_tvu[0], np.sqrt(0.5 ** 2 + (0.013 * 8) ** 2 - p95.tvu ** 2), 5)
+        tvu_limit = np.hypot(0.5, 0.013 * 8)
+        self.assertAlmostEqual(answer.remaining_tvu[0], np.sqrt(tvu_limit ** 2 - p95.tvu ** 2), 5)
         self.assertEqual(list(answer.best_s44_order), ["exclusive", ""])
         self.assertTrue(np.isnan(answer.remaining_thu[1]))
 
@@ -158,10 +163,13 @@ class TableFile(unittest.TestCase):
         def decrease(file):
             file["depth"][...] = file["depth"][:][::-1]
 
+        def attribute(of, name, value):
+            return lambda file: file[of].attrs.create(name, value)
+
         for change, problem in ((delete, "variable 'thu' is missing"), (decrease, "axis 'depth' has nodes"),
-                                (lambda file: file["tvu"].attrs.create("units", "feet"), "'tvu' is in 'feet'"),
-                                (lambda file: file["fetch"].attrs.create("interpolation", "cubic"), "'cubic'"),
-                                (lambda file: file.attrs.create("coverage", "1 sigma"), "'1 sigma'")):
+                                (attribute("tvu", "units", "feet"), "'tvu' is in 'feet'"),
+                                (attribute("fetch", "interpolation", "cubic"), "'cubic'"),
+                                (attribute("/", "coverage", "1 sigma"), "'1 sigma'")):
             path = self.folder / "changed.h5"
             shutil.copy(self.path, path)
             with h5py.File(path, "r+") as file:
