@@ -10,14 +10,14 @@ from .errors import ServiceError, TableNotFoundError, UnreachableError
 
 # The server goes, restarts or is at its limit: it may be well in a moment.
 _PASSING = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.RESOURCE_EXHAUSTED)
-_FIRST_DELAY, _LONGEST_DELAY = 0.1, 2.0  # s
+_FIRST_DELAY, _LONGEST_DELAY = 0.1, 1.0  # s
 
 
 class Retries:
     """Waits longer and longer between tries, `patience` seconds in all since the last success."""
 
-    def __init__(self, patience: float) -> None:
-        self._patience = patience
+    def __init__(self, channel: grpc.Channel, patience: float) -> None:
+        self._channel, self._patience = channel, patience
         self.succeeded()
 
     def succeeded(self) -> None:
@@ -31,9 +31,15 @@ class Retries:
         left = self._since + self._patience - time.monotonic()
         if error.code() not in _PASSING or left <= 0:
             return False
+        self._channel.subscribe(_watch, try_to_connect=True)  # gRPC connects only while somebody watches.
         time.sleep(min(self._delay, left))
+        self._channel.unsubscribe(_watch)
         self._delay = min(2 * self._delay, _LONGEST_DELAY)
         return True
+
+
+def _watch(state: grpc.ChannelConnectivity) -> None:
+    pass
 
 
 def explained(target: str, error: grpc.RpcError) -> ServiceError:

@@ -22,7 +22,8 @@ _LIMITS = {
 def limits(order: str, depth: Doubles) -> tuple[Doubles, Doubles]:
     """The greatest THU and TVU that `order` allows at `depth` in m, in m."""
     c, e, a, b = _LIMITS[order]
-    return c + e * depth, np.hypot(a, b * depth)
+    with np.errstate(invalid="ignore"):  # Pulses of infinite depth have no order either.
+        return c + e * depth, np.hypot(a, b * depth)
 
 
 def best_orders(thu: Doubles, tvu: Doubles, depth: Doubles) -> NDArray[np.uint8]:

@@ -73,12 +73,11 @@ class Service(UncertaintySource):
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
         if query.size == 0:
             return self.table(query.table).reference
-        stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout,
-                              self._patience)
-        return stream.run()
+        stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
+        return stream.run(Retries(self._channel, self._patience))
 
     def _ask(self, method: Any, request: Any) -> Any:
-        retries = Retries(self._patience)
+        retries = Retries(self._channel, self._patience)
         while True:
             try:
                 return method(request, timeout=self._timeout)

@@ -28,20 +28,19 @@ _UNDER_WAY = 4  # Batches that are sent and not answered.
 class ColumnStream:
     """Asks a server all of a query.
 
-    A server that goes away is asked again from the first batch that it left unanswered, for `patience`
-    seconds; `timeout` is how many seconds an answer may take.
+    A server that goes away is asked again from the first batch that it left unanswered; `timeout` is how many
+    seconds an answer may take.
     """
 
     def __init__(self, target: str, stub: UncertaintyServiceStub, query: Query, columns: AnswerColumns,
-                 progress: Progress, timeout: float, patience: float) -> None:
+                 progress: Progress, timeout: float) -> None:
         self._target, self._stub, self._query, self._columns = target, stub, query, columns
-        self._progress, self._timeout, self._patience = progress, timeout, patience
+        self._progress, self._timeout = progress, timeout
         self._answered = 0  # Pulses.
         self._table: TableReference | None = None
 
-    def run(self) -> TableReference:
+    def run(self, retries: Retries) -> TableReference:
         """Returns the table that answered all pulses, at least one; raises ServiceError."""
-        retries = Retries(self._patience)
         while self._answered < self._query.size:
             before = self._answered
             try:
