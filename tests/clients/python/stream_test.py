@@ -19,7 +19,7 @@ from albtpu.uncertainties import AnswerColumns
 from fake_service import FakeService, Running
 
 TABLE = sys.argv[1]
-BATCH = 65536
+BATCH = 32768
 PULSES = 3 * BATCH + 100
 DEPTHS = np.linspace(0, 25, PULSES)  # The deepest are out of domain.
 PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5)
@@ -73,24 +73,24 @@ class Stream(unittest.TestCase):
         self.assertEqual(len(np.unique(answer.thu)), 1)
 
     def test_stays_a_few_batches_ahead_of_the_answers_and_no_more(self):
-        fourth_is_sent = threading.Event()
+        eighth_is_sent = threading.Event()
         leads, answered = [], []
 
         class Watched(Query):
             def batch(self, begin, end):
                 leads.append(begin // BATCH - len(answered))
-                if begin == 3 * BATCH:
-                    fourth_is_sent.set()
+                if begin == 7 * BATCH:
+                    eighth_is_sent.set()
                 return super().batch(begin, end)
 
-        _, running = self.run_service(lambda *_: fourth_is_sent.wait())
+        _, running = self.run_service(lambda *_: eighth_is_sent.wait())
         pulses = {axis: np.float64([number]) for axis, number in PULSE.items()}
         query = Watched((12 * BATCH,), pulses, {**pulses, "depth": np.zeros(12 * BATCH)}, ("thu",), "2sigma",
                         False, None, False, None)
         client = self.connect(running)
         client._answer(query, AnswerColumns.for_query(query), answered.append)
         self.assertEqual(len(leads), 12)
-        self.assertEqual(max(leads), 3)
+        self.assertEqual(max(leads), 7)
 
     def test_goes_on_where_a_server_left_off(self):
         def abort_once(service, request, context):
@@ -124,7 +124,7 @@ class Stream(unittest.TestCase):
                 service.digest = "0" * 64
 
         _, running = self.run_service(reload)
-        problem = "table fake changed from digest .* to 0000.* after 65536 of"
+        problem = "table fake changed from digest .* to 0000.* after 32768 of"
         with self.assertRaisesRegex(albtpu.TableChangedError, problem):
             self.connect(running).query(**PULSE, depth=DEPTHS)
 
@@ -148,7 +148,7 @@ class Stream(unittest.TestCase):
             return message
 
         service.answer = shortened
-        with self.assertRaisesRegex(albtpu.ServiceError, "65536 pulses with a column of 262140 bytes"):
+        with self.assertRaisesRegex(albtpu.ServiceError, "32768 pulses with a column of 131068 bytes"):
             self.connect(running).query(**PULSE, depth=DEPTHS)
 
     def test_refuses_a_stream_that_ends_early(self):

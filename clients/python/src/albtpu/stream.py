@@ -21,8 +21,8 @@ from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
-_BATCH = 65536  # Pulses; the most that a message takes.
-_UNDER_WAY = 4  # Batches that are sent and not answered.
+_BATCH = 32768  # Pulses: a message takes twice as many, and then waits longer for both sides.
+_UNDER_WAY = 8  # Batches that are sent and not answered.
 
 
 class ColumnStream:
