@@ -12,8 +12,8 @@ namespace albtpu::bench {
 // The columns that are asked for: both refractions, THU and TVU.
 inline constexpr std::size_t kAskedQuantities = 4;
 
-// One wind for all, a fully developed sea; incidence, azimuth, footprint and depth of each pulse, in the order
-// of a circular scan of 400 pulses over a sloping, rough bottom. All within the table `survey`.
+// One wind for all, a fully developed sea; incidence, azimuth, footprint and depth of each pulse, in the
+// order of a circular scan of 400 pulses over a sloping, rough bottom. All within the table `survey`.
 class FlightLine {
  public:
   explicit FlightLine(std::size_t pulse_count);

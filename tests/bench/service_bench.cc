@@ -2,22 +2,17 @@
 // service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
 //               [--seconds S] [--beside N]
 //
-// Asks a server for a time, checks the first answers against the table, and prints one JSON object: pulses and
-// calls a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+// Asks a server for a time, checks the answers against the table, and prints one JSON object: pulses and calls
+// a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <fstream>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/answer_reader.h"
@@ -26,12 +21,11 @@
 #include "service/kept_memory.h"
 #include "tables/table_io.h"
 #include "tests/bench/flight_line.h"
+#include "tests/bench/load_record.h"
 #include "tests/bench/raw_peer.h"
 
 namespace albtpu::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Of a flight line: some megabytes, so that columns come from memory as those of a survey do.
 constexpr std::size_t kBatches = 16;
@@ -43,63 +37,6 @@ struct Options {
   int callers = 2, in_flight = 64, beside = 0;
   double seconds = 2;
 };
-
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-double OwnProcessorTime() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-// utime and stime, by proc(5), in clock ticks.
-double ProcessorTimeOf(int pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string word;
-  std::getline(file, word, ')');
-  for (int field = 3; field < 14; ++field) file >> word;
-  double user = 0, system = 0;
-  file >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-// What all callers did, and until when they go on.
-class Record {
- public:
-  explicit Record(double seconds) : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                           std::chrono::duration<double>(seconds))) {}
-
-  bool going_on() const { return Clock::now() < end_; }
-
-  void Add(std::size_t pulses, const std::vector<double>& latencies) {
-    const std::lock_guard lock(mutex_);
-    pulses_ += pulses;
-    latencies_.insert(latencies_.end(), latencies.begin(), latencies.end());
-  }
-
-  std::size_t pulses() const { return pulses_; }
-  std::size_t calls() const { return latencies_.size(); }
-  double Latency(double quantile) {
-    if (latencies_.empty()) return 0;
-    const auto nth = latencies_.begin() +
-                     static_cast<std::ptrdiff_t>(quantile * static_cast<double>(latencies_.size() - 1));
-    std::nth_element(latencies_.begin(), nth, latencies_.end());
-    return *nth;
-  }
-
- private:
-  const Clock::time_point end_;
-  std::mutex mutex_;
-  std::size_t pulses_ = 0;
-  std::vector<double> latencies_;
-};
-
-void Check(bool good, const std::string& what) {
-  if (good) return;
-  std::cerr << "service_bench: " << what << "\n";
-  std::exit(1);
-}
 
 // One caller: asks again and again. `ask(pulses, answers)` is called for the line in batches of `batch`.
 template <typename Ask>
@@ -116,8 +53,7 @@ void AskInTurn(Record& record, const FlightLine& line, AnswerMemory& answers, st
 }
 
 std::unique_ptr<v1::UncertaintyService::Stub> StubTo(const std::string& address) {
-  return v1::UncertaintyService::NewStub(
-      grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+  return v1::UncertaintyService::NewStub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
 }
 
 class Load {
@@ -326,7 +262,8 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
 int Main(int argc, char** argv) {
   Options options;
   CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
-  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")->required();
+  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")
+      ->required();
   app.add_option("--table", options.table, "The table that answers")->required();
   app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
   app.add_option("--server-pid", options.server_pid, "Whose processor time to count");
