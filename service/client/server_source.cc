@@ -60,8 +60,8 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  absl::Status status = FromServer(
-      address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
+  absl::Status status =
+      FromServer(address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
   if (!status.ok()) return status;
   return FromWire(response.table());
 }
@@ -93,10 +93,10 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
     if (answered > before) retries = 0;
     if (!MayPass(status)) return FromServer(address_, status);
     if (retries == patience_.retries) {
-      return FromServer(address_,
-                        absl::Status(status.code(), absl::StrCat(status.message(), " (asked again ", retries,
-                                                                 " times, after ", answered, " of ",
-                                                                 pulses.size, " pulses)")));
+      return FromServer(
+          address_, absl::Status(status.code(),
+                                 absl::StrCat(status.message(), " (asked again ", retries, " times, after ",
+                                              answered, " of ", pulses.size, " pulses)")));
     }
     std::this_thread::sleep_for(patience_.first_pause * (1 << retries++));
   }
@@ -108,8 +108,8 @@ absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& ad
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::ListTablesResponse response;
-  absl::Status status = FromServer(
-      address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
+  absl::Status status =
+      FromServer(address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
   if (!status.ok()) return status;
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {

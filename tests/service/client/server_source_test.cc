@@ -52,7 +52,8 @@ PulseMemory MixedPulses(std::size_t count) {
   PulseMemory pulses;
   for (std::size_t i = 0; i < count; ++i) {
     const float depth = random() % 50 == 0 ? std::numeric_limits<float>::quiet_NaN() : draw(-1, 21);
-    pulses.Add({draw(2.5f, 10.5f), draw(900, 200000), draw(-1, 27), draw(-400, 400), draw(0.2f, 2.1f), depth});
+    pulses.Add(
+        {draw(2.5f, 10.5f), draw(900, 200000), draw(-1, 27), draw(-400, 400), draw(0.2f, 2.1f), depth});
   }
   return pulses;
 }
