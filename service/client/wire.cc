@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,6 +57,10 @@ absl::Status Copy(const v1::SeaSurfaceColumns& message, std::size_t count,
     status.Update(Copy(*bytes[i], Describe(quantity).name.data(), count, columns[i]));
   }
   return status;
+}
+
+void FillWithNaN(std::size_t count, float* column) {
+  if (column != nullptr) std::fill_n(column, count, std::numeric_limits<float>::quiet_NaN());
 }
 
 // Axes count from 1 on the wire, where 0 is none.
@@ -124,8 +129,13 @@ absl::Status FromWire(const v1::QueryColumnsResponse& response, const Query& que
   status.Update(Copy(response.sea_surface(), pulse_count, answers.values));
   status.Update(Copy(response.sea_surface_standard_error(), pulse_count, answers.standard_errors));
   status.Update(Copy(response.s44().best_orders(), "best_orders", pulse_count, answers.best_s44_orders));
-  status.Update(Copy(response.s44().remaining_thu(), "remaining_thu", pulse_count, answers.remaining_thu));
-  status.Update(Copy(response.s44().remaining_tvu(), "remaining_tvu", pulse_count, answers.remaining_tvu));
+  if (query.s44_order.has_value()) {
+    status.Update(Copy(response.s44().remaining_thu(), "remaining_thu", pulse_count, answers.remaining_thu));
+    status.Update(Copy(response.s44().remaining_tvu(), "remaining_tvu", pulse_count, answers.remaining_tvu));
+  } else {  // Not asked for: nothing remains of no order.
+    FillWithNaN(pulse_count, answers.remaining_thu);
+    FillWithNaN(pulse_count, answers.remaining_tvu);
+  }
   return status;
 }
 
