@@ -58,22 +58,28 @@ HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   return lower;
 }
 
-HWY_INLINE V Fraction(const AxisLookup::Nodes& axis, V x, VI lower) {
-  const V from = hn::GatherIndex(d, axis.nodes.data(), lower);
-  const V to = hn::GatherIndex(d, axis.nodes.data() + 1, lower);
-  const V way = hn::Sub(x, from);
-  if (axis.inverse_log_widths.empty()) return hn::Div(way, hn::Sub(to, from));
-  const V inverse_width = hn::GatherIndex(d, axis.inverse_log_widths.data(), lower);
-  const V fraction = hn::Mul(hn::Log1p(d, hn::Div(way, from)), inverse_width);
+// Between two nodes, for each coordinate.
+struct Interval {
+  V from, to;
+  V inverse_log_width;  // on a log scale
+};
+
+HWY_INLINE V Fraction(const Interval& interval, bool log, V x) {
+  const V way = hn::Sub(x, interval.from);
+  if (!log) return hn::Div(way, hn::Sub(interval.to, interval.from));
+  const V fraction = hn::Mul(hn::Log1p(d, hn::Div(way, interval.from)), interval.inverse_log_width);
   const V one = hn::Set(d, 1.0f);
-  return hn::IfThenElse(hn::Eq(x, to), one, hn::Min(fraction, one));
+  return hn::IfThenElse(hn::Eq(x, interval.to), one, hn::Min(fraction, one));
 }
 
 void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count,
                  std::int32_t step, std::int32_t* rows, float* fractions, std::int32_t* codes) {
-  const bool one_node = axis.nodes.size() == 1;
+  const bool one_node = axis.nodes.size() == 1, log = !axis.inverse_log_widths.empty();
   const V first = hn::Set(d, axis.nodes.front()), last = hn::Set(d, axis.nodes.back());
   const VI invalid = hn::Set(di, axis.axis), outside = hn::Set(di, outcome_code::kOutside + axis.axis);
+  // The interval of the coordinates before: along a flight line often that of the next ones, all of them.
+  VI lower = hn::Zero(di);
+  Interval interval{hn::Zero(d), hn::Zero(d), hn::Zero(d)};  // empty
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V coordinate = hn::LoadU(d, coordinates + i);
     auto valid = hn::IsFinite(coordinate);
@@ -93,9 +99,14 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
       continue;
     }
     x = hn::IfThenElse(inside, x, first);
-    const VI lower = LowerNode(axis, x);
+    if (!hn::AllTrue(d, hn::And(hn::Ge(x, interval.from), hn::Lt(x, interval.to)))) {
+      lower = LowerNode(axis, x);
+      interval.from = hn::GatherIndex(d, axis.nodes.data(), lower);
+      interval.to = hn::GatherIndex(d, axis.nodes.data() + 1, lower);
+      if (log) interval.inverse_log_width = hn::GatherIndex(d, axis.inverse_log_widths.data(), lower);
+    }
     hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(lower, hn::Set(di, step))), di, rows + i);
-    hn::StoreU(Fraction(axis, x, lower), d, fractions + i);
+    hn::StoreU(Fraction(interval, log, x), d, fractions + i);
   }
 }
 
