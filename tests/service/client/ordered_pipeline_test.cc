@@ -77,7 +77,7 @@ TEST(OrderedPipeline, HoldsAFewChunksAtATime) {
       });
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(written, 1000);
-  EXPECT_LE(most, oneapi::tbb::info::default_concurrency() + 3);
+  EXPECT_LE(most, kMostWorkers + 3);
 }
 
 }  // namespace
