@@ -72,8 +72,9 @@ class Run {
         return made;
       }
       if (!absl::IsNotFound(made) && run_.existing == Existing::kKeep) {
-        return absl::Status(made.code(), absl::StrCat(made.message(), ": --overwrite it, or choose another "
-                                                                      "name"));
+        return absl::Status(made.code(), absl::StrCat(made.message(),
+                                                      ": --overwrite it, or choose another "
+                                                      "name"));
       }
     }
     if (absl::Status status = CheckSummaryCanBeWritten(job, run_.existing); !status.ok()) return status;

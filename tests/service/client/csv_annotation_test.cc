@@ -189,9 +189,8 @@ TEST_F(CsvAnnotation, DoesNotWriteOverItsInput) {
 }
 
 TEST_F(CsvAnnotation, RefusesAnInputThatChangesWhileItIsRead) {
-  albtpu::testing::DisturbedSource source(source_, [&] {
-    std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n";
-  });
+  albtpu::testing::DisturbedSource source(
+      source_, [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
   const std::filesystem::path input = folder_.Write("in.csv", std::string(kHeader) + "\n5,,12,,.6,7\n");
   Progress progress("pulses", 1, 0);
   const auto status =

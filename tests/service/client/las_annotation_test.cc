@@ -273,7 +273,8 @@ TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
     }
     if (random() % 8 == 0) damaged.resize(random() % file.size());
     const std::filesystem::path input = folder_.Write("in.las", damaged);
-    const auto annotated = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_, progress_);
+    const auto annotated =
+        AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_, progress_);
     EXPECT_THAT(std::string(annotated.status().message()), AnyOf("", HasSubstr("in.las: ")));
   }
   EXPECT_EQ(folder_.file_count(), 1u);
@@ -283,8 +284,8 @@ TEST_F(LasAnnotationTest, RefusesAnInputThatChangesWhileItIsRead) {
   const std::string file = BuildLas(Spec(4, 6));
   for (const std::size_t size : {file.size(), file.size() - 1, file.size() + 1}) {
     const std::filesystem::path input = folder_.Write("in.las", file);
-    std::filesystem::last_write_time(input, std::filesystem::file_time_type::clock::now() -
-                                                std::chrono::seconds(9));
+    std::filesystem::last_write_time(input,
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::seconds(9));
     albtpu::testing::DisturbedSource source(source_, [&] {
       std::string changed = file;
       changed.resize(size);
@@ -299,7 +300,8 @@ TEST_F(LasAnnotationTest, RefusesAnInputThatChangesWhileItIsRead) {
 
 TEST_F(LasAnnotationTest, LeavesNothingWhenTheSourceFails) {
   const std::filesystem::path input = folder_.Write("in.las", BuildLas(Spec(4, 6)));
-  albtpu::testing::DisturbedSource source(source_, [] {}, absl::UnavailableError("gone"));
+  albtpu::testing::DisturbedSource source(
+      source_, [] {}, absl::UnavailableError("gone"));
   const auto status =
       AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
   EXPECT_EQ(status, absl::UnavailableError("gone"));

@@ -22,23 +22,23 @@ struct Outcome {
 Outcome Double(int count, int bad_read, int bad_work, int bad_write) {
   Outcome outcome;
   int next = 0;
-  outcome.status = RunOrderedPipeline(
-      [] { return Number(); },
-      [&](Number& number) -> absl::StatusOr<bool> {
-        if (next == bad_read) return absl::DataLossError("read");
-        number.value = next++;
-        return number.value < count;
-      },
-      [&](Number& number) {
-        if (number.value == bad_work) return absl::UnavailableError("work");
-        number.value *= 2;
-        return absl::OkStatus();
-      },
-      [&](Number& number) {
-        if (number.value == 2 * bad_write) return absl::ResourceExhaustedError("write");
-        outcome.written.push_back(number.value);
-        return absl::OkStatus();
-      });
+  outcome.status = RunOrderedPipeline([] { return Number(); },
+                                      [&](Number& number) -> absl::StatusOr<bool> {
+                                        if (next == bad_read) return absl::DataLossError("read");
+                                        number.value = next++;
+                                        return number.value < count;
+                                      },
+                                      [&](Number& number) {
+                                        if (number.value == bad_work) return absl::UnavailableError("work");
+                                        number.value *= 2;
+                                        return absl::OkStatus();
+                                      },
+                                      [&](Number& number) {
+                                        if (number.value == 2 * bad_write)
+                                          return absl::ResourceExhaustedError("write");
+                                        outcome.written.push_back(number.value);
+                                        return absl::OkStatus();
+                                      });
   return outcome;
 }
 

@@ -23,7 +23,7 @@ const Pulse kPulse = {.wind_speed = 5, .incidence = 12.5f, .azimuth = 30.0f, .fo
 class PulseTextTest : public ::testing::Test {
  protected:
   PulseAnswer Ask(const Pulse& pulse) {
-    FixedCoordinates fixed = {pulse.wind_speed, {},  pulse.incidence, pulse.azimuth,
+    FixedCoordinates fixed = {pulse.wind_speed, {},         pulse.incidence, pulse.azimuth,
                               pulse.footprint,  pulse.depth};
     return AskPulse(fixed, style_, source_).value();
   }
