@@ -31,8 +31,8 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
     Chunk chunk;
     absl::Status status;
   };
-  // More threads than cores: some wait for a disk or a server. Not many: one disk feeds them all, and each has
-  // a chunk in memory.
+  // More threads than cores: some wait for a disk or a server. Not many: one disk feeds them all, and each
+  // has a chunk in memory.
   const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMostWorkers) + 2;
   std::vector<Slot> slots;
   for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
