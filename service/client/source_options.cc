@@ -74,8 +74,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOption
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   if (!options.file.empty()) return OpenFile("", options.file);
   if (!options.server.empty()) {
-    absl::StatusOr<std::unique_ptr<ServerSource>> source =
-        ServerSource::Open(options.server, options.name);
+    absl::StatusOr<std::unique_ptr<ServerSource>> source = ServerSource::Open(options.server, options.name);
     if (!source.ok()) return source.status();
     return std::unique_ptr<UncertaintySource>(*std::move(source));
   }
