@@ -86,14 +86,14 @@ class UncertaintyServiceServicer(object):
         raise NotImplementedError('Method not implemented!')
 
     def StreamColumns(self, request_iterator, context):
-        """Many queries of `QueryColumns` in one call: one answer for each request, in the order of the requests. For
-        files and whole surveys; each request has the limits of `QueryColumns` and may ask for another table or
+        """Many queries of `QueryColumns` in one call: one answer for each request, in the order of the requests.
+        For files and whole surveys; each request has the limits of `QueryColumns` and may ask for another table or
         other columns than the one before.
 
-        Keep a few requests (four, say) ahead of the answers, so that neither side waits for the other. The server
-        reads a request only when the answer before it is on its way: a caller that does not read its answers is
-        not read either. Each answer names its table by digest: a caller that wants all of its pulses from one
-        table compares them.
+        Keep a few requests (four, say) ahead of the answers, so that neither side waits for the other, and read
+        while you write: the server holds two requests of a stream and one answer at most, so that a caller that
+        does not read its answers is soon not read either. Each answer names its table by digest: a caller that
+        wants all of its pulses from one table compares them.
 
         Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that
         `QueryColumns` would give; the answers of the requests before it are sent first, those after it are not
