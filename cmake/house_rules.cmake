@@ -8,6 +8,20 @@ function(albtpu_target target)
   endif()
 endfunction()
 
+# Kernels that are compiled once for each of Highway's instruction sets but AVX-512 and those without a fixed
+# width, and chosen when the program runs: albtpu_kernels(NAME PRIVATE|PUBLIC) is called for each target that has or
+# tests any.
+function(albtpu_kernels target scope)
+  target_compile_definitions(${target} ${scope}
+    "HWY_DISABLED_TARGETS=(HWY_AVX3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+  # Highway's NEON is with the cryptographic instructions; compiled for less, the members that g++ makes by itself
+  # cannot hold its vectors.
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    target_compile_options(${target} PRIVATE -march=armv8-a+crypto)
+  endif()
+  target_link_libraries(${target} ${scope} hwy::hwy)
+endfunction()
+
 # A GoogleTest program of one source file or more, registered with CTest under one label.
 #   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
 function(albtpu_test name label)

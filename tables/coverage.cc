@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kOutside = 0.05;  // What a 95 % interval or radius leaves out.
 
-// The 97.5 % quantile of the standard normal distribution, over 2: from 2 sigma to 95 % in one dimension.
-constexpr double kFactor95 = 1.959963984540054 / 2;
-
 // The probability that a centred normal point with standard deviations 1 and `axis_ratio` lies farther out
 // than `radius`, and its derivative by the radius. With x = rho cos t, y = axis_ratio rho sin t the point has
 // a Rayleigh distributed rho and a uniform t, so the probability is the mean over t of exp(-radius^2 / (2
@@ -76,6 +73,12 @@ double RadiusFactor95(double axis_ratio) {
 double RadiusOverThu(const std::array<float, kQuantityCount>& values) {
   return RadiusFactor95(AxisRatio(values[Index(Quantity::kRefractionAlongWind)],
                                   values[Index(Quantity::kRefractionCrossWind)]));
+}
+
+double LargerRadiusOverThu(double thu_a, double radius_over_thu_a, double thu_b, double radius_over_thu_b) {
+  const double radius_a = radius_over_thu_a * thu_a, radius_b = radius_over_thu_b * thu_b;
+  if (thu_a >= thu_b) return radius_a >= radius_b ? radius_over_thu_a : radius_b / thu_a;
+  return radius_b >= radius_a ? radius_over_thu_b : radius_a / thu_b;
 }
 
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage) {

@@ -21,6 +21,12 @@ double RadiusFactor95(double axis_ratio);
 // the along and cross refraction, their correlation neglected.
 double RadiusOverThu(const std::array<float, kQuantityCount>& values);
 
+// The larger of two 95 % radii over the larger of their THU: what stands for both azimuths, a and b.
+double LargerRadiusOverThu(double thu_a, double radius_over_thu_a, double thu_b, double radius_over_thu_b);
+
+// The 97.5 % quantile of the standard normal distribution, over 2: from 2 sigma to 95 % in one dimension.
+inline constexpr double kFactor95 = 1.959963984540054 / 2;
+
 // The values and standard errors of `uncertainty`, given at 2 sigma, restated; THU by its `radius_over_thu`.
 // Biases are means and stay.
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage);

@@ -111,14 +111,6 @@ const PulseUncertainty& WorseOutcome(const PulseUncertainty& a, const PulseUncer
   return a.axis <= b.axis ? a : b;
 }
 
-// The larger 95 % radius of the two, over their larger THU.
-double LargerRadiusOverThu(const PulseUncertainty& a, const PulseUncertainty& b) {
-  const double thu_a = a[Quantity::kThu], thu_b = b[Quantity::kThu];
-  const double radius_a = a.radius_over_thu * thu_a, radius_b = b.radius_over_thu * thu_b;
-  if (thu_a >= thu_b) return radius_a >= radius_b ? a.radius_over_thu : radius_b / thu_a;
-  return radius_b >= radius_a ? b.radius_over_thu : radius_a / thu_b;
-}
-
 }  // namespace
 
 PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse) {
@@ -147,7 +139,8 @@ PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertain
     larger.values[i] = crosswind.values[i];
     larger.standard_errors[i] = crosswind.standard_errors[i];
   }
-  larger.radius_over_thu = LargerRadiusOverThu(downwind, crosswind);
+  larger.radius_over_thu = LargerRadiusOverThu(downwind[Quantity::kThu], downwind.radius_over_thu,
+                                               crosswind[Quantity::kThu], crosswind.radius_over_thu);
   return larger;
 }
 

@@ -21,26 +21,37 @@ double AcrossTrackAzimuth(double flight_direction, double wind_from, double scan
   return beam - downwind;
 }
 
-Pulse FlightLine::At(double z, double scan_angle) const {
-  Pulse pulse;
-  pulse.wind_speed = wind_speed;
-  if (fetch.has_value()) pulse.fetch = *fetch;
-  pulse.incidence = static_cast<float>(std::abs(scan_angle));
-  pulse.depth = static_cast<float>((water_level - z) * metres_per_unit);
+void FlightLine::MakePulses(std::span<const double> z, std::span<const double> scan_angles,
+                            PulseBatch& pulses) const {
+  const auto column_of = [](std::span<const double> values, auto convert, std::vector<float>& column) {
+    column.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) column[i] = static_cast<float>(convert(values[i]));
+  };
+  pulses.size = z.size();
+  pulses[AxisId::kWindSpeed].assign(1, wind_speed);
+  pulses[AxisId::kFetch].assign(fetch.has_value() ? 1 : 0, fetch.value_or(0));
+  column_of(
+      scan_angles, [](double angle) { return std::abs(angle); }, pulses[AxisId::kIncidence]);
+  column_of(
+      z, [this](double height) { return (water_level - height) * metres_per_unit; }, pulses[AxisId::kDepth]);
   if (const auto* given = std::get_if<float>(&footprint)) {
-    pulse.footprint = *given;
+    pulses[AxisId::kFootprint].assign(1, *given);
   } else {
-    const auto& beam = std::get<DivergingBeam>(footprint);
-    pulse.footprint =
-        static_cast<float>(FootprintDiameter(beam.altitude, beam.divergence, std::abs(scan_angle)));
+    const DivergingBeam beam = std::get<DivergingBeam>(footprint);
+    column_of(
+        scan_angles,
+        [beam](double angle) { return FootprintDiameter(beam.altitude, beam.divergence, std::abs(angle)); },
+        pulses[AxisId::kFootprint]);
   }
+  pulses[AxisId::kAzimuth].clear();
   if (const auto* given = std::get_if<float>(&azimuth)) {
-    pulse.azimuth = *given;
+    pulses[AxisId::kAzimuth].assign(1, *given);
   } else if (const auto* scan = std::get_if<AcrossTrackScan>(&azimuth)) {
-    pulse.azimuth =
-        static_cast<float>(AcrossTrackAzimuth(scan->flight_direction, scan->wind_from, scan_angle));
+    column_of(
+        scan_angles,
+        [scan](double angle) { return AcrossTrackAzimuth(scan->flight_direction, scan->wind_from, angle); },
+        pulses[AxisId::kAzimuth]);
   }
-  return pulse;
 }
 
 }  // namespace albtpu::client

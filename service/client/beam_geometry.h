@@ -2,9 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <variant>
 
-#include "tables/interpolation.h"
+#include "service/client/batch.h"
 
 namespace albtpu::client {
 
@@ -37,9 +38,9 @@ struct FlightLine {
   std::variant<float, DivergingBeam> footprint;                  // m, or computed.
   std::variant<std::monostate, float, AcrossTrackScan> azimuth;  // Absent, degree, or computed.
 
-  // Incidence is |scan_angle| [degree], depth the water level minus `z` (in the file's unit), each rounded
-  // once to single precision.
-  Pulse At(double z, double scan_angle) const;
+  // The pulses of points at heights `z` (in the file's unit) that were seen at `scan_angles` [degree], as
+  // many. Incidence is |scan angle|, depth the water level minus z, each rounded once to single precision.
+  void MakePulses(std::span<const double> z, std::span<const double> scan_angles, PulseBatch& pulses) const;
 };
 
 }  // namespace albtpu::client

@@ -1,5 +1,6 @@
 #include "service/client/csv_pulses.h"
 
+#include <limits>
 #include <set>
 
 #include "absl/strings/ascii.h"
@@ -53,33 +54,10 @@ absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vect
 
 }  // namespace
 
-void SetCoordinate(AxisId axis, float value, Pulse& pulse) {
-  switch (axis) {
-    case AxisId::kWindSpeed:
-      pulse.wind_speed = value;
-      return;
-    case AxisId::kFetch:
-      pulse.fetch = value;
-      return;
-    case AxisId::kIncidence:
-      pulse.incidence = value;
-      return;
-    case AxisId::kAzimuth:
-      pulse.azimuth = value;
-      return;
-    case AxisId::kFootprint:
-      pulse.footprint = value;
-      return;
-    case AxisId::kDepth:
-      pulse.depth = value;
-      return;
-  }
-}
-
-Pulse PulseAt(const FixedCoordinates& fixed) {
-  Pulse pulse;
+PulseBatch OnePulse(const FixedCoordinates& fixed) {
+  PulseBatch pulse{.size = 1, .axis = {}};
   for (const AxisId axis : kAxes) {
-    if (fixed[Index(axis)].has_value()) SetCoordinate(axis, *fixed[Index(axis)], pulse);
+    if (fixed[Index(axis)].has_value()) pulse[axis].assign(1, *fixed[Index(axis)]);
   }
   return pulse;
 }
@@ -114,27 +92,54 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvReco
   return pulses;
 }
 
-absl::StatusOr<Pulse> CsvPulses::Read(const CsvRecord& record) const {
+void CsvPulses::Clear(CsvPulseBatches& batches) const {
+  for (PulseBatch* batch : {&batches.with_azimuth, &batches.without_azimuth}) {
+    batch->size = 0;
+    for (const AxisId axis : kAxes) {
+      (*batch)[axis].clear();
+      if (fixed_[Index(axis)].has_value()) (*batch)[axis].push_back(*fixed_[Index(axis)]);
+    }
+  }
+}
+
+absl::StatusOr<std::optional<float>> CsvPulses::Number(const CsvRecord& record, AxisId axis) const {
+  const std::size_t column = *columns_[Index(axis)];
+  const std::string_view raw = record.RawCell(column);
+  const bool quoted = !raw.empty() && raw.front() == '"';
+  const std::string unquoted = quoted ? record.Cell(column) : "";
+  const absl::string_view cell = absl::StripAsciiWhitespace(
+      quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
+  if (cell.empty() && MayBeAbsent(axis)) return std::nullopt;
+  const std::optional<float> value = ParseFloat(std::string_view(cell.data(), cell.size()));
+  if (value.has_value()) return value;
+  return absl::InvalidArgumentError(absl::StrCat(
+      name_, " line ", record.line, ", column '", std::string(Describe(axis).name),
+      "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
+      ": write a number in ", std::string(Describe(axis).units), ", such as 12.5"));
+}
+
+absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches& batches) const {
   if (record.cell_count() != column_count_) {
     return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": ", record.cell_count(),
                                                    " cells under a header of ", column_count_,
                                                    ": one cell a column is right"));
   }
-  Pulse pulse = PulseAt(fixed_);
+  bool has_azimuth = fixed_[Index(AxisId::kAzimuth)].has_value();
+  std::array<float, kAxisCount> numbers;
   for (const AxisId axis : kAxes) {
     if (!columns_[Index(axis)].has_value()) continue;
-    const std::string cell = Trimmed(record.Cell(*columns_[Index(axis)]));
-    if (cell.empty() && MayBeAbsent(axis)) continue;
-    const std::optional<float> value = ParseFloat(cell);
-    if (!value.has_value()) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          name_, " line ", record.line, ", column '", std::string(Describe(axis).name),
-          "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-          ": write a number in ", std::string(Describe(axis).units), ", such as 12.5"));
-    }
-    SetCoordinate(axis, *value, pulse);
+    const absl::StatusOr<std::optional<float>> number = Number(record, axis);
+    if (!number.ok()) return number.status();
+    if (axis == AxisId::kAzimuth) has_azimuth = number->has_value();
+    numbers[Index(axis)] = number->value_or(std::numeric_limits<float>::infinity());  // Of the fetch.
   }
-  return pulse;
+  PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
+  ++batch.size;
+  for (const AxisId axis : kAxes) {
+    if (!columns_[Index(axis)].has_value() || (axis == AxisId::kAzimuth && !has_azimuth)) continue;
+    batch[axis].push_back(numbers[Index(axis)]);
+  }
+  return has_azimuth;
 }
 
 }  // namespace albtpu::client

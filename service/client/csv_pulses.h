@@ -6,15 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "service/client/batch.h"
 #include "service/client/csv_reader.h"
-#include "tables/interpolation.h"
 #include "tables/schema.h"
 
 namespace albtpu::client {
 
 // Coordinates given once for all pulses, by axis.
 using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
+
+// Pulses of one file. Those with an azimuth and those without are asked about apart: a column has all or
+// none.
+struct CsvPulseBatches {
+  PulseBatch with_azimuth, without_azimuth;
+};
 
 class CsvPulses {
  public:
@@ -23,10 +30,16 @@ class CsvPulses {
                                         const FixedCoordinates& fixed,
                                         const std::vector<std::string>& appended);
 
-  absl::StatusOr<Pulse> Read(const CsvRecord& record) const;
+  // Empties the batches but for what is alike for all pulses.
+  void Clear(CsvPulseBatches& batches) const;
+
+  // Appends a record's pulse to one of the batches; true when it has an azimuth.
+  absl::StatusOr<bool> Append(const CsvRecord& record, CsvPulseBatches& batches) const;
 
  private:
   CsvPulses() = default;
+
+  absl::StatusOr<std::optional<float>> Number(const CsvRecord& record, AxisId axis) const;
 
   std::string name_;
   std::size_t column_count_ = 0;
@@ -34,16 +47,14 @@ class CsvPulses {
   FixedCoordinates fixed_;
 };
 
-// Sets one coordinate. Fetch and azimuth may be left unset: a fully developed sea, no azimuth.
-void SetCoordinate(AxisId axis, float value, Pulse& pulse);
-
-// The pulse of fixed coordinates alone, those that are absent left as `Pulse` has them.
-Pulse PulseAt(const FixedCoordinates& fixed);
+// The one pulse of fixed coordinates alone; fetch and azimuth may be absent.
+PulseBatch OnePulse(const FixedCoordinates& fixed);
 
 // The flag that gives a coordinate once for all: `--wind-speed`.
 std::string FlagName(AxisId axis);
 
-// True for fetch and azimuth, whose absence has a meaning.
+// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, the worse of along and
+// across.
 constexpr bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId::kAzimuth; }
 
 }  // namespace albtpu::client

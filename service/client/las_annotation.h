@@ -2,16 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <set>
 
 #include "absl/status/statusor.h"
-#include "service/client/answer_columns.h"
+#include "service/client/answer_style.h"
 #include "service/client/beam_geometry.h"
-#include "service/client/las_summary.h"
+#include "service/client/las_classes.h"
 #include "service/client/output_file.h"
+#include "service/client/progress.h"
 #include "service/client/uncertainty_source.h"
-#include "tables/table_io.h"
+#include "service/client/uncertainty_summary.h"
 
 namespace albtpu::client {
 
@@ -24,15 +24,19 @@ struct LasAnnotation {
 
 struct AnnotatedLas {
   int point_format = 0;
-  LasSummary summary;
+  std::uint64_t input_bytes = 0;
+  LasClassCounts classes;
+  UncertaintySummary summary;
   OutputFile file;  // Whole, but not under its name before Commit().
 };
 
-// Points of other classes, and those without an interpolated answer, get no-data. Memory does not grow with
-// the file. Fails, leaving nothing, for all that LasReader, AnnotatedHead and the source refuse, when the
-// output is the input, and when the coordinate system is in feet and no unit is given.
+// Points of other classes, and those without an interpolated answer, get no-data. Reads, asks and writes at
+// the same time; memory does not grow with the file. Fails, leaving nothing, for all that LasReader,
+// AnnotatedHead and the source refuse, when the output is the input, when the coordinate system is in feet
+// and no unit is given, and when somebody writes to the input meanwhile.
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
-                                         const LasAnnotation& annotation, UncertaintySource& source);
+                                         const LasAnnotation& annotation, UncertaintySource& source,
+                                         Progress& progress);
 
 }  // namespace albtpu::client

@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "service/client/annotation_run.h"
 #include "service/client/commands.h"
 #include "service/client/exit_status.h"
 #include "service/client/las_annotation.h"
@@ -22,37 +22,37 @@ std::string ClassHint(const Job& job, const LasOptions& options, const Annotated
                                            ", whose classes end at ", kLegacyClassMask)
                             : "",
                       ": name the bathymetric ones of this file by --classes (it has ",
-                      annotated.summary.ClassesText(), ")");
+                      annotated.classes.Text(), ")");
 }
 
-// Whether later files can fare better than this one did.
-bool IsOfOneFile(const absl::Status& status) {
-  return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status);
-}
-
-// The files of one run, one after the other.
-class Annotator {
+class LasFiles {
  public:
-  Annotator(const LasOptions& options, const LasAnnotation& annotation, UncertaintySource& source)
+  LasFiles(const LasOptions& options, const LasAnnotation& annotation, UncertaintySource& source)
       : options_(options), annotation_(annotation), source_(source) {}
 
-  absl::Status Annotate(const Job& job) {
+  absl::StatusOr<AnnotatedFile> Annotate(const Job& job, Progress& progress) {
     absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(job.input, job.output, options_.shared.existing, annotation_, source_);
+        AnnotateLas(job.input, job.output, options_.shared.existing, annotation_, source_, progress);
     if (!annotated.ok()) return annotated.status();
-    const LasSummary& summary = annotated->summary;
-    const bool none = summary.points() > 0 && summary.outcomes().total() == 0;
+    const std::uint64_t points = annotated->classes.points();
+    const std::uint64_t bathymetric = annotated->summary.outcomes().total();
+    const bool none = points > 0 && bathymetric == 0;
     // One file without the class is a slip of the flag; among many it may be dry land.
-    if (none && options_.output_folder.empty()) {
+    if (none && options_.files.output_folder.empty()) {
       return absl::FailedPreconditionError(ClassHint(job, options_, *annotated) + "; nothing was written");
     }
     if (none) Note(ClassHint(job, options_, *annotated) + "; all its points get no-data");
-    if (absl::Status status = annotated->file.Commit(); !status.ok()) return status;
     SayResolution(annotated->point_format);
-    Note(absl::StrCat(job.output.string(), ":\n", summary.Text()));
-    points_ += summary.points();
-    bathymetric_ += summary.outcomes().total();
-    return absl::OkStatus();
+    points_ += points;
+    bathymetric_ += bathymetric;
+    return AnnotatedFile{
+        std::move(annotated->file),
+        Findings{.input_bytes = annotated->input_bytes,
+                 .input = {{"point_format", annotated->point_format},
+                           {"points", points},
+                           {"points_by_class", annotated->classes.Json()}},
+                 .answers = annotated->summary.Json()},
+        absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text())};
   }
 
   bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }
@@ -74,33 +74,28 @@ class Annotator {
 };
 
 absl::Status RunLas(const LasOptions& options) {
-  const absl::StatusOr<std::vector<Job>> jobs = Jobs(options);
-  if (!jobs.ok()) return jobs.status();
   const absl::StatusOr<LasAnnotation> annotation = Annotation(options);
   if (!annotation.ok()) return annotation.status();
+  const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options.files);
+  if (!jobs.ok()) return jobs.status();
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
   if (!source.ok()) return source.status();
-  const TableSummary& table = (*source)->table();
-  Note(absl::StrCat("table ", table.id, " ", table.version, ", digest ", table.digest));
-  Annotator annotator(options, *annotation, **source);
-  std::size_t failed = 0;
-  for (const Job& job : *jobs) {
-    absl::Status status = annotator.Annotate(job);
-    if (status.ok()) continue;
-    if (jobs->size() == 1 || !IsOfOneFile(status)) return status;
-    Report(status);
-    ++failed;
-  }
-  if (failed > 0) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(failed, " of ", jobs->size(), " files failed: see above; the others are written"));
-  }
-  if (annotator.found_no_bathymetry()) {
+  LasFiles files(options, *annotation, **source);
+  const absl::Status status = AnnotateFiles(
+      *jobs,
+      {.command = "las",
+       .records = "points",
+       .parameters = Parameters(*annotation),
+       .resume = options.files.resume,
+       .existing = options.shared.existing,
+       .annotate = [&](const Job& job, Progress& progress) { return files.Annotate(job, progress); }},
+      (*source)->table());
+  if (status.ok() && files.found_no_bathymetry()) {
     return absl::FailedPreconditionError(absl::StrCat("no file has a point of class ",
                                                       absl::StrJoin(options.classes, " or "),
                                                       ": name the bathymetric ones by --classes"));
   }
-  return absl::OkStatus();
+  return status;
 }
 
 }  // namespace
@@ -108,7 +103,7 @@ absl::Status RunLas(const LasOptions& options) {
 void AddLasCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<LasOptions>();
   CLI::App* command = program.add_subcommand(
-      "las", "Repeat a LAS file (1.2 to 1.4) with total_thu and total_tvu on each bathymetric point");
+      "las", "Repeat LAS files (1.2 to 1.4) with total_thu and total_tvu on each bathymetric point");
   AddLasOptions(*command, *options);
   command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
 }

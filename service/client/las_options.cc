@@ -1,10 +1,14 @@
 #include "service/client/las_options.h"
 
 #include <charconv>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "service/client/exit_status.h"
+#include "service/client/number_text.h"
 
 namespace albtpu::client {
 namespace {
@@ -66,12 +70,7 @@ double ParseUnit(const std::string& text) {
 }  // namespace
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
-  command.add_option("files", options.files, "IN.las OUT.las, or with --output-dir any number of inputs")
-      ->required()
-      ->type_name("FILE.las");
-  command
-      .add_option("--output-dir", options.output_folder, "Write each output here, by the name of its input")
-      ->type_name("DIR");
+  AddFileOptions(command, ".las", options.files);
   AddNumber(command, "--water-level", Sign::kAny, "Height of the water surface, in the heights of the file",
             options.water_level)
       ->type_name("Z");
@@ -99,29 +98,6 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddSharedOptions(command, options.shared);
 }
 
-absl::StatusOr<std::vector<Job>> Jobs(const LasOptions& options) {
-  const std::vector<std::string>& files = options.files;
-  if (options.output_folder.empty()) {
-    if (files.size() != 2) {
-      return UsageError(absl::StrCat("las: ", files.size(),
-                                     " files: IN.las OUT.las is right, or --output-dir DIR "
-                                     "and any number of inputs"));
-    }
-    return std::vector<Job>{{files[0], files[1]}};
-  }
-  std::vector<Job> jobs;
-  std::set<std::filesystem::path> names;
-  for (const std::string& file : files) {
-    const std::filesystem::path input(file);
-    if (!names.insert(input.filename()).second) {
-      return UsageError(absl::StrCat("--output-dir: two inputs are called ", input.filename().string(),
-                                     ": give them one at a time, as IN.las OUT.las"));
-    }
-    jobs.push_back({input, options.output_folder / input.filename()});
-  }
-  return jobs;
-}
-
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options) {
   LasAnnotation annotation;
   annotation.classes = options.classes;
@@ -142,6 +118,32 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options) {
   if (absl::Status status = SetFootprint(options, line); !status.ok()) return status;
   if (absl::Status status = SetAzimuth(options, line); !status.ok()) return status;
   return annotation;
+}
+
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation) {
+  const FlightLine& line = annotation.flight_line;
+  nlohmann::ordered_json json;
+  json["water_level"] = line.water_level;
+  json["metres_per_unit"] = line.metres_per_unit;
+  json["wind_speed"] = JsonNumber(line.wind_speed);
+  // Null: fully developed.
+  json["fetch"] = line.fetch.has_value() ? JsonNumber(*line.fetch) : nlohmann::ordered_json();
+  if (const auto* beam = std::get_if<DivergingBeam>(&line.footprint)) {
+    json["altitude"] = beam->altitude;
+    json["divergence"] = beam->divergence;
+  } else {
+    json["footprint"] = JsonNumber(std::get<float>(line.footprint));
+  }
+  if (const auto* scan = std::get_if<AcrossTrackScan>(&line.azimuth)) {
+    json["wind_from"] = scan->wind_from;
+    json["flight_direction"] = scan->flight_direction;
+  } else {
+    const auto* azimuth = std::get_if<float>(&line.azimuth);
+    json["azimuth"] = azimuth != nullptr ? JsonNumber(*azimuth) : nlohmann::ordered_json();
+  }
+  json["classes"] = annotation.classes;
+  json.update(Parameters(annotation.style));
+  return json;
 }
 
 }  // namespace albtpu::client

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "absl/status/statusor.h"
+#include "service/client/file_jobs.h"
 #include "service/client/las_annotation.h"
 #include "service/client/options.h"
 
@@ -19,8 +18,7 @@ namespace albtpu::client {
 inline constexpr int kBathymetricPoint = 40;
 
 struct LasOptions {
-  std::vector<std::string> files;
-  std::string output_folder;
+  FileOptions files;
   std::set<int> classes = {kBathymetricPoint};
   std::optional<double> water_level, altitude, divergence, wind_from, flight_direction;
   std::optional<double> metres_per_unit;
@@ -28,18 +26,13 @@ struct LasOptions {
   SharedOptions shared;
 };
 
-// One file to annotate.
-struct Job {
-  std::filesystem::path input, output;
-};
-
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
 
-// IN OUT, or every input into the folder. IsUsageError when the files do not say which.
-absl::StatusOr<std::vector<Job>> Jobs(const LasOptions& options);
-
 // IsUsageError when something needed is missing, or is said in two ways.
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options);
+
+// The same for a summary.
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation);
 
 }  // namespace albtpu::client

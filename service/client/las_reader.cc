@@ -1,7 +1,6 @@
 #include "service/client/las_reader.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,12 +29,11 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
         absl::StrCat(path.string(), ": ", std::strerror(error), ": name a LAS file that can be read"));
   }
   LasReader reader(path.string(), file);
-  struct stat status;
-  if (fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) {
+  reader.stamp_ = FileStamp::Of(fileno(file));
+  if (!reader.stamp_.is_regular()) {
     return absl::FailedPreconditionError(
         absl::StrCat(path.string(), ": is not a regular file: name a LAS file"));
   }
-  reader.file_size_ = static_cast<std::uint64_t>(status.st_size);
   if (absl::Status head = reader.ReadHead(); !head.ok()) return head;
   if (absl::Status evlrs = reader.ReadEvlrs(); !evlrs.ok()) return evlrs;
   posix_fadvise(fileno(file), 0, 0, POSIX_FADV_SEQUENTIAL);
@@ -44,9 +42,14 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
 
 absl::StatusOr<std::string> LasReader::ReadAt(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
-  for (std::size_t done = 0; done < size;) {
-    const ssize_t count =
-        pread(fileno(file_.get()), bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+  if (absl::Status status = ReadAt(offset, std::span<char>(bytes)); !status.ok()) return status;
+  return bytes;
+}
+
+absl::Status LasReader::ReadAt(std::uint64_t offset, std::span<char> bytes) const {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = pread(fileno(file_.get()), bytes.data() + done, bytes.size() - done,
+                                static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       return absl::DataLossError(absl::StrCat(name_, ": reading failed at byte ", offset + done, ": ",
@@ -55,14 +58,16 @@ absl::StatusOr<std::string> LasReader::ReadAt(std::uint64_t offset, std::size_t 
     }
     done += static_cast<std::size_t>(count);
   }
-  return bytes;
+  return absl::OkStatus();
 }
+
+absl::Status LasReader::CheckUnchanged() const { return stamp_.CheckUnchanged(name_, fileno(file_.get())); }
 
 absl::Status LasReader::ReadHead() {
   const absl::StatusOr<std::string> beginning =
-      ReadAt(0, std::min<std::uint64_t>(file_size_, kLargestLasHeader));
+      ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader));
   if (!beginning.ok()) return beginning.status();
-  const absl::StatusOr<LasHeader> header = ParseLasHeader(name_, *beginning, file_size_);
+  const absl::StatusOr<LasHeader> header = ParseLasHeader(name_, *beginning, file_size());
   if (!header.ok()) return header.status();
   header_ = *header;
   absl::StatusOr<std::string> head = ReadAt(0, header_.offset_to_points);
@@ -85,14 +90,14 @@ absl::Status LasReader::ReadHead() {
 absl::Status LasReader::ReadEvlrs() {
   std::uint64_t next = header_.start_of_evlrs;
   for (std::uint32_t i = 0; i < header_.evlr_count; ++i) {
-    if (file_size_ - next < kEvlrHeaderSize) {
+    if (file_size() - next < kEvlrHeaderSize) {
       return absl::DataLossError(absl::StrCat(name_, ": extended variable length record ", i + 1, " of ",
                                               header_.evlr_count, " begins at byte ", next, " of a file of ",
-                                              file_size_, ": get a whole copy"));
+                                              file_size(), ": get a whole copy"));
     }
     const absl::StatusOr<std::string> bytes = ReadAt(next, kEvlrHeaderSize);
     if (!bytes.ok()) return bytes.status();
-    const absl::StatusOr<VlrEntry> evlr = ParseEvlr(name_, *bytes, next, file_size_);
+    const absl::StatusOr<VlrEntry> evlr = ParseEvlr(name_, *bytes, next, file_size());
     if (!evlr.ok()) return evlr.status();
     evlrs_.push_back(*evlr);
     next = evlr->end();

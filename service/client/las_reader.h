@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "service/client/file_stamp.h"
 #include "service/client/las_header.h"
 #include "service/client/las_vlr.h"
 
@@ -25,10 +27,14 @@ class LasReader {
   std::string_view head() const { return head_; }  // Every byte before the points.
   const std::vector<VlrEntry>& vlrs() const { return vlrs_; }
   const std::vector<VlrEntry>& evlrs() const { return evlrs_; }
-  std::uint64_t file_size() const { return file_size_; }
+  std::uint64_t file_size() const { return stamp_.size(); }
 
-  // `size` bytes at `offset`, which lie in the file.
+  // `size` bytes at `offset`, which lie in the file. By any number of threads at a time.
   absl::StatusOr<std::string> ReadAt(std::uint64_t offset, std::size_t size) const;
+  absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const;
+
+  // Fails when somebody wrote to the file since it was opened.
+  absl::Status CheckUnchanged() const;
 
  private:
   struct Close {
@@ -40,7 +46,7 @@ class LasReader {
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uint64_t file_size_ = 0;
+  FileStamp stamp_;
   LasHeader header_;
   std::string head_;
   std::vector<VlrEntry> vlrs_, evlrs_;

@@ -84,14 +84,6 @@ absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage cove
   return head;
 }
 
-void AppendRecord(std::string_view record, float thu, float tvu, std::string& to) {
-  to.append(record);
-  char values[kAppendedBytes];
-  Store(thu, values);
-  Store(tvu, values + sizeof thu);
-  to.append(values, sizeof values);
-}
-
 absl::Status CopyTail(const LasReader& reader, OutputFile& output) {
   for (std::uint64_t at = reader.header().end_of_points(); at < reader.file_size();) {
     const std::size_t size = std::min<std::uint64_t>(kCopySize, reader.file_size() - at);

@@ -19,9 +19,6 @@ namespace albtpu::client {
 // packet. Fails when a field would overflow, and for what DescribeUncertainty refuses.
 absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage coverage);
 
-// Appends to `to` the record and its two values.
-void AppendRecord(std::string_view record, float thu, float tvu, std::string& to);
-
 // Copies what lies behind the points.
 absl::Status CopyTail(const LasReader& reader, OutputFile& output);
 

@@ -1,11 +1,9 @@
 #include "service/client/local_source.h"
 
-#include <cassert>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "tables/interpolation.h"
 
 namespace albtpu::client {
 namespace {
@@ -37,12 +35,12 @@ TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   return summary;
 }
 
-LocalSource::LocalSource(std::string name, UncertaintyTable table)
-    : table_(std::move(table)), summary_(Summarize(std::move(name), table_)) {}
+LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
+    : summary_(Summarize(std::move(name), table)), interpolator_(table) {}
 
-absl::Status LocalSource::Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
-  assert(pulses.size() == answers.size());
-  for (std::size_t i = 0; i < pulses.size(); ++i) answers[i] = Interpolate(table_, pulses[i]);
+absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses,
+                                 const AnswerColumns& answers) {
+  AnswerOnAllCores(interpolator_, query, pulses, answers);
   return absl::OkStatus();
 }
 

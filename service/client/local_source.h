@@ -11,14 +11,14 @@ namespace albtpu::client {
 class LocalSource : public UncertaintySource {
  public:
   // `name` is what --table-name calls the table; empty when a file was named.
-  LocalSource(std::string name, UncertaintyTable table);
+  LocalSource(std::string name, const UncertaintyTable& table);
 
   const TableSummary& table() const override { return summary_; }
-  absl::Status Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) override;
+  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
-  UncertaintyTable table_;
   TableSummary summary_;
+  ColumnInterpolator interpolator_;
 };
 
 TableSummary Summarize(std::string name, const UncertaintyTable& table);

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/string_view.h"
@@ -35,10 +36,21 @@ std::optional<double> ParseDouble(std::string_view text) {
   return value;
 }
 
-std::string FormatFloat(float value) {
+void AppendFloat(float value, std::string& text) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9).ptr;
-  return std::string(digits, end);
+  text.append(digits, end);
+}
+
+std::string FormatFloat(float value) {
+  std::string text;
+  AppendFloat(value, text);
+  return text;
+}
+
+nlohmann::ordered_json JsonNumber(float value) {
+  if (!std::isfinite(value)) return nullptr;
+  return *ParseDouble(FormatFloat(value));
 }
 
 }  // namespace albtpu::client

@@ -2,6 +2,7 @@
 // reads back to the same value.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,5 +20,11 @@ std::optional<double> ParseDouble(std::string_view text);
 // Nine significant digits, enough to read back to the same float32: 0.3 is "0.300000012". Requires a finite
 // value.
 std::string FormatFloat(float value);
+
+// The same behind `text`.
+void AppendFloat(float value, std::string& text);
+
+// The number that JSON prints with the digits of FormatFloat; null when it is not finite.
+nlohmann::ordered_json JsonNumber(float value);
 
 }  // namespace albtpu::client

@@ -1,6 +1,7 @@
 #include "service/client/options.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -106,9 +107,35 @@ void AddSharedOptions(CLI::App& command, SharedOptions& options) {
   AddStyleOptions(command, options.style);
   command.add_flag_callback(
       "--standard-errors",
-      [&options] { options.style.standard_errors = options.source.standard_errors = true; },
+      [&options] { options.style.standard_errors = true; },
       "Give the standard error of each value too");
   AddOverwrite(command, options.existing);
+}
+
+void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options) {
+  command
+      .add_option("files", options.files,
+                  absl::StrCat("IN", extension, " OUT", extension,
+                               ", or with --output-dir any number of inputs and folders of them"))
+      ->required()
+      ->type_name("FILE" + extension);
+  command
+      .add_option("--output-dir", options.output_folder, "Write each output here, by the name of its input")
+      ->type_name("DIR");
+  command.add_flag("--recursive", options.recursive,
+                   "With a folder, also the files of its subfolders, which --output-dir repeats");
+  command.add_flag("--resume", options.resume,
+                   "Leave outputs that are whole and were made of the same input, parameters and table, by "
+                   "the summaries beside them");
+}
+
+nlohmann::ordered_json Parameters(const AnswerStyle& style) {
+  nlohmann::ordered_json json;
+  json["coverage"] = CoverageText(style.coverage);
+  json["s44_order"] = nullptr;
+  if (style.s44_order.has_value()) json["s44_order"] = std::string(Name(*style.s44_order));
+  json["standard_errors"] = style.standard_errors;
+  return json;
 }
 
 void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
-#include "service/client/answer_columns.h"
+#include "service/client/answer_style.h"
 #include "service/client/csv_pulses.h"
+#include "service/client/file_jobs.h"
 #include "service/client/source_options.h"
 #include "tables/table_io.h"
 
@@ -21,6 +23,12 @@ struct SharedOptions {
   Existing existing = Existing::kKeep;  // --overwrite
 };
 void AddSharedOptions(CLI::App& command, SharedOptions& options);
+
+// Input and output files of an `extension`, such as ".las".
+void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options);
+
+// The style for a summary.
+nlohmann::ordered_json Parameters(const AnswerStyle& style);
 
 // `--wind-speed` and the like, one value for all pulses.
 void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);

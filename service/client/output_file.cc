@@ -15,7 +15,8 @@
 namespace albtpu::client {
 namespace {
 
-constexpr std::size_t kBufferSize = 1 << 20;
+// The disk is set to work each time that so many bytes have come, so that syncing does not begin at the end.
+constexpr std::uint64_t kWriteBehind = 32 << 20;
 
 // What the system said of `path`, and what would be right.
 absl::Status SystemError(const std::filesystem::path& path, std::string_view remedy) {
@@ -61,12 +62,13 @@ struct OutputFile::Temporary {
   std::filesystem::path path;  // Where the whole file will be.
   std::string temporary_path;  // Empty once there is nothing to remove.
   Existing existing;
-  std::FILE* file;
+  int descriptor;  // Negative once it is closed.
+  std::uint64_t size = 0, handed_to_disk = 0;
   RemovedOnSignal removed_on_signal;
 };
 
 void OutputFile::Discard::operator()(Temporary* temporary) const {
-  if (temporary->file != nullptr) std::fclose(temporary->file);
+  if (temporary->descriptor >= 0) close(temporary->descriptor);
   if (!temporary->temporary_path.empty()) unlink(temporary->temporary_path.c_str());
   delete temporary;
 }
@@ -84,27 +86,40 @@ absl::StatusOr<OutputFile> OutputFile::Create(const std::filesystem::path& path,
       return SystemError(path, "name a folder that exists and can be written");
     }
   }
-  std::unique_ptr<Temporary> temporary(new Temporary{path, temporary_path, existing, fdopen(descriptor, "wb"),
-                                                     RemovedOnSignal(temporary_path)});
-  std::setvbuf(temporary->file, nullptr, _IOFBF, kBufferSize);
-  return OutputFile(std::move(temporary));
+  return OutputFile(std::unique_ptr<Temporary>(
+      new Temporary{path, temporary_path, existing, descriptor, 0, 0, RemovedOnSignal(temporary_path)}));
 }
 
 absl::Status OutputFile::Write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), temporary_->file) != bytes.size()) {
-    return SystemError(temporary_->path, kWritingFailed);
+  Temporary& temporary = *temporary_;
+  while (!bytes.empty()) {
+    const ssize_t count = write(temporary.descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemError(temporary.path, kWritingFailed);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    temporary.size += static_cast<std::uint64_t>(count);
+  }
+  if (temporary.size - temporary.handed_to_disk >= kWriteBehind) {
+    // Begins to write and does not wait. Where this cannot be done, Sync() does all of it.
+    static_cast<void>(sync_file_range(temporary.descriptor, static_cast<off_t>(temporary.handed_to_disk),
+                                      static_cast<off_t>(temporary.size - temporary.handed_to_disk),
+                                      SYNC_FILE_RANGE_WRITE));
+    temporary.handed_to_disk = temporary.size;
   }
   return absl::OkStatus();
 }
 
+std::uint64_t OutputFile::size() const { return temporary_->size; }
+
+absl::Status OutputFile::Sync() {
+  if (fsync(temporary_->descriptor) == 0) return absl::OkStatus();
+  return SystemError(temporary_->path, kWritingFailed);
+}
+
 absl::Status OutputFile::Commit() {
   Temporary& temporary = *temporary_;
-  if (std::fflush(temporary.file) != 0 || fsync(fileno(temporary.file)) != 0) {
-    return SystemError(temporary.path, kWritingFailed);
-  }
-  if (std::fclose(std::exchange(temporary.file, nullptr)) != 0) {
-    return SystemError(temporary.path, kWritingFailed);
-  }
+  if (absl::Status status = Sync(); !status.ok()) return status;
+  if (close(std::exchange(temporary.descriptor, -1)) != 0) return SystemError(temporary.path, kWritingFailed);
   // Again: somebody may have put a file there while we worked.
   if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;
   const char* from = temporary.temporary_path.c_str();

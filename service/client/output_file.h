@@ -1,7 +1,7 @@
 // A file that appears under its name only when it is whole.
 #pragma once
 
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -23,7 +23,12 @@ class OutputFile {
   OutputFile(OutputFile&&) = default;
   OutputFile& operator=(OutputFile&&) = default;
 
+  // In large pieces: nothing is held back.
   absl::Status Write(std::string_view bytes);
+  std::uint64_t size() const;  // Bytes written.
+
+  // Brings all bytes to the disk, so that Commit() has only the name left to fail on.
+  absl::Status Sync();
   absl::Status Commit();
 
  private:

@@ -26,13 +26,11 @@ absl::Status RunPulse(const PulseOptions& options) {
   }
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
   if (!source.ok()) return source.status();
-  const Pulse pulse = PulseAt(options.coordinates);
-  PulseUncertainty answer;
-  absl::Status status = (*source)->Answer({&pulse, 1}, {&answer, 1});
-  if (!status.ok()) return status;
+  const absl::StatusOr<PulseAnswer> answer =
+      AskPulse(options.coordinates, options.shared.style, **source);
+  if (!answer.ok()) return answer.status();
   const TableSummary& table = (*source)->table();
-  std::cout << (options.json ? PulseJson(pulse, answer, options.shared.style, table)
-                             : PulseText(pulse, answer, options.shared.style, table));
+  std::cout << (options.json ? PulseJson(*answer, table) : PulseText(*answer, table));
   return FlushAnswers();
 }
 

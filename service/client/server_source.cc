@@ -2,42 +2,52 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <algorithm>
-#include <cassert>
 #include <chrono>
-#include <cstring>
-#include <limits>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "service/client/column_exchange.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {
 
-// The most pulses of a message, by uncertainty_service.proto.
-constexpr std::size_t kMostPulses = 65536;
-
-// A batch is answered within a second by a healthy server; this is for one that is not.
+// For what a healthy server answers at once.
 constexpr std::chrono::seconds kDeadline{60};
 
 void SetDeadline(grpc::ClientContext& context) {
   context.set_deadline(std::chrono::system_clock::now() + kDeadline);
 }
 
-absl::Status FromServer(const std::string& address, const grpc::Status& status) {
-  if (status.ok()) return absl::OkStatus();
-  const auto code = static_cast<absl::StatusCode>(status.error_code());  // Both have the canonical numbers.
-  std::string message = absl::StrCat("server ", address, ": ", status.error_message());
-  if (code == absl::StatusCode::kUnavailable) {
+absl::Status FromServer(const std::string& address, const absl::Status& status) {
+  if (status.ok()) return status;
+  std::string message = absl::StrCat("server ", address, ": ", status.message());
+  if (absl::IsUnavailable(status)) {
     absl::StrAppend(&message, ": start albtpu-serve there, or name the HOST:PORT where it listens");
   }
-  return absl::Status(code, message);
+  return absl::Status(status.code(), message);
+}
+
+absl::Status FromServer(const std::string& address, const grpc::Status& status) {
+  // Both have the canonical numbers.
+  const auto code = static_cast<absl::StatusCode>(status.error_code());
+  return FromServer(address, absl::Status(code, status.error_message()));
+}
+
+// Whether the server may answer if asked again: it has gone, or is at its limit.
+bool MayPass(const absl::Status& status) {
+  return absl::IsUnavailable(status) || absl::IsResourceExhausted(status);
 }
 
 std::unique_ptr<albtpu::v1::UncertaintyService::Stub> Connect(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  // Else gRPC waits a second and more before it looks again whether a server has come back.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   return albtpu::v1::UncertaintyService::NewStub(
-      grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+      grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
 }
 
 absl::StatusOr<TableSummary> GetTable(const std::string& address,
@@ -56,64 +66,42 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
 }  // namespace
 
 ServerSource::ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary,
-                           bool standard_errors)
+                           Patience patience)
     : address_(std::move(address)),
       stub_(std::move(stub)),
       summary_(std::move(summary)),
-      standard_errors_(standard_errors) {}
+      patience_(patience) {}
 
 absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::string& address,
                                                                  const std::string& table,
-                                                                 bool standard_errors) {
+                                                                 const Patience& patience) {
   std::unique_ptr<Stub> stub = Connect(address);
   absl::StatusOr<TableSummary> summary = GetTable(address, *stub, table);
   if (!summary.ok()) return summary.status();
   return std::unique_ptr<ServerSource>(
-      new ServerSource(address, std::move(stub), *std::move(summary), standard_errors));
+      new ServerSource(address, std::move(stub), *std::move(summary), patience));
 }
 
-absl::Status ServerSource::Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
-  assert(pulses.size() == answers.size());
-  // An answer at 2 sigma and without azimuth does not tell its THU at 95 %. So pulses without azimuth are
-  // asked about at 0 degrees, in their place, and at 90, behind all others.
-  std::vector<Pulse> asked(pulses.begin(), pulses.end());
-  for (std::size_t i = 0; i < pulses.size(); ++i) {
-    if (pulses[i].azimuth.has_value()) continue;
-    asked[i].azimuth = 0;
-    asked.push_back(pulses[i]);
-    asked.back().azimuth = 90;
-  }
-  std::vector<PulseUncertainty> replies(asked.size());
-  for (std::size_t begin = 0; begin < asked.size(); begin += kMostPulses) {
-    const std::size_t count = std::min(kMostPulses, asked.size() - begin);
-    absl::Status status =
-        AnswerBatch(std::span(asked).subspan(begin, count), std::span(replies).subspan(begin, count));
-    if (!status.ok()) return status;
-  }
-  auto crosswind = replies.cbegin() + static_cast<std::ptrdiff_t>(pulses.size());
-  for (std::size_t i = 0; i < pulses.size(); ++i) {
-    answers[i] = pulses[i].azimuth.has_value() ? replies[i] : LargerOf(replies[i], *crosswind++);
+absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses,
+                                  const AnswerColumns& answers) {
+  const ColumnTask task{summary_.name, summary_.digest, query, pulses, answers};
+  std::size_t answered = 0;
+  int retries = 0;
+  while (answered < pulses.size) {
+    const std::size_t before = answered;
+    const absl::Status status = Exchange(*stub_, task, answered);
+    if (status.ok()) break;
+    if (answered > before) retries = 0;
+    if (!MayPass(status)) return FromServer(address_, status);
+    if (retries == patience_.retries) {
+      return FromServer(address_,
+                        absl::Status(status.code(), absl::StrCat(status.message(), " (asked again ", retries,
+                                                                 " times, after ", answered, " of ",
+                                                                 pulses.size, " pulses)")));
+    }
+    std::this_thread::sleep_for(patience_.first_pause * (1 << retries++));
   }
   return absl::OkStatus();
-}
-
-absl::Status ServerSource::AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) {
-  albtpu::v1::QueryColumnsRequest request;
-  request.mutable_options()->set_table(summary_.name);
-  request.mutable_options()->set_standard_errors(standard_errors_);
-  ToWire(pulses, *request.mutable_pulses());
-  grpc::ClientContext context;
-  SetDeadline(context);
-  albtpu::v1::QueryColumnsResponse response;
-  absl::Status status = FromServer(address_, stub_->QueryColumns(&context, request, &response));
-  if (!status.ok()) return status;
-  if (response.table().digest() != summary_.digest) {
-    return absl::AbortedError(absl::StrCat("server ", address_, ": table ", summary_.name,
-                                           " changed from digest ", summary_.digest, " to ",
-                                           response.table().digest(), " while it was asked: start again"));
-  }
-  const absl::Status read = FromWire(response, standard_errors_, answers);
-  return read.ok() ? read : absl::InternalError(absl::StrCat("server ", address_, ": ", read.message()));
 }
 
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address) {

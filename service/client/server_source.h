@@ -1,6 +1,7 @@
 // Answers from a service.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,30 +12,35 @@
 
 namespace albtpu::client {
 
-// Asks in columns, so many pulses at a time as a message may hold. The table is fixed when the source is
-// opened: every answer must come from its content.
+// What is done about a server that goes away while it is asked: the same again, so many times, after pauses
+// that double each time. The defaults wait 12.7 s. Every answer that comes starts the count anew.
+struct Patience {
+  int retries = 7;
+  std::chrono::milliseconds first_pause{100};
+};
+
+// Asks in columns, so many pulses at a time as a message may hold, several messages ahead of the answers. The
+// table is fixed when the source is opened: every answer must come from its content.
 class ServerSource : public UncertaintySource {
  public:
-  // `address` is HOST:PORT, `table` what to ask for, empty for the server's default. Without
-  // `standard_errors` those of the answers are not a number, and half as much travels.
+  // `address` is HOST:PORT, `table` what to ask for, empty for the server's default. A server that is not
+  // there from the beginning is not waited for.
   static absl::StatusOr<std::unique_ptr<ServerSource>> Open(const std::string& address,
-                                                            const std::string& table, bool standard_errors);
+                                                            const std::string& table,
+                                                            const Patience& patience = {});
 
   const TableSummary& table() const override { return summary_; }
-  absl::Status Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) override;
+  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
-  using Stub = albtpu::v1::UncertaintyService::StubInterface;
+  using Stub = albtpu::v1::UncertaintyService::Stub;
 
-  ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary, bool standard_errors);
-
-  // Pulses of one message, all of them with an azimuth.
-  absl::Status AnswerBatch(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers);
+  ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary, Patience patience);
 
   std::string address_;
   std::unique_ptr<Stub> stub_;
   TableSummary summary_;
-  bool standard_errors_;
+  Patience patience_;
 };
 
 // All tables of a server.

@@ -22,7 +22,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenFile(std::string name,
                                                             const std::filesystem::path& path) {
   absl::StatusOr<UncertaintyTable> table = ReadTable(path);
   if (!table.ok()) return table.status();
-  return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *std::move(table)));
+  return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *table));
 }
 
 // What else can be done where no installed table answers.
@@ -75,7 +75,7 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOption
   if (!options.file.empty()) return OpenFile("", options.file);
   if (!options.server.empty()) {
     absl::StatusOr<std::unique_ptr<ServerSource>> source =
-        ServerSource::Open(options.server, options.name, options.standard_errors);
+        ServerSource::Open(options.server, options.name);
     if (!source.ok()) return source.status();
     return std::unique_ptr<UncertaintySource>(*std::move(source));
   }

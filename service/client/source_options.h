@@ -15,7 +15,6 @@ struct SourceOptions {
   std::string server = {};       // HOST:PORT
   std::string file = {};         // FILE.h5
   std::string name = {};         // NAME or NAME/VERSION among several; empty: the default.
-  bool standard_errors = false;  // A server need not send them otherwise.
 };
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options);

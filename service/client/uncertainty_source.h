@@ -3,12 +3,11 @@
 
 #include <array>
 #include <map>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "absl/status/status.h"
-#include "tables/interpolation.h"
+#include "tables/column_query.h"
+#include "tables/pulse_columns.h"
 #include "tables/schema.h"
 
 namespace albtpu::client {
@@ -37,9 +36,11 @@ class UncertaintySource {
   // The one table that all answers come from, fixed when the source was opened.
   virtual const TableSummary& table() const = 0;
 
-  // Answers `pulses[i]` in `answers[i]`, at 2 sigma (coverage.h restates them); the spans have one length,
-  // any length. Fails only as a whole: the server cannot be reached, or gave its table another content.
-  virtual absl::Status Answer(std::span<const Pulse> pulses, std::span<PulseUncertainty> answers) = 0;
+  // Answers all pulses, of any number, none too, into the columns of `answers` that are not null. Any number
+  // of threads may ask at a time. Fails only as a whole, and then the columns may hold anything: the server
+  // cannot be reached (Unavailable), or gave its table another content (Aborted).
+  virtual absl::Status Answer(const Query& query, const PulseColumns& pulses,
+                              const AnswerColumns& answers) = 0;
 };
 
 }  // namespace albtpu::client

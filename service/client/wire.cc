@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "service/client/little_endian.h"
 #include "tables/coverage.h"
 
 namespace albtpu::client {
@@ -18,62 +18,49 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-// A column of single precision numbers, `value` of each pulse.
-template <typename Value>
-std::string Column(std::span<const Pulse> pulses, Value value) {
-  std::string bytes(pulses.size() * sizeof(float), '\0');
-  for (std::size_t i = 0; i < pulses.size(); ++i) {
-    const float number = value(pulses[i]);
-    Store(number, bytes.data() + i * sizeof number);
+// Into the memory that the message has from the last time.
+void Assign(std::span<const float> column, std::string& bytes) {
+  bytes.assign(reinterpret_cast<const char*>(column.data()), column.size_bytes());
+}
+
+v1::Coverage ToWire(Coverage coverage) {
+  return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+}
+
+absl::Status CheckNumbers(const std::string& column, const char* name, int first, int last) {
+  const auto known = [&](char number) { return number >= first && number <= last; };
+  const auto unknown = std::find_if_not(column.begin(), column.end(), known);
+  if (unknown == column.end()) return absl::OkStatus();
+  return absl::InternalError(absl::StrCat("answered ", static_cast<unsigned char>(*unknown), " among the ",
+                                          name, ", which this program does not know"));
+}
+
+template <typename Element>
+absl::Status Copy(const std::string& bytes, const char* name, std::size_t count, Element* column) {
+  if (column == nullptr) return absl::OkStatus();
+  if (bytes.size() != count * sizeof(Element)) {
+    return absl::InternalError(absl::StrCat("answered ", bytes.size(), " bytes of ", name, " for ", count,
+                                            " pulses: ", sizeof(Element), " for each are right"));
   }
-  return bytes;
-}
-
-// One value for all, if all are alike bit by bit.
-std::string Shortened(std::string column) {
-  const bool alike = std::equal(column.begin() + sizeof(float), column.end(), column.begin());
-  if (alike) column.resize(sizeof(float));
-  return column;
-}
-
-using QuantityColumns = std::array<const std::string*, kQuantityCount>;
-
-QuantityColumns ColumnsOf(const v1::SeaSurfaceColumns& columns) {
-  return {&columns.refraction_along_wind(), &columns.refraction_cross_wind(), &columns.thu(), &columns.tvu(),
-          &columns.bias_along_beam(),       &columns.bias_vertical()};
-}
-
-absl::Status CheckLengths(const QuantityColumns& columns, std::size_t pulse_count) {
-  for (const Quantity quantity : kQuantities) {
-    const std::size_t size = columns[Index(quantity)]->size();
-    if (size != pulse_count * sizeof(float)) {
-      return absl::InternalError(absl::StrCat("answered ", size, " bytes of ",
-                                              std::string(Describe(quantity).name), " for ", pulse_count,
-                                              " pulses: 4 bytes for each are right"));
-    }
-  }
+  std::memcpy(column, bytes.data(), bytes.size());
   return absl::OkStatus();
 }
 
-std::array<float, kQuantityCount> ValuesAt(const QuantityColumns& columns, std::size_t i) {
-  std::array<float, kQuantityCount> values;
-  for (std::size_t quantity = 0; quantity < kQuantityCount; ++quantity) {
-    values[quantity] = Load<float>(*columns[quantity], i * sizeof(float));
+absl::Status Copy(const v1::SeaSurfaceColumns& message, std::size_t count,
+                  const std::array<float*, kQuantityCount>& columns) {
+  const std::array<const std::string*, kQuantityCount> bytes = {
+      &message.refraction_along_wind(), &message.refraction_cross_wind(), &message.thu(),
+      &message.tvu(),                   &message.bias_along_beam(),       &message.bias_vertical()};
+  absl::Status status;
+  for (const Quantity quantity : kQuantities) {
+    const std::size_t i = Index(quantity);
+    status.Update(Copy(*bytes[i], Describe(quantity).name.data(), count, columns[i]));
   }
-  return values;
+  return status;
 }
 
-std::optional<Outcome> OutcomeOf(std::uint8_t number) {
-  switch (number) {
-    case v1::OUTCOME_INTERPOLATED:
-      return Outcome::kInterpolated;
-    case v1::OUTCOME_OUT_OF_DOMAIN:
-      return Outcome::kOutOfDomain;
-    case v1::OUTCOME_INVALID:
-      return Outcome::kInvalid;
-    default:
-      return std::nullopt;
-  }
+void FillWithNaN(std::size_t count, float* column) {
+  if (column != nullptr) std::fill_n(column, count, std::numeric_limits<float>::quiet_NaN());
 }
 
 // Axes count from 1 on the wire, where 0 is none.
@@ -100,55 +87,56 @@ std::string Text(const v1::AttributeValue& value) {
 
 }  // namespace
 
-void ToWire(std::span<const Pulse> pulses, v1::PulseColumns& columns) {
-  if (pulses.empty()) return;
-  const auto column = [&](auto value) { return Shortened(Column(pulses, value)); };
-  columns.set_wind_speed(column([](const Pulse& pulse) { return pulse.wind_speed; }));
-  columns.set_fetch(column([](const Pulse& pulse) { return pulse.fetch; }));
-  columns.set_incidence(column([](const Pulse& pulse) { return pulse.incidence; }));
-  columns.set_azimuth(column([](const Pulse& pulse) { return *pulse.azimuth; }));
-  columns.set_footprint(column([](const Pulse& pulse) { return pulse.footprint; }));
-  // The longest column tells the number of pulses, so this one is never shortened.
-  columns.set_depth(Column(pulses, [](const Pulse& pulse) { return pulse.depth; }));
+void ToWire(const Query& query, const AnswerColumns& wanted, v1::QueryColumnsRequest& request) {
+  v1::QueryOptions& options = *request.mutable_options();
+  options.set_coverage(ToWire(query.coverage));
+  options.set_best_s44_order(wanted.best_s44_orders != nullptr);
+  if (query.s44_order.has_value()) {
+    options.set_s44_order(static_cast<v1::S44Order>(static_cast<int>(*query.s44_order) + 1));
+  }
+  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+    if (wanted.standard_errors[i] != nullptr) options.set_standard_errors(true);
+    if (wanted.values[i] == nullptr && wanted.standard_errors[i] == nullptr) continue;
+    request.add_quantities(static_cast<v1::Quantity>(i + 1));
+  }
 }
 
-absl::Status FromWire(const v1::QueryColumnsResponse& response, bool standard_errors,
-                      std::span<PulseUncertainty> answers) {
-  const std::size_t count = answers.size();
-  if (response.coverage() != v1::COVERAGE_TWO_SIGMA) {
-    return absl::InternalError(
-        absl::StrCat("answered coverage ", response.coverage(), ": 2 sigma was asked for"));
+void ToWire(const PulseColumns& pulses, v1::PulseColumns& columns) {
+  Assign(pulses[AxisId::kWindSpeed], *columns.mutable_wind_speed());
+  Assign(pulses[AxisId::kFetch], *columns.mutable_fetch());
+  Assign(pulses[AxisId::kIncidence], *columns.mutable_incidence());
+  Assign(pulses[AxisId::kAzimuth], *columns.mutable_azimuth());
+  Assign(pulses[AxisId::kFootprint], *columns.mutable_footprint());
+  Assign(pulses[AxisId::kDepth], *columns.mutable_depth());
+  const auto is_long = [](std::span<const float> column) { return column.size() > 1; };
+  if (pulses.size > 1 && std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long)) {
+    Assign(std::vector<float>(pulses.size, pulses[AxisId::kDepth][0]), *columns.mutable_depth());
   }
-  if (response.outcomes().size() != count || response.outcome_axes().size() != count) {
-    return absl::InternalError(absl::StrCat("answered ", response.outcomes().size(), " outcomes for ", count,
-                                            " pulses: one for each is right"));
+}
+
+absl::Status FromWire(const v1::QueryColumnsResponse& response, const Query& query, std::size_t pulse_count,
+                      const AnswerColumns& answers) {
+  absl::Status status;
+  if (response.coverage() != ToWire(query.coverage)) {
+    status = absl::InternalError(absl::StrCat("answered coverage ", response.coverage(), ": ",
+                                              ToWire(query.coverage), " was asked for"));
   }
-  const QuantityColumns values = ColumnsOf(response.sea_surface());
-  const QuantityColumns errors = ColumnsOf(response.sea_surface_standard_error());
-  if (absl::Status status = CheckLengths(values, count); !status.ok()) return status;
-  if (standard_errors) {
-    if (absl::Status status = CheckLengths(errors, count); !status.ok()) return status;
+  status.Update(CheckNumbers(response.outcomes(), "outcomes", 1, v1::Outcome_MAX));
+  status.Update(CheckNumbers(response.outcome_axes(), "outcome_axes", 0, v1::Axis_MAX));
+  status.Update(CheckNumbers(response.s44().best_orders(), "best_orders", 0, v1::S44Order_MAX));
+  status.Update(Copy(response.outcomes(), "outcomes", pulse_count, answers.outcomes));
+  status.Update(Copy(response.outcome_axes(), "outcome_axes", pulse_count, answers.outcome_axes));
+  status.Update(Copy(response.sea_surface(), pulse_count, answers.values));
+  status.Update(Copy(response.sea_surface_standard_error(), pulse_count, answers.standard_errors));
+  status.Update(Copy(response.s44().best_orders(), "best_orders", pulse_count, answers.best_s44_orders));
+  if (query.s44_order.has_value()) {
+    status.Update(Copy(response.s44().remaining_thu(), "remaining_thu", pulse_count, answers.remaining_thu));
+    status.Update(Copy(response.s44().remaining_tvu(), "remaining_tvu", pulse_count, answers.remaining_tvu));
+  } else {  // Not asked for: nothing remains of no order.
+    FillWithNaN(pulse_count, answers.remaining_thu);
+    FillWithNaN(pulse_count, answers.remaining_tvu);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    PulseUncertainty& answer = answers[i];
-    const auto number = Load<std::uint8_t>(response.outcomes(), i);
-    const std::optional<Outcome> outcome = OutcomeOf(number);
-    if (!outcome.has_value()) {
-      return absl::InternalError(
-          absl::StrCat("answered outcome ", number, ", which this program does not know"));
-    }
-    answer.outcome = *outcome;
-    answer.axis = AxisOf(Load<std::uint8_t>(response.outcome_axes(), i));
-    answer.azimuth_absent = response.azimuth_absent();
-    answer.values = ValuesAt(values, i);
-    answer.radius_over_thu = RadiusOverThu(answer.values);
-    if (standard_errors) {
-      answer.standard_errors = ValuesAt(errors, i);
-    } else {
-      answer.standard_errors.fill(std::numeric_limits<float>::quiet_NaN());
-    }
-  }
-  return absl::OkStatus();
+  return status;
 }
 
 TableSummary FromWire(const v1::Table& table) {

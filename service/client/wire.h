@@ -1,21 +1,23 @@
 // Pulses and their uncertainty as columns of bytes, and back.
 #pragma once
 
-#include <span>
-
 #include "absl/status/status.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
 
-// The pulses, all of them with an azimuth. Coordinates that are alike for all travel once.
-void ToWire(std::span<const Pulse> pulses, albtpu::v1::PulseColumns& columns);
+// What the columns of the answers that are not null ask for.
+void ToWire(const Query& query, const AnswerColumns& wanted, albtpu::v1::QueryColumnsRequest& request);
 
-// Puts answer i of the response into `answers[i]`. Internal when the response breaks its own rules: a column
-// of another length, a number that is no outcome, another coverage than 2 sigma.
-absl::Status FromWire(const albtpu::v1::QueryColumnsResponse& response, bool standard_errors,
-                      std::span<PulseUncertainty> answers);
+// A message tells the number of its pulses by its longest column: where all columns are one number for all,
+// the depth is written for each.
+void ToWire(const PulseColumns& pulses, albtpu::v1::PulseColumns& columns);
+
+// Copies the columns that are wanted. Internal when the response breaks its own rules: another coverage than
+// that of the query, a column of another length, a number that is no outcome or axis.
+absl::Status FromWire(const albtpu::v1::QueryColumnsResponse& response, const Query& query,
+                      std::size_t pulse_count, const AnswerColumns& answers);
 
 TableSummary FromWire(const albtpu::v1::Table& table);
 

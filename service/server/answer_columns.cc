@@ -1,30 +1,21 @@
 #include "service/server/answer_columns.h"
 
-#include <cstring>
-#include <limits>
-#include <optional>
+#include <array>
+#include <cstdint>
+#include <string>
 
+#include "absl/status/statusor.h"
+#include "service/server/pulse_columns.h"
+#include "service/server/question.h"
+#include "service/server/table_messages.h"
 #include "service/server/wire_enums.h"
 
 namespace albtpu::server {
 namespace {
 
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+using QuantitySelection = std::array<bool, kQuantityCount>;
 
-char* MakeBytes(std::string* column, std::size_t count) {
-  column->resize(count);
-  return column->data();
-}
-
-char* MakeFloats(std::string* column, std::size_t count) { return MakeBytes(column, count * sizeof(float)); }
-
-// Columns that were not asked for are null.
-void WriteFloat(char* column, std::size_t i, float value) {
-  if (column != nullptr) std::memcpy(column + i * sizeof value, &value, sizeof value);
-}
-
-}  // namespace
-
+// The quantities that a request names; all if it names none.
 absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryColumnsRequest& request) {
   QuantitySelection selection;
   selection.fill(request.quantities_size() == 0);
@@ -36,23 +27,18 @@ absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryColumnsRequest& 
   return selection;
 }
 
-AnswerColumns::AnswerColumns(const Query& query, const QuantitySelection& selection,
-                             const PulseColumns& pulses, v1::QueryColumnsResponse& response)
-    : query_(query),
-      pulses_(pulses),
-      outcomes_(MakeBytes(response.mutable_outcomes(), pulses.size())),
-      outcome_axes_(MakeBytes(response.mutable_outcome_axes(), pulses.size())) {
-  response.set_pulse_count(static_cast<int>(pulses.size()));
-  response.set_azimuth_absent(pulses.azimuth_absent());
-  MakeSeaSurface(selection, *response.mutable_sea_surface(), values_);
-  if (query.standard_errors) {
-    MakeSeaSurface(selection, *response.mutable_sea_surface_standard_error(), standard_errors_);
-  }
-  if (query.asks_s44()) MakeS44(*response.mutable_s44());
+std::uint8_t* Bytes(std::string& column, std::size_t count) {
+  column.resize(count);
+  return reinterpret_cast<std::uint8_t*>(column.data());
 }
 
-void AnswerColumns::MakeSeaSurface(const QuantitySelection& selection, v1::SeaSurfaceColumns& message,
-                                   SeaSurfaceColumns& columns) {
+float* Floats(std::string& column, std::size_t count) {
+  column.resize(count * sizeof(float));
+  return reinterpret_cast<float*>(column.data());  // Aligned as those of `ReadColumns`.
+}
+
+std::array<float*, kQuantityCount> Columns(const QuantitySelection& selection, std::size_t count,
+                                           v1::SeaSurfaceColumns& message) {
   using Column = std::string* (v1::SeaSurfaceColumns::*)();
   constexpr std::array<Column, kQuantityCount> kColumns = {
       &v1::SeaSurfaceColumns::mutable_refraction_along_wind,
@@ -61,36 +47,50 @@ void AnswerColumns::MakeSeaSurface(const QuantitySelection& selection, v1::SeaSu
       &v1::SeaSurfaceColumns::mutable_tvu,
       &v1::SeaSurfaceColumns::mutable_bias_along_beam,
       &v1::SeaSurfaceColumns::mutable_bias_vertical};
+  std::array<float*, kQuantityCount> columns{};
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
-    if (selection[i]) columns[i] = MakeFloats((message.*kColumns[i])(), pulses_.size());
+    if (selection[i]) columns[i] = Floats(*(message.*kColumns[i])(), count);
   }
+  return columns;
 }
 
-void AnswerColumns::MakeS44(v1::S44Columns& message) {
-  if (query_.best_s44_order) best_orders_ = MakeBytes(message.mutable_best_orders(), pulses_.size());
-  if (query_.s44_order.has_value()) {
-    remaining_thu_ = MakeFloats(message.mutable_remaining_thu(), pulses_.size());
-    remaining_tvu_ = MakeFloats(message.mutable_remaining_tvu(), pulses_.size());
+// Columns of the message at full length, and those alone that were asked for.
+AnswerColumns MakeColumns(const Question& question, const QuantitySelection& selection, std::size_t count,
+                          v1::QueryColumnsResponse& response) {
+  AnswerColumns columns;
+  columns.outcomes = Bytes(*response.mutable_outcomes(), count);
+  columns.outcome_axes = Bytes(*response.mutable_outcome_axes(), count);
+  columns.values = Columns(selection, count, *response.mutable_sea_surface());
+  if (question.standard_errors) {
+    columns.standard_errors = Columns(selection, count, *response.mutable_sea_surface_standard_error());
   }
+  if (!question.asks_s44()) return columns;
+  v1::S44Columns& s44 = *response.mutable_s44();
+  if (question.best_s44_order) columns.best_s44_orders = Bytes(*s44.mutable_best_orders(), count);
+  if (question.query.s44_order.has_value()) {
+    columns.remaining_thu = Floats(*s44.mutable_remaining_thu(), count);
+    columns.remaining_tvu = Floats(*s44.mutable_remaining_tvu(), count);
+  }
+  return columns;
 }
 
-void AnswerColumns::Fill(std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const PulseAnswer answer = AnswerPulse(query_, pulses_[i]);
-    outcomes_[i] = static_cast<char>(ToWire(answer.uncertainty.outcome));
-    outcome_axes_[i] = static_cast<char>(ToWire(answer.uncertainty.axis));
-    for (std::size_t q = 0; q < kQuantityCount; ++q) {
-      WriteFloat(values_[q], i, answer.uncertainty.values[q]);
-      WriteFloat(standard_errors_[q], i, answer.uncertainty.standard_errors[q]);
-    }
-    if (query_.asks_s44()) WriteS44(i, answer.s44);
-  }
-}
+}  // namespace
 
-void AnswerColumns::WriteS44(std::size_t i, const S44Answer& answer) {
-  if (best_orders_ != nullptr) best_orders_[i] = static_cast<char>(ToWire(answer.best_order));
-  WriteFloat(remaining_thu_, i, answer.remaining_thu.value_or(kNoNumber));
-  WriteFloat(remaining_tvu_, i, answer.remaining_tvu.value_or(kNoNumber));
+absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
+                             v1::QueryColumnsResponse& response) {
+  const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
+  if (!question.ok()) return question.status();
+  const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
+  if (!selection.ok()) return selection.status();
+  const absl::StatusOr<PulseColumns> pulses = ReadColumns(request.pulses());
+  if (!pulses.ok()) return pulses.status();
+  *response.mutable_table() = WriteReference(*question->source);
+  response.set_coverage(ToWire(question->query.coverage));
+  response.set_pulse_count(static_cast<int>(pulses->size));
+  response.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
+  AnswerOnAllCores(question->source->interpolator, question->query, *pulses,
+                   MakeColumns(*question, *selection, pulses->size, response));
+  return absl::OkStatus();
 }
 
 }  // namespace albtpu::server

@@ -21,12 +21,14 @@ inline constexpr std::size_t kMaxPulsesWithStandardErrors = 32768;
 static_assert(kMaxPulses * 52 < kMaxMessageBytes);
 static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
 
-// Pulses between two looks at whether the caller still waits: some 10 ms.
-inline constexpr std::size_t kPulsesBetweenCancellationChecks = 4096;
+// Requests up to this length are answered at once, on the thread that received them: at most 512 pulses, some
+// tens of microseconds. Longer ones wait for a worker, so that they never stand in the way of short ones.
+inline constexpr std::size_t kMaxInlineBytes = 2048;
 
-// Threads that answer, all connections together: beyond them calls fail with RESOURCE_EXHAUSTED. A call takes
-// up to 12 MiB (request and answer, each as a message and as bytes), all of them 1.5 GiB.
-inline constexpr int kMaxThreads = 128;
+// Calls under way that may wait for a worker, all connections together: beyond them calls fail with
+// RESOURCE_EXHAUSTED. A call holds up to 12 MiB (a stream: the request that is answered, the one after it and
+// an answer), all of them 1.5 GiB; a worker holds 8 MiB more.
+inline constexpr int kMaxBulkCalls = 128;
 
 // Calls under way on one connection; further ones wait in the client.
 inline constexpr int kMaxCallsPerConnection = 64;

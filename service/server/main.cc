@@ -12,6 +12,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "service/kept_memory.h"
 #include "service/server/listen_address.h"
 #include "service/server/server.h"
 #include "service/server/table_catalog.h"
@@ -121,6 +122,7 @@ int ParseAndRun(int argc, char** argv) {
 }  // namespace albtpu::server
 
 int main(int argc, char** argv) try {
+  albtpu::KeepFreedMemory();
   spdlog::set_default_logger(spdlog::stderr_logger_mt("albtpu-serve"));
   spdlog::set_pattern("%n: %v");
   std::signal(SIGPIPE, SIG_IGN);  // A log that nobody reads any more does not end the server.

@@ -1,7 +1,8 @@
 #include "service/server/pulse_columns.h"
 
 #include <algorithm>
-#include <string_view>
+#include <array>
+#include <string>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
@@ -54,17 +55,18 @@ absl::Status Check(const ColumnBytes& columns, AxisId longest) {
 
 }  // namespace
 
-absl::StatusOr<PulseColumns> PulseColumns::Read(const v1::PulseColumns& columns) {
+absl::StatusOr<PulseColumns> ReadColumns(const v1::PulseColumns& columns) {
   const ColumnBytes bytes = {&columns.wind_speed(), &columns.fetch(),     &columns.incidence(),
                              &columns.azimuth(),    &columns.footprint(), &columns.depth()};
   const AxisId longest = Longest(bytes);
   const absl::Status status = Check(bytes, longest);
   if (!status.ok()) return status;
   PulseColumns pulses;
-  pulses.size_ = bytes[Index(longest)]->size() / sizeof(float);
+  pulses.size = bytes[Index(longest)]->size() / sizeof(float);
   for (AxisId axis : kAxes) {
     const std::string& column = *bytes[Index(axis)];
-    if (!column.empty()) pulses.columns_[Index(axis)] = FloatColumn(column);
+    // A string's bytes are aligned for floats: within the string behind a pointer and a size, or on the heap.
+    pulses.axis[Index(axis)] = {reinterpret_cast<const float*>(column.data()), column.size() / sizeof(float)};
   }
   return pulses;
 }

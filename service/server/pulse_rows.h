@@ -3,13 +3,13 @@
 
 #include "absl/status/status.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/server/query.h"
+#include "service/server/table_catalog.h"
 
 namespace albtpu::server {
 
-// InvalidArgument when there is no pulse, or more than limits.h allows.
-absl::Status CheckRows(const Query& query, const v1::QueryPulsesRequest& request);
-
-v1::PulseUncertainty AnswerRow(const Query& query, const v1::Pulse& pulse);
+// Fails as `QueryPulses` documents. Rows are answered as columns of themselves, so that both agree bit by
+// bit.
+absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
+                          v1::QueryPulsesResponse& response);
 
 }  // namespace albtpu::server

@@ -2,7 +2,6 @@
 
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -24,7 +23,6 @@ void LogAsOurs(gpr_log_func_args* message) {
 void Configure(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   builder.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
-  builder.SetResourceQuota(grpc::ResourceQuota("albtpu").SetMaxThreads(kMaxThreads));
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxCallsPerConnection);
   // Else two servers share a port and nobody notices.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);

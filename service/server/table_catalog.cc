@@ -27,7 +27,8 @@ absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& fol
     absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
     if (!table.ok()) return table.status();
     file.published = table->is_published();
-    entries.push_back({file.FullName(), *std::move(table)});
+    ColumnInterpolator interpolator(*table);
+    entries.push_back({file.FullName(), *std::move(table), std::move(interpolator)});
   }
   return TableCatalog(*std::move(files), std::move(entries), default_table);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "tables/column_query.h"
 #include "tables/table_folder.h"
 #include "tables/uncertainty_table.h"
 
@@ -24,6 +25,7 @@ class TableCatalog {
   struct Entry {
     std::string name;  // NAME or NAME/VERSION.
     UncertaintyTable table;
+    ColumnInterpolator interpolator;  // Of the table.
   };
   // By name, then from the newest version.
   const std::vector<Entry>& entries() const { return entries_; }

@@ -1,29 +1,47 @@
-// The methods of albtpu.v1.UncertaintyService: messages in, messages out. The .proto says what each does.
+// The methods of albtpu.v1.UncertaintyService. The .proto says what each does.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/server/byte_answers.h"
 #include "service/server/table_catalog.h"
+#include "service/server/workers.h"
 
 namespace albtpu::server {
 
-class UncertaintyService final : public v1::UncertaintyService::Service {
+// Messages of many pulses come and go as bytes, so that it is on a worker that they are read and written.
+using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_QueryPulses<
+    v1::UncertaintyService::WithRawCallbackMethod_QueryColumns<
+        v1::UncertaintyService::WithRawCallbackMethod_StreamColumns<
+            v1::UncertaintyService::WithCallbackMethod_ListTables<
+                v1::UncertaintyService::WithCallbackMethod_GetTable<v1::UncertaintyService::Service>>>>>;
+
+class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
   // `catalog` must outlive the service.
   explicit UncertaintyService(const TableCatalog& catalog) : catalog_(catalog) {}
 
-  grpc::Status QueryPulses(grpc::ServerContext* context, const v1::QueryPulsesRequest* request,
-                           v1::QueryPulsesResponse* response) override;
-  grpc::Status QueryColumns(grpc::ServerContext* context, const v1::QueryColumnsRequest* request,
-                            v1::QueryColumnsResponse* response) override;
-  grpc::Status ListTables(grpc::ServerContext* context, const v1::ListTablesRequest* request,
-                          v1::ListTablesResponse* response) override;
-  grpc::Status GetTable(grpc::ServerContext* context, const v1::GetTableRequest* request,
-                        v1::GetTableResponse* response) override;
+  grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                        grpc::ByteBuffer* response) override;
+  grpc::ServerUnaryReactor* QueryColumns(grpc::CallbackServerContext* context,
+                                         const grpc::ByteBuffer* request,
+                                         grpc::ByteBuffer* response) override;
+  grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* StreamColumns(
+      grpc::CallbackServerContext* context) override;
+  grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context,
+                                       const v1::ListTablesRequest* request,
+                                       v1::ListTablesResponse* response) override;
+  grpc::ServerUnaryReactor* GetTable(grpc::CallbackServerContext* context, const v1::GetTableRequest* request,
+                                     v1::GetTableResponse* response) override;
 
  private:
+  // Short requests at once, long ones on a worker.
+  grpc::ServerUnaryReactor* Answer(ByteAnswer answer, grpc::CallbackServerContext& context,
+                                   const grpc::ByteBuffer& request, grpc::ByteBuffer& response);
+
   const TableCatalog& catalog_;
+  Workers workers_;
 };
 
 }  // namespace albtpu::server

@@ -7,11 +7,12 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "service/client/local_source.h"
-#include "service/client/wire.h"
 #include "service/server/server.h"
 #include "tables/table_io.h"
+#include "tests/service/client/column_memory.h"
 #include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
 
@@ -42,76 +43,93 @@ class RunningServer {
   std::unique_ptr<server::Server> server_;
 };
 
-// Pulses within and without the table, with and without an azimuth, now and then not a number.
-std::vector<Pulse> MixedPulses(std::size_t count) {
+// Pulses within and without the table, now and then not a number.
+PulseMemory MixedPulses(std::size_t count) {
   std::mt19937 random(1);
   const auto draw = [&](float from, float to) {
     return from + (to - from) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24);
   };
-  std::vector<Pulse> pulses(count);
-  for (Pulse& pulse : pulses) {
-    pulse.wind_speed = draw(2.5f, 10.5f);
-    if (random() % 3 != 0) pulse.fetch = draw(900, 200000);
-    pulse.incidence = draw(-1, 27);
-    if (random() % 2 != 0) pulse.azimuth = draw(-400, 400);
-    pulse.footprint = draw(0.2f, 2.1f);
-    pulse.depth = random() % 50 == 0 ? std::numeric_limits<float>::quiet_NaN() : draw(-1, 21);
+  PulseMemory pulses;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float depth = random() % 50 == 0 ? std::numeric_limits<float>::quiet_NaN() : draw(-1, 21);
+    pulses.Add({draw(2.5f, 10.5f), draw(900, 200000), draw(-1, 27), draw(-400, 400), draw(0.2f, 2.1f), depth});
   }
   return pulses;
 }
 
-void ExpectSameBits(const PulseUncertainty& a, const PulseUncertainty& b) {
-  EXPECT_EQ(a.outcome, b.outcome);
-  EXPECT_EQ(a.axis, b.axis);
-  EXPECT_EQ(a.azimuth_absent, b.azimuth_absent);
-  if (a.outcome != Outcome::kInterpolated) return;
-  EXPECT_EQ(std::memcmp(a.values.data(), b.values.data(), sizeof a.values), 0);
-  EXPECT_EQ(std::memcmp(a.standard_errors.data(), b.standard_errors.data(), sizeof a.standard_errors), 0);
-  EXPECT_EQ(a.radius_over_thu, b.radius_over_thu);
-}
+const Query kP95Of1b = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b};
 
 TEST(ServerSource, GivesTheBitsThatATableInThisProcessGives) {
   const RunningServer server;
-  const auto remote = ServerSource::Open(server.address(), "", true);
-  ASSERT_TRUE(remote.ok()) << remote.status();
+  const auto remote = ServerSource::Open(server.address(), "").value();
   LocalSource local("", SyntheticTable());
-  // More than one message of each kind.
-  const std::vector<Pulse> pulses = MixedPulses(150000);
-  std::vector<PulseUncertainty> remote_answers(pulses.size()), local_answers(pulses.size());
-  ASSERT_TRUE((*remote)->Answer(pulses, remote_answers).ok());
-  ASSERT_TRUE(local.Answer(pulses, local_answers).ok());
-  for (std::size_t i = 0; i < pulses.size() && !::testing::Test::HasFailure(); ++i) {
-    SCOPED_TRACE(i);
-    ExpectSameBits(remote_answers[i], local_answers[i]);
+  PulseMemory pulses = MixedPulses(150000);  // More than one message.
+  for (const bool with_azimuth : {true, false}) {
+    if (!with_azimuth) pulses.axis(AxisId::kAzimuth).clear();
+    AnswerMemory from_server(pulses.size()), from_table(pulses.size());
+    ASSERT_TRUE(remote->Answer(kP95Of1b, pulses.columns(), from_server.columns()).ok());
+    ASSERT_TRUE(local.Answer(kP95Of1b, pulses.columns(), from_table.columns()).ok());
+    EXPECT_TRUE(from_server == from_table);
   }
 }
 
-TEST(ServerSource, SendsWhatIsAlikeOnce) {
-  const std::vector<Pulse> pulses(
-      1000, {.wind_speed = 5, .incidence = 12, .azimuth = 30.0f, .footprint = 1, .depth = 3});
-  albtpu::v1::PulseColumns columns;
-  ToWire(pulses, columns);
-  EXPECT_EQ(columns.wind_speed().size(), 4u);
-  EXPECT_EQ(columns.azimuth().size(), 4u);
-  EXPECT_EQ(columns.depth().size(), 4000u);
-
+TEST(ServerSource, AnswersManyThreadsAtATime) {
   const RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "quick", false).value();
-  std::vector<PulseUncertainty> answers(pulses.size());
-  ASSERT_TRUE(source->Answer(pulses, answers).ok());
-  EXPECT_EQ(answers.back().values, Interpolate(SyntheticTable(), pulses[0]).values);
-  EXPECT_TRUE(std::isnan(answers.back().standard_errors[0]));
+  const auto source = ServerSource::Open(server.address(), "").value();
+  const PulseMemory pulses = MixedPulses(70000);
+  AnswerMemory expected(pulses.size());
+  ASSERT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      AnswerMemory answers(pulses.size());
+      EXPECT_TRUE(source->Answer({}, pulses.columns(), answers.columns()).ok());
+      EXPECT_TRUE(answers == expected);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(ServerSource, AsksForTheColumnsThatAreWantedAlone) {
+  const RunningServer server;
+  const auto source = ServerSource::Open(server.address(), "").value();
+  const PulseMemory pulses = MixedPulses(1000);
+  AnswerMemory all(pulses.size()), some(pulses.size());
+  ASSERT_TRUE(source->Answer({}, pulses.columns(), all.columns()).ok());
+  AnswerColumns wanted;
+  wanted.values[Index(Quantity::kTvu)] = some.columns().values[Index(Quantity::kTvu)];
+  ASSERT_TRUE(source->Answer({}, pulses.columns(), wanted).ok());
+  EXPECT_EQ(std::memcmp(all.columns().values[Index(Quantity::kTvu)],
+                        some.columns().values[Index(Quantity::kTvu)], pulses.size() * sizeof(float)),
+            0);
+  EXPECT_TRUE(source->Answer({}, pulses.columns(), AnswerColumns()).ok());
+}
+
+TEST(ServerSource, TakesPulsesThatAreAllAlike) {
+  const RunningServer server;
+  const auto source = ServerSource::Open(server.address(), "quick").value();
+  PulseMemory pulse;
+  pulse.Add({5, 5000, 12, 30, 1, 3});
+  PulseColumns pulses = pulse.columns();
+  pulses.size = 65537;  // The second message has one pulse.
+  AnswerMemory answers(pulses.size);
+  ASSERT_TRUE(source->Answer({}, pulses, answers.columns()).ok());
+  const float thu = Interpolate(SyntheticTable(), PulseAt(pulses, 0))[Quantity::kThu];
+  for (const std::size_t i : {std::size_t{0}, std::size_t{65535}, std::size_t{65536}}) {
+    EXPECT_FLOAT_EQ(answers.columns().values[Index(Quantity::kThu)][i], thu) << i;
+  }
 }
 
 TEST(ServerSource, AsksNothingForNoPulses) {
-  const RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "", true).value();
-  EXPECT_TRUE(source->Answer({}, {}).ok());
+  RunningServer server;
+  const auto source = ServerSource::Open(server.address(), "").value();
+  server.Stop();
+  EXPECT_TRUE(source->Answer({}, {}, {}).ok());
 }
 
 TEST(ServerSource, KnowsItsTableAsAFileDoes) {
   const RunningServer server;
-  const TableSummary remote = ServerSource::Open(server.address(), "", false).value()->table();
+  const TableSummary remote = ServerSource::Open(server.address(), "").value()->table();
   const TableSummary local = Summarize("quick", SyntheticTable());
   EXPECT_EQ(remote.name, local.name);
   EXPECT_EQ(remote.id, local.id);
@@ -131,69 +149,60 @@ TEST(ServerSource, KnowsItsTableAsAFileDoes) {
 
 TEST(ServerSource, SaysWhatIsWrongWithTheServer) {
   RunningServer server;
-  const absl::Status unknown = ServerSource::Open(server.address(), "no", false).status();
+  const absl::Status unknown = ServerSource::Open(server.address(), "no").status();
   EXPECT_EQ(unknown.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(unknown.message()), HasSubstr("'no'"));
   EXPECT_THAT(std::string(unknown.message()), HasSubstr("quick"));
   const std::string address = server.address();
   server.Stop();
-  const absl::Status gone = ServerSource::Open(address, "", false).status();
+  const absl::Status gone = ServerSource::Open(address, "").status();
   EXPECT_EQ(gone.code(), absl::StatusCode::kUnavailable);
   EXPECT_THAT(std::string(gone.message()), HasSubstr("start albtpu-serve"));
+}
+
+TEST(ServerSource, GoesOnWhenItsServerComesBack) {
+  auto server = std::make_unique<RunningServer>();
+  const std::string address = server->address();
+  const auto source = ServerSource::Open(address, "").value();
+  server->Stop();
+  server.reset();
+  const PulseMemory pulses = MixedPulses(1000);
+  AnswerMemory answers(pulses.size()), expected(pulses.size());
+  absl::Status status;
+  std::thread asker([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
+  server = std::make_unique<RunningServer>(SyntheticOptions(), address);
+  asker.join();
+  EXPECT_TRUE(status.ok()) << status;
+  ASSERT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
+  EXPECT_TRUE(answers == expected);
 }
 
 TEST(ServerSource, NoticesThatItsTableBecameAnother) {
   auto first = std::make_unique<RunningServer>();
   const std::string address = first->address();
-  const auto source = ServerSource::Open(address, "", false).value();
+  const auto source = ServerSource::Open(address, "").value();
   first->Stop();
   first.reset();
   const RunningServer second({.factor = 2}, address);
-  const std::vector<Pulse> pulses = MixedPulses(1);
-  std::vector<PulseUncertainty> answers(1);
-  absl::Status status;
-  // The channel may first have to find out that its connection is gone.
-  do status = source->Answer(pulses, answers);
-  while (absl::IsUnavailable(status));
+  const PulseMemory pulses = MixedPulses(1);
+  AnswerMemory answers(1);
+  const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
   EXPECT_EQ(status.code(), absl::StatusCode::kAborted) << status;
   EXPECT_THAT(std::string(status.message()), HasSubstr("table quick changed from digest"));
 }
 
-// An answer for one pulse, as a server should give it.
-albtpu::v1::QueryColumnsResponse GoodResponse() {
-  albtpu::v1::QueryColumnsResponse response;
-  response.set_coverage(albtpu::v1::COVERAGE_TWO_SIGMA);
-  response.set_outcomes("\1");
-  response.set_outcome_axes(std::string(1, '\0'));
-  auto& columns = *response.mutable_sea_surface();
-  for (std::string* column :
-       {columns.mutable_refraction_along_wind(), columns.mutable_refraction_cross_wind(),
-        columns.mutable_thu(), columns.mutable_tvu(), columns.mutable_bias_along_beam(),
-        columns.mutable_bias_vertical()}) {
-    *column = std::string(4, '\0');
-  }
-  return response;
-}
-
-TEST(Wire, RefusesAnswersThatBreakTheirRules) {
-  PulseUncertainty answer;
-  const auto read = [&](const albtpu::v1::QueryColumnsResponse& response, bool standard_errors = false) {
-    return FromWire(response, standard_errors, {&answer, 1});
-  };
-  EXPECT_TRUE(read(GoodResponse()).ok());
-  EXPECT_FALSE(read(GoodResponse(), true).ok());  // They are not there.
-  auto response = GoodResponse();
-  response.set_coverage(albtpu::v1::COVERAGE_P95);
-  EXPECT_FALSE(read(response).ok());
-  response = GoodResponse();
-  response.set_outcomes("\1\1");
-  EXPECT_FALSE(read(response).ok());
-  response = GoodResponse();
-  response.set_outcomes("\7");
-  EXPECT_FALSE(read(response).ok());
-  response = GoodResponse();
-  response.mutable_sea_surface()->set_tvu("short");
-  EXPECT_FALSE(read(response).ok());
+TEST(ServerSource, GivesUpAServerThatStaysAway) {
+  RunningServer server;
+  const auto source =
+      ServerSource::Open(server.address(), "", {.retries = 2, .first_pause = std::chrono::milliseconds(1)})
+          .value();
+  server.Stop();
+  const PulseMemory pulses = MixedPulses(10);
+  AnswerMemory answers(pulses.size());
+  const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable) << status;
+  EXPECT_THAT(std::string(status.message()), HasSubstr("asked again 2 times, after 0 of 10 pulses"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("start albtpu-serve"));
 }
 
 }  // namespace

@@ -1,0 +1,175 @@
+#include "service/client/column_exchange.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "service/client/wire.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::v1::QueryColumnsResponse;
+using albtpu::v1::StreamColumnsRequest;
+using albtpu::v1::StreamColumnsResponse;
+using std::chrono::system_clock;
+
+// Messages sent ahead of the answers: one that is received, one that is answered, one on each way.
+constexpr std::size_t kAhead = 4;
+
+// From one answer to the next.
+constexpr std::chrono::seconds kDeadline{60};
+
+PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
+  PulseColumns slice = pulses;
+  slice.size = count;
+  for (std::span<const float>& column : slice.axis) {
+    if (column.size() > 1) column = column.subspan(begin, count);
+  }
+  return slice;
+}
+
+AnswerColumns From(AnswerColumns answers, std::size_t begin) {
+  const auto advance = [begin](auto*& column) {
+    if (column != nullptr) column += begin;
+  };
+  advance(answers.outcomes);
+  advance(answers.outcome_axes);
+  for (float*& column : answers.values) advance(column);
+  for (float*& column : answers.standard_errors) advance(column);
+  advance(answers.best_s44_orders);
+  advance(answers.remaining_thu);
+  advance(answers.remaining_tvu);
+  return answers;
+}
+
+// The call is driven by the thread that made it: gRPC says through a queue what has happened, and one thing
+// of each kind is under way at most.
+class Call {
+ public:
+  Call(albtpu::v1::UncertaintyService::Stub& stub, const ColumnTask& task, std::size_t begin)
+      : task_(task), sent_(begin), answered_(begin) {
+    auto& query = *request_.mutable_query();
+    query.mutable_options()->set_table(task.table);
+    ToWire(task.query, task.answers, query);
+    stream_ = stub.PrepareAsyncStreamColumns(&context_, &events_);
+    stream_->StartCall(Tag(kStarted));
+  }
+
+  ~Call() {
+    events_.Shutdown();
+    void* event;
+    bool ok;
+    while (events_.Next(&event, &ok)) {
+    }
+  }
+
+  absl::Status Run() {
+    while (!finished_) {
+      void* event = nullptr;
+      bool ok = false;
+      const auto next = events_.AsyncNext(&event, &ok, system_clock::now() + kDeadline);
+      if (next == grpc::CompletionQueue::TIMEOUT) {
+        Fail(absl::DeadlineExceededError(absl::StrCat("no answer for ", kDeadline.count(), " s")));
+      } else {
+        Handle(static_cast<Event>(reinterpret_cast<std::uintptr_t>(event)), ok);
+      }
+    }
+    if (!failure_.ok()) return failure_;
+    // Both have the canonical numbers.
+    const auto code = static_cast<absl::StatusCode>(status_.error_code());
+    if (!status_.ok()) return absl::Status(code, status_.error_message());
+    if (answered_ < task_.pulses.size) return absl::UnavailableError("it ended the call early");
+    return absl::OkStatus();
+  }
+
+  std::size_t answered() const { return answered_; }
+
+ private:
+  enum Event : std::uintptr_t { kStarted = 1, kWritten, kClosed, kRead, kFinished };
+
+  static void* Tag(Event event) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(event)); }
+
+  void Handle(Event event, bool ok) {
+    switch (event) {
+      case kStarted:
+        if (!ok) return Finish();
+        stream_->Read(&response_, Tag(kRead));
+        return Write();
+      case kWritten:
+        writing_ = false;
+        return ok ? Write() : void();  // The read fails as well, and ends the call.
+      case kClosed:
+        return;
+      case kRead:
+        if (!ok) return Finish();
+        if (absl::Status status = Take(response_.answer()); !status.ok()) Fail(status);
+        stream_->Read(&response_, Tag(kRead));
+        return Write();
+      case kFinished:
+        finished_ = true;
+        return;
+    }
+  }
+
+  // Sends the next message if it is time, or that there is none.
+  void Write() {
+    if (writing_ || closed_ || !failure_.ok()) return;
+    if (sent_ == task_.pulses.size) {
+      closed_ = true;
+      return stream_->WritesDone(Tag(kClosed));
+    }
+    if (sent_ >= answered_ + kAhead * kMostPulses) return;
+    const std::size_t count = std::min(kMostPulses, task_.pulses.size - sent_);
+    ToWire(Slice(task_.pulses, sent_, count), *request_.mutable_query()->mutable_pulses());
+    sent_ += count;
+    writing_ = true;
+    stream_->Write(request_, Tag(kWritten));
+  }
+
+  absl::Status Take(const QueryColumnsResponse& answer) {
+    if (answered_ == sent_) return absl::InternalError("it answered more than it was asked");
+    if (answer.table().digest() != task_.digest) {
+      return absl::AbortedError(absl::StrCat("table ", task_.table, " changed from digest ", task_.digest,
+                                             " to ", answer.table().digest(),
+                                             " while it was asked: start again"));
+    }
+    const std::size_t count = std::min(kMostPulses, task_.pulses.size - answered_);
+    absl::Status status = FromWire(answer, task_.query, count, From(task_.answers, answered_));
+    if (status.ok()) answered_ += count;
+    return status;
+  }
+
+  // Ends the call from this side; the first reason counts.
+  void Fail(absl::Status reason) {
+    failure_.Update(reason);
+    context_.TryCancel();
+  }
+
+  void Finish() { stream_->Finish(&status_, Tag(kFinished)); }
+
+  const ColumnTask& task_;
+  std::size_t sent_, answered_;  // Pulses.
+  bool writing_ = false, closed_ = false, finished_ = false;
+  absl::Status failure_;
+
+  grpc::ClientContext context_;
+  grpc::CompletionQueue events_;
+  StreamColumnsRequest request_;  // Kept, so that its columns keep their memory.
+  StreamColumnsResponse response_;
+  grpc::Status status_;
+  std::unique_ptr<grpc::ClientAsyncReaderWriter<StreamColumnsRequest, StreamColumnsResponse>> stream_;
+};
+
+}  // namespace
+
+absl::Status Exchange(albtpu::v1::UncertaintyService::Stub& stub, const ColumnTask& task,
+                      std::size_t& begin) {
+  Call call(stub, task, begin);
+  const absl::Status status = call.Run();
+  begin = call.answered();
+  return status;
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,76 @@
+// A file in chunks: read one after the other, worked on side by side, written one after the other.
+#pragma once
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace albtpu::client {
+
+// Runs until `read` finds nothing more or something fails, and gives the failure that is first in the file.
+// Memory does not grow with the file: there are a few chunks, used again and again.
+//   absl::StatusOr<bool> read(Chunk&)   in order; false when nothing is left
+//   absl::Status work(Chunk&)           many at a time
+//   absl::Status write(Chunk&)          in order; after a failure no more
+// Chunks come from `make_chunk()`.
+template <typename MakeChunk, typename Read, typename Work, typename Write>
+absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Write write) {
+  using Chunk = decltype(make_chunk());
+  struct Slot {
+    Chunk chunk;
+    absl::Status status;
+  };
+  // More threads than cores: some wait for a disk or a server.
+  const int threads = oneapi::tbb::info::default_concurrency() + 2;
+  std::vector<Slot> slots;
+  for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
+  std::size_t next = 0;
+  bool read_all = false;
+  absl::Status result;
+  std::atomic<bool> failed = false;
+  const auto read_slot = [&](oneapi::tbb::flow_control& flow) -> Slot* {
+    if (!read_all && !failed) {
+      // Slots are freed in order, so the one that is next in the ring is free.
+      Slot& slot = slots[next++ % slots.size()];
+      const absl::StatusOr<bool> more = read(slot.chunk);
+      slot.status = more.status();
+      read_all = !more.ok();
+      if (!more.ok() || *more) return &slot;
+    }
+    flow.stop();
+    return nullptr;
+  };
+  const auto work_on_slot = [&](Slot* slot) {
+    if (slot->status.ok() && !failed) slot->status = work(slot->chunk);
+    return slot;
+  };
+  const auto write_slot = [&](Slot* slot) {
+    if (failed) return;
+    if (slot->status.ok()) slot->status = write(slot->chunk);
+    if (slot->status.ok()) return;
+    result = slot->status;
+    failed = true;
+  };
+  using oneapi::tbb::filter_mode;
+  using oneapi::tbb::make_filter;
+  const oneapi::tbb::global_control thread_count(oneapi::tbb::global_control::max_allowed_parallelism,
+                                                 static_cast<std::size_t>(threads));
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute([&] {
+    oneapi::tbb::parallel_pipeline(slots.size(),
+                                   make_filter<void, Slot*>(filter_mode::serial_in_order, read_slot) &
+                                       make_filter<Slot*, Slot*>(filter_mode::parallel, work_on_slot) &
+                                       make_filter<Slot*, void>(filter_mode::serial_in_order, write_slot));
+  });
+  return result;
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,23 @@
+// Answers to the methods that take many pulses, from message to message as they travel. Reading and writing a
+// long message takes as long as answering it: all three are one piece of work.
+#pragma once
+
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/status.h>
+
+#include "service/server/table_catalog.h"
+
+namespace albtpu::server {
+
+// Writes `response` if the status is OK. Bytes that are no message of the method are INVALID_ARGUMENT.
+using ByteAnswer = grpc::Status (*)(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                    grpc::ByteBuffer& response);
+
+grpc::Status AnswerQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                               grpc::ByteBuffer& response);
+grpc::Status AnswerQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                grpc::ByteBuffer& response);
+grpc::Status AnswerStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                 grpc::ByteBuffer& response);  // One exchange.
+
+}  // namespace albtpu::server

@@ -1,0 +1,334 @@
+// service_bench serve-raw TABLE.h5
+// service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
+//               [--seconds S] [--beside N]
+//
+// Asks a server for a time, checks the first answers against the table, and prints one JSON object: pulses and
+// calls a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+#include <grpcpp/grpcpp.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/client/server_source.h"
+#include "service/client/wire.h"
+#include "service/kept_memory.h"
+#include "tables/table_io.h"
+#include "tests/bench/flight_line.h"
+#include "tests/bench/raw_peer.h"
+
+namespace albtpu::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string peer, address, table;
+  int server_pid = 0;
+  std::size_t batch = 65536;
+  int callers = 2, in_flight = 64, beside = 0;
+  double seconds = 2;
+};
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+double OwnProcessorTime() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// utime and stime, by proc(5), in clock ticks.
+double ProcessorTimeOf(int pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string word;
+  std::getline(file, word, ')');
+  for (int field = 3; field < 14; ++field) file >> word;
+  double user = 0, system = 0;
+  file >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+// What all callers did, and until when they go on.
+class Record {
+ public:
+  explicit Record(double seconds) : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                           std::chrono::duration<double>(seconds))) {}
+
+  bool going_on() const { return Clock::now() < end_; }
+
+  void Add(std::size_t pulses, const std::vector<double>& latencies) {
+    const std::lock_guard lock(mutex_);
+    pulses_ += pulses;
+    latencies_.insert(latencies_.end(), latencies.begin(), latencies.end());
+  }
+
+  std::size_t pulses() const { return pulses_; }
+  std::size_t calls() const { return latencies_.size(); }
+  double Latency(double quantile) {
+    if (latencies_.empty()) return 0;
+    const auto nth = latencies_.begin() +
+                     static_cast<std::ptrdiff_t>(quantile * static_cast<double>(latencies_.size() - 1));
+    std::nth_element(latencies_.begin(), nth, latencies_.end());
+    return *nth;
+  }
+
+ private:
+  const Clock::time_point end_;
+  std::mutex mutex_;
+  std::size_t pulses_ = 0;
+  std::vector<double> latencies_;
+};
+
+void Check(bool good, const std::string& what) {
+  if (good) return;
+  std::cerr << "service_bench: " << what << "\n";
+  std::exit(1);
+}
+
+// One caller: asks again and again, `Ask` once for `pulses`.
+template <typename Ask>
+void AskInTurn(Record& record, std::size_t pulses, Ask ask) {
+  std::vector<double> latencies;
+  while (record.going_on()) {
+    const Clock::time_point begin = Clock::now();
+    ask();
+    latencies.push_back(Seconds(Clock::now() - begin));
+  }
+  record.Add(pulses * latencies.size(), latencies);
+}
+
+std::unique_ptr<v1::UncertaintyService::Stub> StubTo(const std::string& address) {
+  return v1::UncertaintyService::NewStub(
+      grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+}
+
+class Load {
+ public:
+  Load(const Options& options, const FlightLine& line, const ColumnInterpolator& table)
+      : options_(options), line_(line), table_(table) {}
+
+  void Run(const std::string& peer, Record& record) {
+    if (peer == "raw") return Raw(record);
+    if (peer == "raw-single") return RawSingle(record);
+    if (peer == "columns") return Columns(record);
+    if (peer == "stream") return Stream(record);
+    if (peer == "rows") return Rows(record);
+    if (peer == "single") return Single(record);
+    Check(false, "no peer '" + peer + "'");
+  }
+
+ private:
+  AnswerMemory Expected(std::size_t count) const {
+    AnswerMemory expected(count);
+    table_.Answer({}, line_.pulses(count), 0, count, expected.columns());
+    return expected;
+  }
+
+  void Raw(Record& record) {
+    const PulseColumns pulses = line_.pulses(options_.batch);
+    AnswerMemory answers(options_.batch);
+    RawConnection connection(options_.address);
+    AskInTurn(record, options_.batch, [&] {
+      connection.Send(pulses);
+      connection.Receive(options_.batch, answers.columns());
+    });
+    answers.ExpectSame(Expected(options_.batch));
+  }
+
+  void Columns(Record& record) {
+    const auto stub = StubTo(options_.address);
+    AnswerMemory answers(options_.batch);
+    v1::QueryColumnsRequest request;
+    v1::QueryColumnsResponse response;
+    client::ToWire({}, answers.columns(), request);
+    AskInTurn(record, options_.batch, [&] {
+      client::ToWire(line_.pulses(options_.batch), *request.mutable_pulses());
+      grpc::ClientContext context;
+      const grpc::Status status = stub->QueryColumns(&context, request, &response);
+      Check(status.ok(), status.error_message());
+      const absl::Status read = client::FromWire(response, {}, options_.batch, answers.columns());
+      Check(read.ok(), read.ToString());
+    });
+    answers.ExpectSame(Expected(options_.batch));
+  }
+
+  // All pulses of the line at a time, a batch a message.
+  void Stream(Record& record) {
+    auto source = client::ServerSource::Open(options_.address, "");
+    Check(source.ok(), source.status().ToString());
+    const std::size_t count = line_.pulses().size;
+    AnswerMemory answers(count);
+    AskInTurn(record, count, [&] {
+      const absl::Status status = (*source)->Answer({}, line_.pulses(), answers.columns());
+      Check(status.ok(), status.ToString());
+    });
+    answers.ExpectSame(Expected(count));
+  }
+
+  static v1::QueryPulsesRequest RowRequest(const PulseColumns& pulses) {
+    v1::QueryPulsesRequest request;
+    for (std::size_t i = 0; i < pulses.size; ++i) {
+      const Pulse pulse = PulseAt(pulses, i);
+      v1::Pulse& row = *request.add_pulses();
+      row.set_wind_speed(pulse.wind_speed);
+      row.set_incidence(pulse.incidence);
+      row.set_azimuth(*pulse.azimuth);
+      row.set_footprint(pulse.footprint);
+      row.set_depth(pulse.depth);
+    }
+    return request;
+  }
+
+  void Rows(Record& record) {
+    const auto stub = StubTo(options_.address);
+    v1::QueryPulsesResponse response;
+    AnswerMemory answers(options_.batch);
+    AskInTurn(record, options_.batch, [&] {
+      grpc::ClientContext context;
+      const grpc::Status status =
+          stub->QueryPulses(&context, RowRequest(line_.pulses(options_.batch)), &response);
+      Check(status.ok(), status.error_message());
+      const AnswerColumns columns = answers.columns();
+      for (std::size_t i = 0; i < options_.batch; ++i) {
+        const v1::PulseUncertainty& row = response.uncertainties(static_cast<int>(i));
+        columns.outcomes[i] = static_cast<std::uint8_t>(row.outcome());
+        columns.outcome_axes[i] = static_cast<std::uint8_t>(row.axis());
+        columns.values[0][i] = row.sea_surface().refraction_along_wind();
+        columns.values[1][i] = row.sea_surface().refraction_cross_wind();
+        columns.values[2][i] = row.sea_surface().thu();
+        columns.values[3][i] = row.sea_surface().tvu();
+      }
+    });
+    answers.ExpectSame(Expected(options_.batch));
+  }
+
+  // One pulse a message, so many in flight on one connection.
+  void RawSingle(Record& record) {
+    const PulseColumns pulse = line_.pulses(1);
+    AnswerMemory answer(1);
+    RawConnection connection(options_.address);
+    std::vector<double> latencies;
+    std::vector<Clock::time_point> begin(static_cast<std::size_t>(options_.in_flight));
+    for (Clock::time_point& time : begin) {
+      time = Clock::now();
+      connection.Send(pulse);
+    }
+    for (std::size_t i = 0; record.going_on(); i = (i + 1) % begin.size()) {
+      connection.Receive(1, answer.columns());
+      latencies.push_back(Seconds(Clock::now() - begin[i]));
+      begin[i] = Clock::now();
+      connection.Send(pulse);
+    }
+    record.Add(latencies.size(), latencies);
+    answer.ExpectSame(Expected(1));
+  }
+
+  struct SingleCall {
+    grpc::ClientContext context;
+    v1::QueryPulsesResponse response;
+    grpc::Status status;
+    Clock::time_point begin;
+    std::unique_ptr<grpc::ClientAsyncResponseReader<v1::QueryPulsesResponse>> reader;
+  };
+
+  // One pulse a call, so many in flight on one connection.
+  void Single(Record& record) {
+    const auto stub = StubTo(options_.address);
+    const v1::QueryPulsesRequest request = RowRequest(line_.pulses(1));
+    grpc::CompletionQueue finished;
+    const auto start = [&] {
+      auto* call = new SingleCall;
+      call->begin = Clock::now();
+      call->reader = stub->AsyncQueryPulses(&call->context, request, &finished);
+      call->reader->Finish(&call->response, &call->status, call);
+    };
+    for (int i = 0; i < options_.in_flight; ++i) start();
+    std::vector<double> latencies;
+    for (int under_way = options_.in_flight; under_way > 0;) {
+      void* tag;
+      bool ok;
+      finished.Next(&tag, &ok);
+      const std::unique_ptr<SingleCall> call(static_cast<SingleCall*>(tag));
+      Check(call->status.ok(), call->status.error_message());
+      latencies.push_back(Seconds(Clock::now() - call->begin));
+      if (record.going_on()) {
+        start();
+      } else {
+        --under_way;
+      }
+    }
+    record.Add(latencies.size(), latencies);
+  }
+
+  const Options& options_;
+  const FlightLine& line_;
+  const ColumnInterpolator& table_;
+};
+
+int Ask(const Options& options, const ColumnInterpolator& table) {
+  const bool single = options.peer.ends_with("single");
+  const FlightLine line(options.peer == "stream" || options.beside > 0 ? 16 * options.batch : options.batch);
+  const double client_before = OwnProcessorTime(), server_before = ProcessorTimeOf(options.server_pid);
+  const Clock::time_point begin = Clock::now();
+  Record record(options.seconds), bulk(options.seconds);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < options.beside; ++i) {
+    threads.emplace_back([&] { Load(options, line, table).Run("stream", bulk); });
+  }
+  for (int i = 0; i < (single ? 1 : options.callers); ++i) {
+    threads.emplace_back([&] { Load(options, line, table).Run(options.peer, record); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  const double elapsed = Seconds(Clock::now() - begin);
+  const auto pulses = static_cast<double>(record.pulses());
+  const nlohmann::json report = {
+      {"peer", options.peer},
+      {"pulses_per_second", pulses / elapsed},
+      {"calls_per_second", static_cast<double>(record.calls()) / elapsed},
+      {"latency", {{"p50", record.Latency(0.5)}, {"p99", record.Latency(0.99)}, {"max", record.Latency(1)}}},
+      {"client_cpu_per_pulse", (OwnProcessorTime() - client_before) / pulses},
+      {"server_cpu_per_pulse", (ProcessorTimeOf(options.server_pid) - server_before) / pulses},
+      {"bulk_pulses_per_second", static_cast<double>(bulk.pulses()) / elapsed}};
+  std::cout << report.dump() << "\n";
+  return 0;
+}
+
+int Main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
+  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")->required();
+  app.add_option("--table", options.table, "The table that answers")->required();
+  app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
+  app.add_option("--server-pid", options.server_pid, "Whose processor time to count");
+  app.add_option("--batch", options.batch, "Pulses of one message");
+  app.add_option("--callers", options.callers, "Threads that ask");
+  app.add_option("--in-flight", options.in_flight, "Single pulses at a time");
+  app.add_option("--beside", options.beside, "Further threads that stream, not counted");
+  app.add_option("--seconds", options.seconds, "For how long");
+  CLI11_PARSE(app, argc, argv);
+  const auto table = ReadTable(options.table);
+  Check(table.ok(), table.status().ToString());
+  const ColumnInterpolator interpolator(*table);
+  if (options.peer != "serve-raw") return Ask(options, interpolator);
+  ServeRaw(interpolator);
+  return 0;
+}
+
+}  // namespace
+}  // namespace albtpu::bench
+
+int main(int argc, char** argv) {
+  albtpu::KeepFreedMemory();
+  return albtpu::bench::Main(argc, argv);
+}

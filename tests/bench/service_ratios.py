@@ -1,0 +1,123 @@
+"""The service beside bare TCP connections and rows of messages, as a Markdown table.
+
+Usage: service_ratios.py BUILD_FOLDER [--repetitions N] [--seconds S]
+Everything runs in turn, again and again, on this machine, client and server beside each other; figures are medians.
+Of each peer the best number of callers counts.
+"""
+
+import argparse
+import contextlib
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+from ratios import compiler, processor
+
+TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "survey.h5"
+BULK = ("raw", "columns", "stream")
+
+
+@contextlib.contextmanager
+def server(command, ready):
+    """Runs a server and gives (process, what `ready` found in the line with which it says that it is ready)."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        line = process.stdout.readline()
+        found = re.search(ready, line)
+        if not found:
+            sys.exit(f"service_ratios.py: {command[0]}: {line}")
+        yield process, found[1]
+    finally:
+        process.terminate()
+        process.wait()
+
+
+class Peers:
+    def __init__(self, program, ours, raw, seconds):
+        self.program, self.ours, self.raw, self.seconds = program, ours, raw, seconds
+
+    def run(self, peer, **options):
+        process, address = self.raw if peer.startswith("raw") else self.ours
+        command = [self.program, peer, "--table", TABLE, "--address", address, "--server-pid", str(process.pid),
+                   "--seconds", str(self.seconds)]
+        for name, value in options.items():
+            command += [f"--{name}", str(value)]
+        run = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+        run["cpu"] = run["client_cpu_per_pulse"] + run["server_cpu_per_pulse"]
+        return run
+
+
+def median(runs, *path):
+    def value(run):
+        for name in path:
+            run = run[name]
+        return run
+    return statistics.median(value(run) for run in runs)
+
+
+def measure(peers, repetitions):
+    """Runs by (peer, batch, callers or what else)."""
+    cases = {(peer, batch, callers): dict(batch=batch, callers=callers)
+             for batch in (10000, 65536) for peer in BULK for callers in (1, 2, 4)}
+    cases |= {("rows", 10000, callers): dict(batch=10000, callers=callers) for callers in (1, 2, 4)}
+    cases |= {(peer, 1, "64 in flight"): {"in-flight": 64} for peer in ("raw-single", "single")}
+    cases |= {("single", 1, "alone"): {"in-flight": 1},
+              ("single", 1, "under bulk"): {"in-flight": 1, "beside": 2}}
+    runs = {case: [] for case in cases}
+    for repetition in range(repetitions):
+        print(f"repetition {repetition + 1} of {repetitions} ...", file=sys.stderr)
+        for case, options in cases.items():
+            runs[case].append(peers.run(case[0], **options))
+    return runs
+
+
+def best(runs, peer, batch):
+    """The runs of the number of callers that brings most pulses a second."""
+    return max((of for (name, size, _), of in runs.items() if (name, size) == (peer, batch)),
+               key=lambda of: median(of, "pulses_per_second"))
+
+
+def rows_of(runs):
+    def row(what, ours, peer):
+        rate, of_peer = median(ours, "pulses_per_second"), median(peer, "pulses_per_second")
+        return (what, f"{rate / 1e6:.3g} M/s", f"{of_peer / 1e6:.3g} M/s", f"{rate / of_peer:.2f}",
+                f"{median(ours, 'client_cpu_per_pulse') * 1e9:.3g} + {median(ours, 'server_cpu_per_pulse') * 1e9:.3g}",
+                f"{median(peer, 'client_cpu_per_pulse') * 1e9:.3g} + {median(peer, 'server_cpu_per_pulse') * 1e9:.3g}",
+                f"{median(ours, 'cpu') / median(peer, 'cpu'):.2f}")
+    for batch in (10000, 65536):
+        for peer, name in (("columns", "QueryColumns"), ("stream", "StreamColumns")):
+            yield row(f"`{name}`, {batch} a message, against raw TCP", best(runs, peer, batch),
+                      best(runs, "raw", batch))
+    yield row("`QueryColumns` against `QueryPulses`, 10000 a message", best(runs, "columns", 10000),
+              best(runs, "rows", 10000))
+    yield row("single pulses, 64 in flight, against raw TCP messages", runs["single", 1, "64 in flight"],
+              runs["raw-single", 1, "64 in flight"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--repetitions", type=int, default=7)
+    parser.add_argument("--seconds", type=float, default=1)
+    arguments = parser.parse_args()
+    program = arguments.build / "tests" / "bench" / "service_bench"
+    ours = [arguments.build / "service" / "server" / "albtpu-serve", "--tables", TABLE.parent, "--listen", "127.0.0.1:0"]
+    with server(ours, r"ready on (\S+),") as service, server([program, "serve-raw", "--table", TABLE], r"^(\d+)$") as raw:
+        runs = measure(Peers(program, service, raw, arguments.seconds), arguments.repetitions)
+    print(f"{processor()}, shared by client and server; {compiler(arguments.build)}. Table `survey`, 4 columns of "
+          "each pulse asked, 4 quantities answered; processor time a pulse, client + server, in ns.\n")
+    print("| what | ours | peer | ratio | ours, CPU | peer, CPU | ratio |\n|---|---:|---:|---:|---:|---:|---:|")
+    for row in rows_of(runs):
+        print("| " + " | ".join(row) + " |")
+    alone, under_bulk = runs["single", 1, "alone"], runs["single", 1, "under bulk"]
+    p50, p99 = median(alone, "latency", "p50"), median(under_bulk, "latency", "p99")
+    print(f"\nA single pulse takes {p50 * 1e3:.2f} ms (median) on an idle server, and {p99 * 1e3:.2f} ms (99th "
+          f"percentile, {p99 / p50:.1f} times that) beside {median(under_bulk, 'bulk_pulses_per_second') / 1e6:.3g} "
+          "million pulses a second in bulk.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,236 @@
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+
+#include "service/server/limits.h"
+#include "tests/service/server/served_tables.h"
+
+namespace albtpu::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+class StreamColumns : public ServedTables {
+ protected:
+  using Stream = grpc::ClientReaderWriter<v1::StreamColumnsRequest, v1::StreamColumnsResponse>;
+
+  static v1::StreamColumnsRequest Request(const v1::PulseColumns& pulses) {
+    v1::StreamColumnsRequest request;
+    *request.mutable_query()->mutable_pulses() = pulses;
+    return request;
+  }
+
+  // All of one length, told apart by their depth.
+  static v1::StreamColumnsRequest Request(std::size_t count, float depth) {
+    v1::PulseColumns pulses = WireColumns(count);
+    pulses.set_depth(Column({depth}));
+    return Request(pulses);
+  }
+
+  std::unique_ptr<Stream> Open() {
+    context_.set_wait_for_ready(true);
+    return stub_->StreamColumns(&context_);
+  }
+
+  void ExpectAnswerOf(const v1::StreamColumnsRequest& request, const v1::StreamColumnsResponse& response) {
+    v1::QueryColumnsResponse alone;
+    ASSERT_TRUE(QueryColumns(request.query(), alone).ok());
+    EXPECT_EQ(response.answer().SerializeAsString(), alone.SerializeAsString());
+  }
+
+  grpc::ClientContext context_;
+};
+
+TEST_F(StreamColumns, AnswersEachRequestAsACallOfItsOwnAndInOrder) {
+  const auto stream = Open();
+  std::vector<v1::StreamColumnsRequest> requests;
+  for (int i = 0; i < 12; ++i) {  // Short and long ones in turn, which are answered on different threads.
+    requests.push_back(Request(i % 3 == 0 ? 5 : 20000, static_cast<float>(i)));
+    requests.back().mutable_query()->mutable_options()->set_table(i % 2 == 0 ? "survey" : "twice/1");
+    requests.back().mutable_query()->mutable_options()->set_standard_errors(i % 4 == 0);
+  }
+  auto written = std::async(std::launch::async, [&] {
+    for (const v1::StreamColumnsRequest& request : requests) stream->Write(request);
+    stream->WritesDone();
+  });
+  v1::StreamColumnsResponse response;
+  for (const v1::StreamColumnsRequest& request : requests) {
+    ASSERT_TRUE(stream->Read(&response));
+    ExpectAnswerOf(request, response);
+  }
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(StreamColumns, IsWellWithoutAnyRequest) {
+  const auto stream = Open();
+  stream->WritesDone();
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(StreamColumns, EndsAtTheFirstRequestThatCannotBeReadAfterTheAnswersBeforeIt) {
+  v1::PulseColumns part_of_a_number = WireColumns(3);
+  part_of_a_number.mutable_depth()->append("x");
+  v1::PulseColumns another_length = WireColumns(3);
+  another_length.set_depth(Column({1, 2}));
+  const std::pair<v1::PulseColumns, const char*> cases[] = {
+      {part_of_a_number, "column 'depth' has 13 bytes"},
+      {another_length, "column 'depth' has 2 numbers"},
+      {WireColumns(kMaxPulses + 1), "a message takes 65536 pulses"},
+      {v1::PulseColumns(), "send at least one"}};
+  for (const auto& [pulses, message] : cases) {
+    grpc::ClientContext context;
+    const auto stream = stub_->StreamColumns(&context);
+    stream->Write(Request(3, 1));
+    stream->Write(Request(pulses));
+    stream->Write(Request(3, 2));
+    v1::StreamColumnsResponse response;
+    ASSERT_TRUE(stream->Read(&response));
+    ExpectAnswerOf(Request(3, 1), response);
+    EXPECT_FALSE(stream->Read(&response));
+    const grpc::Status status = stream->Finish();
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_THAT(status.error_message(), HasSubstr(message));
+  }
+}
+
+TEST_F(StreamColumns, NamesTheTableThatIsNotThere) {
+  const auto stream = Open();
+  v1::StreamColumnsRequest request = Request(3, 1);
+  request.mutable_query()->mutable_options()->set_table("slow");
+  stream->Write(request);
+  v1::StreamColumnsResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(StreamColumns, IsReadNoFartherThanItsAnswersAreTaken) {
+  constexpr int kMany = 200;  // 200 answers have 300 MB: no window of HTTP/2 or TCP holds them.
+  const v1::StreamColumnsRequest request = [] {
+    v1::StreamColumnsRequest r = Request(kMaxPulses, 3);
+    for (v1::Quantity q : {v1::QUANTITY_THU, v1::QUANTITY_TVU, v1::QUANTITY_BIAS_VERTICAL}) {
+      r.mutable_query()->add_quantities(q);
+    }
+    return r;
+  }();
+  grpc::CompletionQueue events;
+  const auto stream = stub_->AsyncStreamColumns(&context_, &events, nullptr);
+  void* tag;
+  bool ok;
+  ASSERT_TRUE(events.Next(&tag, &ok) && ok);
+  int written = 0;
+  for (; written < kMany; ++written) {
+    stream->Write(request, nullptr);
+    // A write that is not done in this time waits for the server, which waits for a reader. On a machine so
+    // slow that it only looks like that, less is shown, and nothing fails.
+    const auto patience = std::chrono::system_clock::now() + std::chrono::seconds(2);
+    if (events.AsyncNext(&tag, &ok, patience) == grpc::CompletionQueue::TIMEOUT) break;
+    ASSERT_TRUE(ok);
+  }
+  EXPECT_LT(written, kMany / 4);
+
+  // Nothing is lost: all that was written is answered once it is read. The write that waited ends meanwhile.
+  v1::StreamColumnsResponse response;
+  for (int read = 0; read <= written;) {
+    stream->Read(&response, &response);
+    do ASSERT_TRUE(events.Next(&tag, &ok) && ok);
+    while (tag != &response);
+    ++read;
+    EXPECT_EQ(response.answer().pulse_count(), static_cast<int>(kMaxPulses));
+  }
+  context_.TryCancel();
+  grpc::Status status;
+  stream->Finish(&status, nullptr);
+  events.Shutdown();
+  while (events.Next(&tag, &ok)) {
+  }
+}
+
+TEST_F(StreamColumns, LeavesNothingBehindWhenItsCallerStopsHalfWay) {
+  for (int i = 0; i < 10; ++i) {
+    grpc::ClientContext context;
+    const auto stream = stub_->StreamColumns(&context);
+    stream->Write(Request(kMaxPulses, 1));
+    stream->Write(Request(kMaxPulses, 2));
+    v1::StreamColumnsResponse response;
+    if (i % 2 == 0) {
+      ASSERT_TRUE(stream->Read(&response));
+    }
+    context.TryCancel();
+    EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  server_->Drain();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kDrainTime / 2);
+}
+
+TEST_F(StreamColumns, IsRefusedWhenTooManyAreUnderWay) {
+  // More streams than a connection takes wait in the client: several connections are needed.
+  std::vector<std::unique_ptr<v1::UncertaintyService::Stub>> stubs;
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<Stream>> streams;
+  v1::StreamColumnsResponse response;
+  for (int i = 0; i < kMaxBulkCalls; ++i) {
+    if (i % kMaxCallsPerConnection == 0) {
+      grpc::ChannelArguments arguments;
+      arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+      arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+      stubs.push_back(v1::UncertaintyService::NewStub(grpc::CreateCustomChannel(
+          server_->address(), grpc::InsecureChannelCredentials(), arguments)));
+    }
+    contexts.push_back(std::make_unique<grpc::ClientContext>());
+    streams.push_back(stubs.back()->StreamColumns(contexts.back().get()));
+    streams.back()->Write(Request(1, 1));
+    ASSERT_TRUE(streams.back()->Read(&response));
+  }
+  const auto refused = Open();
+  EXPECT_FALSE(refused->Read(&response));
+  const grpc::Status status = refused->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(status.error_message(), HasSubstr("try again"));
+  // Short requests are none of these.
+  v1::QueryColumnsResponse answer;
+  EXPECT_TRUE(QueryColumns(Request(1, 1).query(), answer).ok());
+
+  for (const auto& stream : streams) {
+    stream->WritesDone();
+    EXPECT_TRUE(stream->Finish().ok());
+  }
+  grpc::ClientContext context;
+  const auto admitted = stub_->StreamColumns(&context);
+  admitted->Write(Request(1, 1));
+  EXPECT_TRUE(admitted->Read(&response));
+  admitted->WritesDone();
+  EXPECT_TRUE(admitted->Finish().ok());
+}
+
+// Bytes where a message should be, to any method.
+class BytesOfNoMessage : public ServedTables, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(BytesOfNoMessage, AreRefused) {
+  grpc::GenericStub generic(channel_);
+  grpc::ClientContext context;
+  context.set_wait_for_ready(true);
+  grpc::CompletionQueue events;
+  const grpc::Slice slice("\x0a\x7fshort");  // A field of 127 bytes, of which there are 5.
+  const auto call = generic.PrepareUnaryCall(
+      &context, std::string("/albtpu.v1.UncertaintyService/") + GetParam(), grpc::ByteBuffer(&slice, 1), &events);
+  call->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  call->Finish(&response, &status, nullptr);
+  void* tag;
+  bool ok;
+  ASSERT_TRUE(events.Next(&tag, &ok));
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(status.error_message(), HasSubstr("do not parse"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BytesOfNoMessage,
+                         ::testing::Values("QueryPulses", "QueryColumns", "StreamColumns"));
+
+}  // namespace
+}  // namespace albtpu::server
