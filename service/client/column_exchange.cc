@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/client/answer_reader.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {
 
-using albtpu::v1::QueryColumnsResponse;
-using albtpu::v1::StreamColumnsRequest;
-using albtpu::v1::StreamColumnsResponse;
 using std::chrono::system_clock;
+
+constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/StreamColumns";
 
 // Messages sent ahead of the answers: one that is received, one that is answered, one on each way.
 constexpr std::size_t kAhead = 4;
@@ -48,12 +50,11 @@ AnswerColumns From(AnswerColumns answers, std::size_t begin) {
 // of each kind is under way at most.
 class Call {
  public:
-  Call(albtpu::v1::UncertaintyService::Stub& stub, const ColumnTask& task, std::size_t begin)
+  Call(grpc::GenericStub& stub, const ColumnTask& task, std::size_t begin)
       : task_(task), sent_(begin), answered_(begin) {
-    auto& query = *request_.mutable_query();
-    query.mutable_options()->set_table(task.table);
-    ToWire(task.query, task.answers, query);
-    stream_ = stub.PrepareAsyncStreamColumns(&context_, &events_);
+    wanted_.mutable_options()->set_table(task.table);
+    ToWire(task.query, task.answers, wanted_);
+    stream_ = stub.PrepareCall(&context_, kMethod, &events_);
     stream_->StartCall(Tag(kStarted));
   }
 
@@ -104,7 +105,7 @@ class Call {
         return;
       case kRead:
         if (!ok) return Finish();
-        if (absl::Status status = Take(response_.answer()); !status.ok()) Fail(status);
+        if (absl::Status status = Take(); !status.ok()) Fail(status);
         stream_->Read(&response_, Tag(kRead));
         return Write();
       case kFinished:
@@ -122,23 +123,28 @@ class Call {
     }
     if (sent_ >= answered_ + kAhead * kMostPulses) return;
     const std::size_t count = std::min(kMostPulses, task_.pulses.size - sent_);
-    ToWire(Slice(task_.pulses, sent_, count), *request_.mutable_query()->mutable_pulses());
+    ColumnMessage request;
+    request.Add(wanted_);
+    AddPulses(Slice(task_.pulses, sent_, count), request);
+    request.Nest(albtpu::v1::StreamColumnsRequest::kQueryFieldNumber, 0);
     sent_ += count;
     writing_ = true;
-    stream_->Write(request_, Tag(kWritten));
+    stream_->Write(request.Finish(), Tag(kWritten));
   }
 
-  absl::Status Take(const QueryColumnsResponse& answer) {
-    if (answered_ == sent_) return absl::InternalError("it answered more than it was asked");
-    if (answer.table().digest() != task_.digest) {
+  absl::Status Take() {
+    if (answered_ == sent_) return absl::InternalError("answered more than it was asked");
+    const std::size_t count = std::min(kMostPulses, task_.pulses.size - answered_);
+    const auto answer = ReadStreamedAnswer(response_, task_.query, count, From(task_.answers, answered_));
+    response_.Clear();
+    if (!answer.ok()) return answer.status();
+    if (answer->table().digest() != task_.digest) {
       return absl::AbortedError(absl::StrCat("table ", task_.table, " changed from digest ", task_.digest,
-                                             " to ", answer.table().digest(),
+                                             " to ", answer->table().digest(),
                                              " while it was asked: start again"));
     }
-    const std::size_t count = std::min(kMostPulses, task_.pulses.size - answered_);
-    absl::Status status = FromWire(answer, task_.query, count, From(task_.answers, answered_));
-    if (status.ok()) answered_ += count;
-    return status;
+    answered_ += count;
+    return absl::OkStatus();
   }
 
   // Ends the call from this side; the first reason counts.
@@ -156,16 +162,15 @@ class Call {
 
   grpc::ClientContext context_;
   grpc::CompletionQueue events_;
-  StreamColumnsRequest request_;  // Kept, so that its columns keep their memory.
-  StreamColumnsResponse response_;
+  albtpu::v1::QueryColumnsRequest wanted_;  // Without pulses.
+  grpc::ByteBuffer response_;
   grpc::Status status_;
-  std::unique_ptr<grpc::ClientAsyncReaderWriter<StreamColumnsRequest, StreamColumnsResponse>> stream_;
+  std::unique_ptr<grpc::GenericClientAsyncReaderWriter> stream_;
 };
 
 }  // namespace
 
-absl::Status Exchange(albtpu::v1::UncertaintyService::Stub& stub, const ColumnTask& task,
-                      std::size_t& begin) {
+absl::Status Exchange(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {
   Call call(stub, task, begin);
   const absl::Status status = call.Run();
   begin = call.answered();

@@ -1,13 +1,12 @@
 // One call of `StreamColumns`, from the caller's side.
 #pragma once
 
-#include <grpcpp/grpcpp.h>
+#include <grpcpp/generic/generic_stub.h>
 
 #include <cstddef>
 #include <string>
 
 #include "absl/status/status.h"
-#include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "tables/column_query.h"
 #include "tables/pulse_columns.h"
 
@@ -32,6 +31,6 @@ struct ColumnTask {
 // * UNAVAILABLE: the server ended the call early;
 // * ABORTED: the table has another content than `digest`;
 // * INTERNAL: an answer breaks its own rules.
-absl::Status Exchange(albtpu::v1::UncertaintyService::Stub& stub, const ColumnTask& task, std::size_t& begin);
+absl::Status Exchange(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin);
 
 }  // namespace albtpu::client

@@ -7,11 +7,14 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/column_exchange.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {
+
+using albtpu::v1::UncertaintyService;
 
 // For what a healthy server answers at once.
 constexpr std::chrono::seconds kDeadline{60};
@@ -40,46 +43,42 @@ bool MayPass(const absl::Status& status) {
   return absl::IsUnavailable(status) || absl::IsResourceExhausted(status);
 }
 
-std::unique_ptr<albtpu::v1::UncertaintyService::Stub> Connect(const std::string& address) {
+std::shared_ptr<grpc::Channel> Connect(const std::string& address) {
   grpc::ChannelArguments arguments;
   // Else gRPC waits a second and more before it looks again whether a server has come back.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  return albtpu::v1::UncertaintyService::NewStub(
-      grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
 
 absl::StatusOr<TableSummary> GetTable(const std::string& address,
-                                      albtpu::v1::UncertaintyService::StubInterface& stub,
+                                      const std::shared_ptr<grpc::Channel>& channel,
                                       const std::string& table) {
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  absl::Status status = FromServer(address, stub.GetTable(&context, request, &response));
+  absl::Status status = FromServer(
+      address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
   if (!status.ok()) return status;
   return FromWire(response.table());
 }
 
 }  // namespace
 
-ServerSource::ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary,
-                           Patience patience)
-    : address_(std::move(address)),
-      stub_(std::move(stub)),
-      summary_(std::move(summary)),
-      patience_(patience) {}
+ServerSource::ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel,
+                           TableSummary summary, Patience patience)
+    : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
 
 absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::string& address,
                                                                  const std::string& table,
                                                                  const Patience& patience) {
-  std::unique_ptr<Stub> stub = Connect(address);
-  absl::StatusOr<TableSummary> summary = GetTable(address, *stub, table);
+  const std::shared_ptr<grpc::Channel> channel = Connect(address);
+  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
   if (!summary.ok()) return summary.status();
-  return std::unique_ptr<ServerSource>(
-      new ServerSource(address, std::move(stub), *std::move(summary), patience));
+  return std::unique_ptr<ServerSource>(new ServerSource(address, channel, *std::move(summary), patience));
 }
 
 absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses,
@@ -89,7 +88,7 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
   int retries = 0;
   while (answered < pulses.size) {
     const std::size_t before = answered;
-    const absl::Status status = Exchange(*stub_, task, answered);
+    const absl::Status status = Exchange(stub_, task, answered);
     if (status.ok()) break;
     if (answered > before) retries = 0;
     if (!MayPass(status)) return FromServer(address_, status);
@@ -105,15 +104,16 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
 }
 
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address) {
-  const auto stub = Connect(address);
+  const std::shared_ptr<grpc::Channel> channel = Connect(address);
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::ListTablesResponse response;
-  absl::Status status = FromServer(address, stub->ListTables(&context, {}, &response));
+  absl::Status status = FromServer(
+      address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
   if (!status.ok()) return status;
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {
-    absl::StatusOr<TableSummary> table = GetTable(address, *stub, listed.reference().name());
+    absl::StatusOr<TableSummary> table = GetTable(address, channel, listed.reference().name());
     if (!table.ok()) return table.status();
     table->is_default = listed.reference().name() == response.default_table();
     tables.push_back(*std::move(table));

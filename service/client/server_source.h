@@ -1,13 +1,14 @@
 // Answers from a service.
 #pragma once
 
+#include <grpcpp/generic/generic_stub.h>
+
 #include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
@@ -33,12 +34,11 @@ class ServerSource : public UncertaintySource {
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
-  using Stub = albtpu::v1::UncertaintyService::Stub;
-
-  ServerSource(std::string address, std::unique_ptr<Stub> stub, TableSummary summary, Patience patience);
+  ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel, TableSummary summary,
+               Patience patience);
 
   std::string address_;
-  std::unique_ptr<Stub> stub_;
+  grpc::GenericStub stub_;
   TableSummary summary_;
   Patience patience_;
 };

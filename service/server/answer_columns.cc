@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 #include "absl/status/statusor.h"
 #include "service/server/pulse_columns.h"
@@ -27,69 +26,73 @@ absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryColumnsRequest& 
   return selection;
 }
 
-std::uint8_t* Bytes(std::string& column, std::size_t count) {
-  column.resize(count);
-  return reinterpret_cast<std::uint8_t*>(column.data());
+std::uint8_t* AddBytes(int field, std::size_t count, ColumnMessage& message) {
+  return reinterpret_cast<std::uint8_t*>(message.AddColumn(field, count));
 }
 
-float* Floats(std::string& column, std::size_t count) {
-  column.resize(count * sizeof(float));
-  return reinterpret_cast<float*>(column.data());  // Aligned as those of `ReadColumns`.
+float* AddFloats(int field, std::size_t count, ColumnMessage& message) {
+  return reinterpret_cast<float*>(message.AddColumn(field, count * sizeof(float)));
 }
 
-std::array<float*, kQuantityCount> Columns(const QuantitySelection& selection, std::size_t count,
-                                           v1::SeaSurfaceColumns& message) {
-  using Column = std::string* (v1::SeaSurfaceColumns::*)();
-  constexpr std::array<Column, kQuantityCount> kColumns = {
-      &v1::SeaSurfaceColumns::mutable_refraction_along_wind,
-      &v1::SeaSurfaceColumns::mutable_refraction_cross_wind,
-      &v1::SeaSurfaceColumns::mutable_thu,
-      &v1::SeaSurfaceColumns::mutable_tvu,
-      &v1::SeaSurfaceColumns::mutable_bias_along_beam,
-      &v1::SeaSurfaceColumns::mutable_bias_vertical};
+std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelection& selection,
+                                                 std::size_t count, ColumnMessage& message) {
+  using Fields = v1::SeaSurfaceColumns;
+  constexpr std::array<int, kQuantityCount> kFields = {
+      Fields::kRefractionAlongWindFieldNumber, Fields::kRefractionCrossWindFieldNumber,
+      Fields::kThuFieldNumber,                 Fields::kTvuFieldNumber,
+      Fields::kBiasAlongBeamFieldNumber,       Fields::kBiasVerticalFieldNumber};
+  const std::size_t mark = message.Mark();
   std::array<float*, kQuantityCount> columns{};
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
-    if (selection[i]) columns[i] = Floats(*(message.*kColumns[i])(), count);
+    if (selection[i]) columns[i] = AddFloats(kFields[i], count, message);
   }
+  message.Nest(field, mark);
   return columns;
 }
 
-// Columns of the message at full length, and those alone that were asked for.
-AnswerColumns MakeColumns(const Question& question, const QuantitySelection& selection, std::size_t count,
-                          v1::QueryColumnsResponse& response) {
+// Those columns alone that were asked for.
+AnswerColumns AddColumns(const Question& question, const QuantitySelection& selection, std::size_t count,
+                         ColumnMessage& message) {
+  using Fields = v1::QueryColumnsResponse;
   AnswerColumns columns;
-  columns.outcomes = Bytes(*response.mutable_outcomes(), count);
-  columns.outcome_axes = Bytes(*response.mutable_outcome_axes(), count);
-  columns.values = Columns(selection, count, *response.mutable_sea_surface());
+  columns.outcomes = AddBytes(Fields::kOutcomesFieldNumber, count, message);
+  columns.outcome_axes = AddBytes(Fields::kOutcomeAxesFieldNumber, count, message);
+  columns.values = AddSeaSurface(Fields::kSeaSurfaceFieldNumber, selection, count, message);
   if (question.standard_errors) {
-    columns.standard_errors = Columns(selection, count, *response.mutable_sea_surface_standard_error());
+    columns.standard_errors =
+        AddSeaSurface(Fields::kSeaSurfaceStandardErrorFieldNumber, selection, count, message);
   }
   if (!question.asks_s44()) return columns;
-  v1::S44Columns& s44 = *response.mutable_s44();
-  if (question.best_s44_order) columns.best_s44_orders = Bytes(*s44.mutable_best_orders(), count);
-  if (question.query.s44_order.has_value()) {
-    columns.remaining_thu = Floats(*s44.mutable_remaining_thu(), count);
-    columns.remaining_tvu = Floats(*s44.mutable_remaining_tvu(), count);
+  const std::size_t mark = message.Mark();
+  if (question.best_s44_order) {
+    columns.best_s44_orders = AddBytes(v1::S44Columns::kBestOrdersFieldNumber, count, message);
   }
+  if (question.query.s44_order.has_value()) {
+    columns.remaining_thu = AddFloats(v1::S44Columns::kRemainingThuFieldNumber, count, message);
+    columns.remaining_tvu = AddFloats(v1::S44Columns::kRemainingTvuFieldNumber, count, message);
+  }
+  message.Nest(Fields::kS44FieldNumber, mark);
   return columns;
 }
 
 }  // namespace
 
 absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
-                             v1::QueryColumnsResponse& response) {
+                             ColumnMessage& response) {
   const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
   if (!question.ok()) return question.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
   if (!selection.ok()) return selection.status();
   const absl::StatusOr<PulseColumns> pulses = ReadColumns(request.pulses());
   if (!pulses.ok()) return pulses.status();
-  *response.mutable_table() = WriteReference(*question->source);
-  response.set_coverage(ToWire(question->query.coverage));
-  response.set_pulse_count(static_cast<int>(pulses->size));
-  response.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
+  v1::QueryColumnsResponse head;
+  *head.mutable_table() = WriteReference(*question->source);
+  head.set_coverage(ToWire(question->query.coverage));
+  head.set_pulse_count(static_cast<int>(pulses->size));
+  head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
+  response.Add(head);
   AnswerOnAllCores(question->source->interpolator, question->query, *pulses,
-                   MakeColumns(*question, *selection, pulses->size, response));
+                   AddColumns(*question, *selection, pulses->size, response));
   return absl::OkStatus();
 }
 

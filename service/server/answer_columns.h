@@ -3,12 +3,14 @@
 
 #include "absl/status/status.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/column_message.h"
 #include "service/server/table_catalog.h"
 
 namespace albtpu::server {
 
-// Fails as `QueryColumns` documents. Answers are written where they lie in the message.
+// Adds the fields of a QueryColumnsResponse to `response`; answers are written where they lie in it. Fails as
+// `QueryColumns` documents.
 absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
-                             v1::QueryColumnsResponse& response);
+                             ColumnMessage& response);
 
 }  // namespace albtpu::server

@@ -1,6 +1,5 @@
 #include "service/server/byte_answers.h"
 
-#include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <exception>
@@ -8,6 +7,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/column_message.h"
 #include "service/server/answer_columns.h"
 #include "service/server/pulse_rows.h"
 #include "service/server/status.h"
@@ -22,44 +22,54 @@ bool Parse(const grpc::ByteBuffer& bytes, Message& message) {
   return reader.status().ok() && message.ParseFromZeroCopyStream(&reader);
 }
 
-template <typename Request, typename Response>
-grpc::Status Answer(absl::Status (*answer)(const TableCatalog&, const Request&, Response&),
-                    const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                    grpc::ByteBuffer& response) try {
-  Request question;
-  if (!Parse(request, question)) {
-    return ToGrpcStatus(absl::InvalidArgumentError(absl::StrCat(
-        "the message is no ", question.GetTypeName(), ": its bytes do not parse as one")));
-  }
-  Response message;
-  const absl::Status status = answer(catalog, question, message);
-  if (!status.ok()) return ToGrpcStatus(status);
-  bool own = false;
-  return grpc::SerializationTraits<Response>::Serialize(message, &response, &own);
+// `answer` is called with the request, read, and returns its status.
+template <typename Request, typename Answer>
+grpc::Status ToRequest(const grpc::ByteBuffer& bytes, Answer answer) try {
+  Request request;
+  if (Parse(bytes, request)) return ToGrpcStatus(answer(request));
+  return ToGrpcStatus(absl::InvalidArgumentError(
+      absl::StrCat("the message is no ", request.GetTypeName(), ": its bytes do not parse as one")));
 } catch (const std::exception& error) {
   return ToGrpcStatus(absl::InternalError(error.what()));
 }
 
-absl::Status AnswerExchange(const TableCatalog& catalog, const v1::StreamColumnsRequest& request,
-                            v1::StreamColumnsResponse& response) {
-  return AnswerInColumns(catalog, request.query(), *response.mutable_answer());
+grpc::ByteBuffer Serialized(const google::protobuf::Message& message) {
+  ColumnMessage bytes;
+  bytes.Add(message);
+  return bytes.Finish();
 }
 
 }  // namespace
 
 grpc::Status AnswerQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
                                grpc::ByteBuffer& response) {
-  return Answer(AnswerInRows, catalog, request, response);
+  return ToRequest<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
+    v1::QueryPulsesResponse answers;
+    const absl::Status status = AnswerInRows(catalog, rows, answers);
+    if (status.ok()) response = Serialized(answers);
+    return status;
+  });
 }
 
 grpc::Status AnswerQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
                                 grpc::ByteBuffer& response) {
-  return Answer(AnswerInColumns, catalog, request, response);
+  return ToRequest<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
+    ColumnMessage answers;
+    const absl::Status status = AnswerInColumns(catalog, columns, answers);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
 }
 
 grpc::Status AnswerStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
                                  grpc::ByteBuffer& response) {
-  return Answer(AnswerExchange, catalog, request, response);
+  return ToRequest<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
+    ColumnMessage answers;
+    const absl::Status status = AnswerInColumns(catalog, exchange.query(), answers);
+    answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
 }
 
 }  // namespace albtpu::server

@@ -4,6 +4,7 @@
 //
 // Asks a server for a time, checks the first answers against the table, and prints one JSON object: pulses and
 // calls a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <thread>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/client/answer_reader.h"
 #include "service/client/server_source.h"
 #include "service/client/wire.h"
 #include "service/kept_memory.h"
@@ -147,23 +149,38 @@ class Load {
   }
 
   void Columns(Record& record) {
-    const auto stub = StubTo(options_.address);
+    grpc::GenericStub stub(grpc::CreateChannel(options_.address, grpc::InsecureChannelCredentials()));
     AnswerMemory answers(options_.batch);
-    v1::QueryColumnsRequest request;
-    v1::QueryColumnsResponse response;
-    client::ToWire({}, answers.columns(), request);
+    v1::QueryColumnsRequest wanted;
+    client::ToWire({}, answers.columns(), wanted);
     AskInTurn(record, options_.batch, [&] {
-      client::ToWire(line_.pulses(options_.batch), *request.mutable_pulses());
-      grpc::ClientContext context;
-      const grpc::Status status = stub->QueryColumns(&context, request, &response);
-      Check(status.ok(), status.error_message());
-      const absl::Status read = client::FromWire(response, {}, options_.batch, answers.columns());
-      Check(read.ok(), read.ToString());
+      ColumnMessage request;
+      request.Add(wanted);
+      client::AddPulses(line_.pulses(options_.batch), request);
+      grpc::ByteBuffer response = Ask(stub, request.Finish());
+      const auto read = client::ReadAnswer(response, {}, options_.batch, answers.columns());
+      Check(read.ok(), read.status().ToString());
     });
     answers.ExpectSame(Expected(options_.batch));
   }
 
-  // All pulses of the line at a time, a batch a message.
+  static grpc::ByteBuffer Ask(grpc::GenericStub& stub, const grpc::ByteBuffer& request) {
+    grpc::ClientContext context;
+    grpc::CompletionQueue finished;
+    const auto call =
+        stub.PrepareUnaryCall(&context, "/albtpu.v1.UncertaintyService/QueryColumns", request, &finished);
+    call->StartCall();
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    call->Finish(&response, &status, nullptr);
+    void* tag;
+    bool ok;
+    finished.Next(&tag, &ok);
+    Check(status.ok(), status.error_message());
+    return response;
+  }
+
+  // All pulses of the line at a time, 65 536 a message.
   void Stream(Record& record) {
     auto source = client::ServerSource::Open(options_.address, "");
     Check(source.ok(), source.status().ToString());

@@ -2,12 +2,14 @@
 #include "service/client/column_exchange.h"
 
 #include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
 
+#include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/server_source.h"
-#include "service/client/wire.h"
 #include "tests/service/client/column_memory.h"
 
 namespace albtpu::client {

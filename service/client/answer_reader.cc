@@ -1,0 +1,198 @@
+#include "service/client/answer_reader.h"
+
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/wire_format_lite.h>
+#include <grpcpp/support/proto_buffer_reader.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace v1 = albtpu::v1;
+using google::protobuf::internal::WireFormatLite;
+using google::protobuf::io::CodedInputStream;
+using Response = v1::QueryColumnsResponse;
+
+constexpr int kTop = 0;  // In place of the number of a field: the response itself.
+
+// A column of the message: where it stands, and where it is wanted.
+struct Column {
+  int message;  // The field of the response that holds it, or kTop.
+  int field;
+  std::size_t element_size;
+  void* wanted;  // Null: not.
+  std::string name;
+  bool found = false;
+};
+
+std::vector<Column> Columns(const Query& query, const AnswerColumns& answers) {
+  const auto name = [](int message, int field) {
+    const auto* in = message == kTop ? Response::descriptor()
+                                     : Response::descriptor()->FindFieldByNumber(message)->message_type();
+    return in->FindFieldByNumber(field)->name();
+  };
+  std::vector<Column> columns;
+  const auto add = [&](int message, int field, auto* wanted) {
+    columns.push_back({message, field, sizeof *wanted, wanted, name(message, field)});
+  };
+  add(kTop, Response::kOutcomesFieldNumber, answers.outcomes);
+  add(kTop, Response::kOutcomeAxesFieldNumber, answers.outcome_axes);
+  for (int i = 0; i < static_cast<int>(kQuantityCount); ++i) {  // Fields are numbered as quantities, from 1.
+    add(Response::kSeaSurfaceFieldNumber, i + 1, answers.values[i]);
+    add(Response::kSeaSurfaceStandardErrorFieldNumber, i + 1, answers.standard_errors[i]);
+  }
+  add(Response::kS44FieldNumber, v1::S44Columns::kBestOrdersFieldNumber, answers.best_s44_orders);
+  if (query.s44_order.has_value()) {
+    add(Response::kS44FieldNumber, v1::S44Columns::kRemainingThuFieldNumber, answers.remaining_thu);
+    add(Response::kS44FieldNumber, v1::S44Columns::kRemainingTvuFieldNumber, answers.remaining_tvu);
+  }
+  return columns;
+}
+
+bool HoldsColumns(int field) {
+  return field == Response::kSeaSurfaceFieldNumber || field == Response::kSeaSurfaceStandardErrorFieldNumber ||
+         field == Response::kS44FieldNumber;
+}
+
+class Reader {
+ public:
+  Reader(CodedInputStream& input, std::size_t pulse_count, std::vector<Column> columns)
+      : input_(input), pulse_count_(pulse_count), columns_(std::move(columns)) {}
+
+  // Up to the end of the input, or of the part of it that is looked at.
+  absl::StatusOr<Response> Read() {
+    google::protobuf::io::StringOutputStream rest(&rest_);
+    {
+      google::protobuf::io::CodedOutputStream writer(&rest);
+      if (absl::Status status = ReadFields(kTop, writer); !status.ok()) return status;
+    }
+    for (const Column& column : columns_) {
+      if (column.wanted != nullptr && !column.found) return WrongLength(column, 0);
+    }
+    Response response;
+    if (!response.ParseFromString(rest_)) return Unreadable();
+    return response;
+  }
+
+ private:
+  static absl::Status Unreadable() {
+    return absl::InternalError("answered bytes that do not parse as a message");
+  }
+
+  absl::Status WrongLength(const Column& column, std::size_t size) const {
+    return absl::InternalError(absl::StrCat("answered ", size, " bytes of ", column.name, " for ",
+                                            pulse_count_, " pulses: ", column.element_size,
+                                            " for each are right"));
+  }
+
+  absl::Status ReadFields(int message, google::protobuf::io::CodedOutputStream& rest) {
+    while (const std::uint32_t tag = input_.ReadTag()) {
+      const int field = WireFormatLite::GetTagFieldNumber(tag);
+      const auto column = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) {
+        return c.message == message && c.field == field;
+      });
+      const bool nested = message == kTop && HoldsColumns(field);
+      absl::Status status;
+      if (column == columns_.end() && !nested) {
+        const bool skipped = message == kTop ? WireFormatLite::SkipField(&input_, tag, &rest)
+                                             : WireFormatLite::SkipField(&input_, tag);
+        if (!skipped) return Unreadable();
+        continue;
+      }
+      std::uint32_t size;
+      const bool has_length =
+          WireFormatLite::GetTagWireType(tag) == WireFormatLite::WIRETYPE_LENGTH_DELIMITED;
+      if (!has_length || !input_.ReadVarint32(&size)) return Unreadable();
+      if (nested) {
+        const CodedInputStream::Limit limit = input_.PushLimit(static_cast<int>(size));
+        status = ReadFields(field, rest);
+        input_.PopLimit(limit);
+      } else {
+        status = ReadColumn(*column, size);
+      }
+      if (!status.ok()) return status;
+    }
+    return input_.ConsumedEntireMessage() ? absl::OkStatus() : Unreadable();
+  }
+
+  absl::Status ReadColumn(Column& column, std::size_t size) {
+    const int length = static_cast<int>(size);
+    if (column.wanted == nullptr) return input_.Skip(length) ? absl::OkStatus() : Unreadable();
+    if (size != pulse_count_ * column.element_size) return WrongLength(column, size);
+    column.found = true;
+    return input_.ReadRaw(column.wanted, length) ? absl::OkStatus() : Unreadable();
+  }
+
+  CodedInputStream& input_;
+  const std::size_t pulse_count_;
+  std::vector<Column> columns_;
+  std::string rest_;
+};
+
+absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first,
+                          int last) {
+  if (column == nullptr) return absl::OkStatus();
+  const auto known = [&](std::uint8_t number) { return number >= first && number <= last; };
+  const std::uint8_t* unknown = std::find_if_not(column, column + count, known);
+  if (unknown == column + count) return absl::OkStatus();
+  return absl::InternalError(
+      absl::StrCat("answered ", *unknown, " among the ", name, ", which this program does not know"));
+}
+
+void FillWithNaN(float* column, std::size_t count) {
+  if (column != nullptr) std::fill_n(column, count, std::numeric_limits<float>::quiet_NaN());
+}
+
+absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, std::size_t pulse_count,
+                                  const AnswerColumns& answers) {
+  absl::StatusOr<Response> head = Reader(input, pulse_count, Columns(query, answers)).Read();
+  if (!head.ok()) return head;
+  const v1::Coverage coverage =
+      query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+  absl::Status status;
+  if (head->coverage() != coverage) {
+    status = absl::InternalError(
+        absl::StrCat("answered coverage ", head->coverage(), ": ", coverage, " was asked for"));
+  }
+  status.Update(CheckNumbers(answers.outcomes, pulse_count, "outcomes", 1, v1::Outcome_MAX));
+  status.Update(CheckNumbers(answers.outcome_axes, pulse_count, "outcome axes", 0, v1::Axis_MAX));
+  status.Update(CheckNumbers(answers.best_s44_orders, pulse_count, "best orders", 0, v1::S44Order_MAX));
+  if (!status.ok()) return status;
+  if (!query.s44_order.has_value()) {  // Nothing remains of no order.
+    FillWithNaN(answers.remaining_thu, pulse_count);
+    FillWithNaN(answers.remaining_tvu, pulse_count);
+  }
+  return head;
+}
+
+}  // namespace
+
+absl::StatusOr<Response> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query, std::size_t pulse_count,
+                                    const AnswerColumns& answers) {
+  grpc::ProtoBufferReader reader(&bytes);
+  CodedInputStream input(&reader);
+  return ReadFrom(input, query, pulse_count, answers);
+}
+
+absl::StatusOr<Response> ReadStreamedAnswer(grpc::ByteBuffer& bytes, const Query& query,
+                                            std::size_t pulse_count, const AnswerColumns& answers) {
+  grpc::ProtoBufferReader reader(&bytes);
+  CodedInputStream input(&reader);
+  std::uint32_t size;
+  const std::uint32_t tag = WireFormatLite::MakeTag(v1::StreamColumnsResponse::kAnswerFieldNumber,
+                                                    WireFormatLite::WIRETYPE_LENGTH_DELIMITED);
+  if (!reader.status().ok() || input.ReadTag() != tag || !input.ReadVarint32(&size)) {
+    return absl::InternalError("answered a message without an answer");
+  }
+  input.PushLimit(static_cast<int>(size));
+  return ReadFrom(input, query, pulse_count, answers);
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,30 @@
+// Answers as they come, read straight into the columns of the caller.
+#pragma once
+
+#include <google/protobuf/io/coded_stream.h>
+#include <grpcpp/support/byte_buffer.h>
+
+#include <cstddef>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "albtpu/v1/uncertainty_service.pb.h"
+#include "tables/column_query.h"
+#include "tables/pulse_columns.h"
+
+namespace albtpu::client {
+
+// Reads a QueryColumnsResponse to `query` about `pulse_count` pulses: the columns of `answers` that are not
+// null, in place; returned is all else. Internal when the answer breaks its own rules: another coverage than
+// that of the query, a column of another length, a number that is no outcome, axis or order.
+absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query,
+                                                            std::size_t pulse_count,
+                                                            const AnswerColumns& answers);
+
+// The same of a StreamColumnsResponse.
+absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadStreamedAnswer(grpc::ByteBuffer& bytes,
+                                                                    const Query& query,
+                                                                    std::size_t pulse_count,
+                                                                    const AnswerColumns& answers);
+
+}  // namespace albtpu::client
