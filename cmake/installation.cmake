@@ -5,6 +5,11 @@ install(FILES ${shipped_tables} DESTINATION ${data}/tables)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(FILES service/client/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
+install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY generator/validation/paper generator/validation/plots DESTINATION ${data}/validation
         PATTERN "__pycache__" EXCLUDE)
+
+# What C++ programs of others link.
+albtpu_package_component(tables)
+albtpu_package_component(client)

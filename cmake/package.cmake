@@ -38,5 +38,6 @@ endfunction()
 
 # Writes down the libraries of a component; to be called once for each, last.
 function(albtpu_package_component component)
-  install(EXPORT albtpu_${component} FILE albtpu_${component}.cmake NAMESPACE albtpu:: DESTINATION ${ALBTPU_PACKAGE_DIR})
+  install(EXPORT albtpu_${component} FILE albtpu_${component}.cmake NAMESPACE albtpu::
+          DESTINATION ${ALBTPU_PACKAGE_DIR})
 endfunction()

@@ -4,16 +4,14 @@
 #include <albtpu/service/client/server_source.h>
 
 #include <cstdio>
-#include <memory>
 #include <span>
 #include <vector>
 
 using albtpu::Quantity;
-using albtpu::client::ServerSource;
 
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: ask HOST:PORT\n"), 2;
-  const absl::StatusOr<std::unique_ptr<ServerSource>> server = ServerSource::Open(argv[1], "");
+  const auto server = albtpu::client::OpenServer(argv[1], "");
   if (!server.ok()) return std::fprintf(stderr, "ask: %s\n", server.status().ToString().c_str()), 1;
   const albtpu::client::TableSummary& table = (*server)->table();
   std::printf("# %s, version %s, digest %s\n", table.id.c_str(), table.version.c_str(), table.digest.c_str());

@@ -1,5 +1,6 @@
 #include "service/client/server_source.h"
 
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
@@ -60,29 +61,31 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  absl::Status status = FromServer(
-      address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
+  absl::Status status =
+      FromServer(address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
   if (!status.ok()) return status;
   return FromWire(response.table());
 }
 
-}  // namespace
+class ServerSource : public UncertaintySource {
+ public:
+  ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel, TableSummary summary,
+               const Patience& patience)
+      : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
 
-ServerSource::ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel,
-                           TableSummary summary, Patience patience)
-    : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
+  const TableSummary& table() const override { return summary_; }
+  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
-absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::string& address,
-                                                                 const std::string& table,
-                                                                 const Patience& patience) {
-  const std::shared_ptr<grpc::Channel> channel = Connect(address);
-  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
-  if (!summary.ok()) return summary.status();
-  return std::unique_ptr<ServerSource>(new ServerSource(address, channel, *std::move(summary), patience));
-}
+ private:
+  const std::string address_;
+  grpc::GenericStub stub_;
+  const TableSummary summary_;
+  const Patience patience_;
+};
 
 absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses,
                                   const AnswerColumns& answers) {
+  if (absl::Status status = CheckLengths(pulses); !status.ok()) return status;
   const ColumnTask task{summary_.name, summary_.digest, query, pulses, answers};
   std::size_t answered = 0;
   int retries = 0;
@@ -93,14 +96,25 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
     if (answered > before) retries = 0;
     if (!MayPass(status)) return FromServer(address_, status);
     if (retries == patience_.retries) {
-      return FromServer(address_,
-                        absl::Status(status.code(), absl::StrCat(status.message(), " (asked again ", retries,
-                                                                 " times, after ", answered, " of ",
-                                                                 pulses.size, " pulses)")));
+      return FromServer(
+          address_, absl::Status(status.code(),
+                                 absl::StrCat(status.message(), " (asked again ", retries, " times, after ",
+                                              answered, " of ", pulses.size, " pulses)")));
     }
     std::this_thread::sleep_for(patience_.first_pause * (1 << retries++));
   }
   return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
+                                                              const std::string& table,
+                                                              const Patience& patience) {
+  const std::shared_ptr<grpc::Channel> channel = Connect(address);
+  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
+  if (!summary.ok()) return summary.status();
+  return std::make_unique<ServerSource>(address, channel, *std::move(summary), patience);
 }
 
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address) {
@@ -108,8 +122,8 @@ absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& ad
   grpc::ClientContext context;
   SetDeadline(context);
   albtpu::v1::ListTablesResponse response;
-  absl::Status status = FromServer(
-      address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
+  absl::Status status =
+      FromServer(address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
   if (!status.ok()) return status;
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {

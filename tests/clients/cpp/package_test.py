@@ -23,7 +23,7 @@ LINE = ("--wind-speed", "7", "--footprint", "0.6", "--coverage", "p95")  # And t
 PLUGIN = {
     "CMakeLists.txt": """
         cmake_minimum_required(VERSION 3.25)
-        project(plugin LANGUAGES C CXX)
+        project(plugin LANGUAGES CXX)
         find_package(albtpu REQUIRED COMPONENTS tables)
         if(TARGET albtpu::client OR TARGET gRPC::grpc)
           message(FATAL_ERROR "more than was asked for")
