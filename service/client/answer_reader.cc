@@ -57,8 +57,8 @@ std::vector<Column> Columns(const Query& query, const AnswerColumns& answers) {
 }
 
 bool HoldsColumns(int field) {
-  return field == Response::kSeaSurfaceFieldNumber || field == Response::kSeaSurfaceStandardErrorFieldNumber ||
-         field == Response::kS44FieldNumber;
+  return field == Response::kSeaSurfaceFieldNumber ||
+         field == Response::kSeaSurfaceStandardErrorFieldNumber || field == Response::kS44FieldNumber;
 }
 
 class Reader {
@@ -154,8 +154,7 @@ absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, s
                                   const AnswerColumns& answers) {
   absl::StatusOr<Response> head = Reader(input, pulse_count, Columns(query, answers)).Read();
   if (!head.ok()) return head;
-  const v1::Coverage coverage =
-      query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+  const v1::Coverage coverage = query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
   absl::Status status;
   if (head->coverage() != coverage) {
     status = absl::InternalError(

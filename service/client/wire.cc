@@ -60,9 +60,9 @@ void ToWire(const Query& query, const AnswerColumns& wanted, v1::QueryColumnsReq
 
 void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
   using Fields = v1::PulseColumns;
-  constexpr std::array<int, kAxisCount> kFields = {
-      Fields::kWindSpeedFieldNumber, Fields::kFetchFieldNumber,     Fields::kIncidenceFieldNumber,
-      Fields::kAzimuthFieldNumber,   Fields::kFootprintFieldNumber, Fields::kDepthFieldNumber};
+  constexpr std::array<int, kAxisCount> kFields = {Fields::kWindSpeedFieldNumber, Fields::kFetchFieldNumber,
+                                                   Fields::kIncidenceFieldNumber, Fields::kAzimuthFieldNumber,
+                                                   Fields::kFootprintFieldNumber, Fields::kDepthFieldNumber};
   const auto is_long = [](std::span<const float> column) { return column.size() > 1; };
   const bool all_alike = std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long);
   const std::size_t mark = request.Mark();

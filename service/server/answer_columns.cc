@@ -37,10 +37,12 @@ float* AddFloats(int field, std::size_t count, ColumnMessage& message) {
 std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelection& selection,
                                                  std::size_t count, ColumnMessage& message) {
   using Fields = v1::SeaSurfaceColumns;
-  constexpr std::array<int, kQuantityCount> kFields = {
-      Fields::kRefractionAlongWindFieldNumber, Fields::kRefractionCrossWindFieldNumber,
-      Fields::kThuFieldNumber,                 Fields::kTvuFieldNumber,
-      Fields::kBiasAlongBeamFieldNumber,       Fields::kBiasVerticalFieldNumber};
+  constexpr std::array<int, kQuantityCount> kFields = {Fields::kRefractionAlongWindFieldNumber,
+                                                       Fields::kRefractionCrossWindFieldNumber,
+                                                       Fields::kThuFieldNumber,
+                                                       Fields::kTvuFieldNumber,
+                                                       Fields::kBiasAlongBeamFieldNumber,
+                                                       Fields::kBiasVerticalFieldNumber};
   const std::size_t mark = message.Mark();
   std::array<float*, kQuantityCount> columns{};
   for (std::size_t i = 0; i < kQuantityCount; ++i) {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/mutex.h"
 #include "service/kept_memory.h"
 #include "service/server/listen_address.h"
 #include "service/server/server.h"
@@ -123,6 +124,8 @@ int ParseAndRun(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   albtpu::KeepFreedMemory();
+  // Debian's Abseil looks for cycles of locks at every lock that gRPC takes, some percent of a short call.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("albtpu-serve"));
   spdlog::set_pattern("%n: %v");
   std::signal(SIGPIPE, SIG_IGN);  // A log that nobody reads any more does not end the server.

@@ -26,9 +26,9 @@ absl::Status CheckCount(const Question& question, const Rows& rows) {
   if (count == 0) return absl::InvalidArgumentError("there is no pulse: send at least one");
   const std::size_t limit = question.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
   if (count <= limit) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("there are ", count, " pulses: a message takes ", limit,
-                   question.standard_errors ? " with standard errors, or use QueryColumns" : ", send several"));
+  return absl::InvalidArgumentError(absl::StrCat(
+      "there are ", count, " pulses: a message takes ", limit,
+      question.standard_errors ? " with standard errors, or use QueryColumns" : ", send several"));
 }
 
 v1::SeaSurface WriteSeaSurface(const Values& values) {

@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <atomic>
+#include <cstddef>
 
 #include "service/server/limits.h"
 

@@ -23,24 +23,23 @@ FlightLine::FlightLine(std::size_t pulse_count) {
   }
 }
 
-PulseColumns FlightLine::pulses() const { return pulses(depth_.size()); }
-
-PulseColumns FlightLine::pulses(std::size_t count) const {
-  const auto first = [count](const std::vector<float>& column) { return std::span(column).first(count); };
-  return {.size = count,
-          .axis = {std::span(&wind_speed_, 1), {}, first(incidence_), first(azimuth_), first(footprint_),
-                   first(depth_)}};
+PulseColumns FlightLine::pulses(std::size_t begin, std::size_t count) const {
+  const auto some = [=](const std::vector<float>& column) { return std::span(column).subspan(begin, count); };
+  return {
+      .size = count,
+      .axis = {
+          std::span(&wind_speed_, 1), {}, some(incidence_), some(azimuth_), some(footprint_), some(depth_)}};
 }
 
 AnswerMemory::AnswerMemory(std::size_t pulse_count) : outcomes_(pulse_count), axes_(pulse_count) {
   for (std::vector<float>& column : values_) column.resize(pulse_count);
 }
 
-AnswerColumns AnswerMemory::columns() {
+AnswerColumns AnswerMemory::columns(std::size_t begin) {
   AnswerColumns columns;
-  columns.outcomes = outcomes_.data();
-  columns.outcome_axes = axes_.data();
-  for (std::size_t q = 0; q < kAskedQuantities; ++q) columns.values[q] = values_[q].data();
+  columns.outcomes = outcomes_.data() + begin;
+  columns.outcome_axes = axes_.data() + begin;
+  for (std::size_t q = 0; q < kAskedQuantities; ++q) columns.values[q] = values_[q].data() + begin;
   return columns;
 }
 

@@ -1,5 +1,5 @@
-// The least that a service of columns can be: the same numbers over a bare TCP connection, answered by the same
-// interpolator. No schema, no limits, no deadlines, no streams: what remains is what the bytes cost.
+// The least that a service of columns can be: the same numbers over a bare TCP connection, answered by the
+// same interpolator. No schema, no limits, no deadlines, no streams: what remains is what the bytes cost.
 //
 // A message is the number of pulses (uint32), the wind, and columns of incidence, azimuth, footprint and
 // depth; its answer the columns of an AnswerMemory. Both little-endian, at most kMostRawPulses.

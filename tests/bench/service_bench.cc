@@ -2,22 +2,17 @@
 // service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
 //               [--seconds S] [--beside N]
 //
-// Asks a server for a time, checks the first answers against the table, and prints one JSON object: pulses and
-// calls a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+// Asks a server for a time, checks the answers against the table, and prints one JSON object: pulses and calls
+// a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <fstream>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/answer_reader.h"
@@ -26,12 +21,14 @@
 #include "service/kept_memory.h"
 #include "tables/table_io.h"
 #include "tests/bench/flight_line.h"
+#include "tests/bench/load_record.h"
 #include "tests/bench/raw_peer.h"
 
 namespace albtpu::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// Of a flight line: some megabytes, so that columns come from memory as those of a survey do.
+constexpr std::size_t kBatches = 16;
 
 struct Options {
   std::string peer, address, table;
@@ -41,84 +38,28 @@ struct Options {
   double seconds = 2;
 };
 
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-double OwnProcessorTime() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-// utime and stime, by proc(5), in clock ticks.
-double ProcessorTimeOf(int pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string word;
-  std::getline(file, word, ')');
-  for (int field = 3; field < 14; ++field) file >> word;
-  double user = 0, system = 0;
-  file >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-// What all callers did, and until when they go on.
-class Record {
- public:
-  explicit Record(double seconds) : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                           std::chrono::duration<double>(seconds))) {}
-
-  bool going_on() const { return Clock::now() < end_; }
-
-  void Add(std::size_t pulses, const std::vector<double>& latencies) {
-    const std::lock_guard lock(mutex_);
-    pulses_ += pulses;
-    latencies_.insert(latencies_.end(), latencies.begin(), latencies.end());
-  }
-
-  std::size_t pulses() const { return pulses_; }
-  std::size_t calls() const { return latencies_.size(); }
-  double Latency(double quantile) {
-    if (latencies_.empty()) return 0;
-    const auto nth = latencies_.begin() +
-                     static_cast<std::ptrdiff_t>(quantile * static_cast<double>(latencies_.size() - 1));
-    std::nth_element(latencies_.begin(), nth, latencies_.end());
-    return *nth;
-  }
-
- private:
-  const Clock::time_point end_;
-  std::mutex mutex_;
-  std::size_t pulses_ = 0;
-  std::vector<double> latencies_;
-};
-
-void Check(bool good, const std::string& what) {
-  if (good) return;
-  std::cerr << "service_bench: " << what << "\n";
-  std::exit(1);
-}
-
-// One caller: asks again and again, `Ask` once for `pulses`.
+// One caller: asks again and again. `ask(pulses, answers)` is called for the line in batches of `batch`.
 template <typename Ask>
-void AskInTurn(Record& record, std::size_t pulses, Ask ask) {
+void AskInTurn(Record& record, const FlightLine& line, AnswerMemory& answers, std::size_t batch, Ask ask) {
   std::vector<double> latencies;
-  while (record.going_on()) {
+  std::size_t place = 0;
+  while (record.going_on() || latencies.size() * batch < line.size()) {  // Each answer once at least.
     const Clock::time_point begin = Clock::now();
-    ask();
+    ask(line.pulses(place, batch), answers.columns(place));
     latencies.push_back(Seconds(Clock::now() - begin));
+    place = (place + batch) % line.size();
   }
-  record.Add(pulses * latencies.size(), latencies);
+  record.Add(batch * latencies.size(), latencies);
 }
 
 std::unique_ptr<v1::UncertaintyService::Stub> StubTo(const std::string& address) {
-  return v1::UncertaintyService::NewStub(
-      grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
+  return v1::UncertaintyService::NewStub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
 }
 
 class Load {
  public:
-  Load(const Options& options, const FlightLine& line, const ColumnInterpolator& table)
-      : options_(options), line_(line), table_(table) {}
+  Load(const Options& options, const FlightLine& line, AnswerMemory& answers)
+      : options_(options), line_(line), answers_(answers) {}
 
   void Run(const std::string& peer, Record& record) {
     if (peer == "raw") return Raw(record);
@@ -131,37 +72,28 @@ class Load {
   }
 
  private:
-  AnswerMemory Expected(std::size_t count) const {
-    AnswerMemory expected(count);
-    table_.Answer({}, line_.pulses(count), 0, count, expected.columns());
-    return expected;
-  }
-
   void Raw(Record& record) {
-    const PulseColumns pulses = line_.pulses(options_.batch);
-    AnswerMemory answers(options_.batch);
     RawConnection connection(options_.address);
-    AskInTurn(record, options_.batch, [&] {
-      connection.Send(pulses);
-      connection.Receive(options_.batch, answers.columns());
-    });
-    answers.ExpectSame(Expected(options_.batch));
+    AskInTurn(record, line_, answers_, options_.batch,
+              [&](const PulseColumns& pulses, const AnswerColumns& answers) {
+                connection.Send(pulses);
+                connection.Receive(pulses.size, answers);
+              });
   }
 
   void Columns(Record& record) {
     grpc::GenericStub stub(grpc::CreateChannel(options_.address, grpc::InsecureChannelCredentials()));
-    AnswerMemory answers(options_.batch);
-    v1::QueryColumnsRequest wanted;
-    client::ToWire({}, answers.columns(), wanted);
-    AskInTurn(record, options_.batch, [&] {
-      ColumnMessage request;
-      request.Add(wanted);
-      client::AddPulses(line_.pulses(options_.batch), request);
-      grpc::ByteBuffer response = Ask(stub, request.Finish());
-      const auto read = client::ReadAnswer(response, {}, options_.batch, answers.columns());
-      Check(read.ok(), read.status().ToString());
-    });
-    answers.ExpectSame(Expected(options_.batch));
+    AskInTurn(record, line_, answers_, options_.batch,
+              [&](const PulseColumns& pulses, const AnswerColumns& answers) {
+                v1::QueryColumnsRequest wanted;
+                client::ToWire({}, answers, wanted);
+                ColumnMessage request;
+                request.Add(wanted);
+                client::AddPulses(pulses, request);
+                grpc::ByteBuffer response = Ask(stub, request.Finish());
+                const auto read = client::ReadAnswer(response, {}, pulses.size, answers);
+                Check(read.ok(), read.status().ToString());
+              });
   }
 
   static grpc::ByteBuffer Ask(grpc::GenericStub& stub, const grpc::ByteBuffer& request) {
@@ -184,13 +116,11 @@ class Load {
   void Stream(Record& record) {
     auto source = client::OpenServer(options_.address, "");
     Check(source.ok(), source.status().ToString());
-    const std::size_t count = line_.pulses().size;
-    AnswerMemory answers(count);
-    AskInTurn(record, count, [&] {
-      const absl::Status status = (*source)->Answer({}, line_.pulses(), answers.columns());
-      Check(status.ok(), status.ToString());
-    });
-    answers.ExpectSame(Expected(count));
+    AskInTurn(record, line_, answers_, line_.size(),
+              [&](const PulseColumns& pulses, const AnswerColumns& answers) {
+                const absl::Status status = (*source)->Answer({}, pulses, answers);
+                Check(status.ok(), status.ToString());
+              });
   }
 
   static v1::QueryPulsesRequest RowRequest(const PulseColumns& pulses) {
@@ -210,29 +140,29 @@ class Load {
   void Rows(Record& record) {
     const auto stub = StubTo(options_.address);
     v1::QueryPulsesResponse response;
-    AnswerMemory answers(options_.batch);
-    AskInTurn(record, options_.batch, [&] {
-      grpc::ClientContext context;
-      const grpc::Status status =
-          stub->QueryPulses(&context, RowRequest(line_.pulses(options_.batch)), &response);
-      Check(status.ok(), status.error_message());
-      const AnswerColumns columns = answers.columns();
-      for (std::size_t i = 0; i < options_.batch; ++i) {
-        const v1::PulseUncertainty& row = response.uncertainties(static_cast<int>(i));
-        columns.outcomes[i] = static_cast<std::uint8_t>(row.outcome());
-        columns.outcome_axes[i] = static_cast<std::uint8_t>(row.axis());
-        columns.values[0][i] = row.sea_surface().refraction_along_wind();
-        columns.values[1][i] = row.sea_surface().refraction_cross_wind();
-        columns.values[2][i] = row.sea_surface().thu();
-        columns.values[3][i] = row.sea_surface().tvu();
-      }
-    });
-    answers.ExpectSame(Expected(options_.batch));
+    AskInTurn(record, line_, answers_, options_.batch,
+              [&](const PulseColumns& pulses, const AnswerColumns& answers) {
+                grpc::ClientContext context;
+                const grpc::Status status = stub->QueryPulses(&context, RowRequest(pulses), &response);
+                Check(status.ok(), status.error_message());
+                for (std::size_t i = 0; i < pulses.size; ++i) {
+                  ReadRow(response.uncertainties(static_cast<int>(i)), i, answers);
+                }
+              });
+  }
+
+  static void ReadRow(const v1::PulseUncertainty& row, std::size_t i, const AnswerColumns& answers) {
+    answers.outcomes[i] = static_cast<std::uint8_t>(row.outcome());
+    answers.outcome_axes[i] = static_cast<std::uint8_t>(row.axis());
+    answers.values[0][i] = row.sea_surface().refraction_along_wind();
+    answers.values[1][i] = row.sea_surface().refraction_cross_wind();
+    answers.values[2][i] = row.sea_surface().thu();
+    answers.values[3][i] = row.sea_surface().tvu();
   }
 
   // One pulse a message, so many in flight on one connection.
   void RawSingle(Record& record) {
-    const PulseColumns pulse = line_.pulses(1);
+    const PulseColumns pulse = line_.pulses(0, 1);
     AnswerMemory answer(1);
     RawConnection connection(options_.address);
     std::vector<double> latencies;
@@ -248,7 +178,6 @@ class Load {
       connection.Send(pulse);
     }
     record.Add(latencies.size(), latencies);
-    answer.ExpectSame(Expected(1));
   }
 
   struct SingleCall {
@@ -262,7 +191,7 @@ class Load {
   // One pulse a call, so many in flight on one connection.
   void Single(Record& record) {
     const auto stub = StubTo(options_.address);
-    const v1::QueryPulsesRequest request = RowRequest(line_.pulses(1));
+    const v1::QueryPulsesRequest request = RowRequest(line_.pulses(0, 1));
     grpc::CompletionQueue finished;
     const auto start = [&] {
       auto* call = new SingleCall;
@@ -290,21 +219,25 @@ class Load {
 
   const Options& options_;
   const FlightLine& line_;
-  const ColumnInterpolator& table_;
+  AnswerMemory& answers_;
 };
 
 int Ask(const Options& options, const ColumnInterpolator& table) {
   const bool single = options.peer.ends_with("single");
-  const FlightLine line(options.peer == "stream" || options.beside > 0 ? 16 * options.batch : options.batch);
+  const FlightLine line(kBatches * options.batch);
+  const int callers = single ? 1 : options.callers;
+  std::vector<AnswerMemory> answers(static_cast<std::size_t>(callers + options.beside),
+                                    AnswerMemory(line.size()));
   const double client_before = OwnProcessorTime(), server_before = ProcessorTimeOf(options.server_pid);
   const Clock::time_point begin = Clock::now();
   Record record(options.seconds), bulk(options.seconds);
   std::vector<std::thread> threads;
-  for (int i = 0; i < options.beside; ++i) {
-    threads.emplace_back([&] { Load(options, line, table).Run("stream", bulk); });
-  }
-  for (int i = 0; i < (single ? 1 : options.callers); ++i) {
-    threads.emplace_back([&] { Load(options, line, table).Run(options.peer, record); });
+  for (int i = 0; i < callers + options.beside; ++i) {
+    const bool is_counted = i < callers;
+    threads.emplace_back([&, i, is_counted] {
+      Load(options, line, answers[static_cast<std::size_t>(i)])
+          .Run(is_counted ? options.peer : "stream", is_counted ? record : bulk);
+    });
   }
   for (std::thread& thread : threads) thread.join();
   const double elapsed = Seconds(Clock::now() - begin);
@@ -317,6 +250,11 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
       {"client_cpu_per_pulse", (OwnProcessorTime() - client_before) / pulses},
       {"server_cpu_per_pulse", (ProcessorTimeOf(options.server_pid) - server_before) / pulses},
       {"bulk_pulses_per_second", static_cast<double>(bulk.pulses()) / elapsed}};
+  AnswerMemory expected(line.size());
+  table.Answer({}, line.pulses(), 0, line.size(), expected.columns());
+  for (int i = single ? callers : 0; i < callers + options.beside; ++i) {
+    answers[static_cast<std::size_t>(i)].ExpectSame(expected);
+  }
   std::cout << report.dump() << "\n";
   return 0;
 }
@@ -324,7 +262,8 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
 int Main(int argc, char** argv) {
   Options options;
   CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
-  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")->required();
+  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")
+      ->required();
   app.add_option("--table", options.table, "The table that answers")->required();
   app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
   app.add_option("--server-pid", options.server_pid, "Whose processor time to count");

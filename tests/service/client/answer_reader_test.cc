@@ -61,7 +61,8 @@ TEST(AnswerReader, RefusesAnswersThatBreakTheirRules) {
 TEST(AnswerReader, RefusesBytesThatAreNoMessage) {
   AnswerMemory memory(1);
   const std::string good = GoodResponse().SerializeAsString();
-  for (const std::string& text : {good.substr(0, good.size() - 1), good + "\x0a", good + "\x38", std::string("\x20\1")}) {
+  for (const std::string& text :
+       {good.substr(0, good.size() - 1), good + "\x0a", good + "\x38", std::string("\x20\1")}) {
     const grpc::Slice slice(text);
     grpc::ByteBuffer bytes(&slice, 1), streamed(&slice, 1);
     AnswerColumns wanted;

@@ -63,7 +63,8 @@ class Misbehaving : public v1::UncertaintyService::Service {
     while (stream->Read(&request)) {
       v1::StreamColumnsResponse response = GoodAnswer(request);
       const grpc::Status status = behaviour_(requests_++, response);
-      if (!status.ok()) return status.error_code() == grpc::StatusCode::OUT_OF_RANGE ? grpc::Status::OK : status;
+      if (!status.ok())
+        return status.error_code() == grpc::StatusCode::OUT_OF_RANGE ? grpc::Status::OK : status;
       stream->Write(response);
       ++answers_;
     }
@@ -142,8 +143,9 @@ TEST(ColumnExchange, GivesUpAfterItsRetriesAndSaysHowFarItCame) {
 }
 
 TEST(ColumnExchange, AsksNotAgainWhatWillNotPass) {
-  const Misbehaving server(
-      [](int n, auto&) { return n < 4 ? grpc::Status::OK : grpc::Status(grpc::StatusCode::NOT_FOUND, "no"); });
+  const Misbehaving server([](int n, auto&) {
+    return n < 4 ? grpc::Status::OK : grpc::Status(grpc::StatusCode::NOT_FOUND, "no");
+  });
   const TenMessages asked(server);
   EXPECT_EQ(asked.status.code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(server.answers(), 4);

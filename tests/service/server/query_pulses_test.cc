@@ -51,8 +51,9 @@ class QueryPulses : public ServedTables {
 
 // The server answers in single precision, within 1e-5 of the slow twin (column_query.h).
 void ExpectNear(const v1::SeaSurface& wire, const std::array<float, kQuantityCount>& values) {
-  const float answered[] = {wire.refraction_along_wind(), wire.refraction_cross_wind(), wire.thu(), wire.tvu(),
-                            wire.bias_along_beam(),       wire.bias_vertical()};
+  const float answered[] = {
+      wire.refraction_along_wind(), wire.refraction_cross_wind(), wire.thu(), wire.tvu(),
+      wire.bias_along_beam(),       wire.bias_vertical()};
   for (std::size_t q = 0; q < kQuantityCount; ++q) {
     EXPECT_NEAR(answered[q], values[q], 1e-5 * std::abs(values[q])) << Describe(kQuantities[q]).name;
   }
@@ -109,7 +110,7 @@ TEST_F(QueryPulses, AddsStandardErrorsIfAsked) {
   v1::QueryOptions options;
   options.set_standard_errors(true);
   ExpectNear(AskOne(WirePulse(), options).sea_surface_standard_error(),
-              Interpolate(survey_, TablesPulse()).standard_errors);
+             Interpolate(survey_, TablesPulse()).standard_errors);
 }
 
 TEST_F(QueryPulses, LeavesOutWhatTheTableDoesNotHold) {

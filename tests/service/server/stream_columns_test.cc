@@ -178,8 +178,8 @@ TEST_F(StreamColumns, IsRefusedWhenTooManyAreUnderWay) {
       grpc::ChannelArguments arguments;
       arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
       arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-      stubs.push_back(v1::UncertaintyService::NewStub(grpc::CreateCustomChannel(
-          server_->address(), grpc::InsecureChannelCredentials(), arguments)));
+      stubs.push_back(v1::UncertaintyService::NewStub(
+          grpc::CreateCustomChannel(server_->address(), grpc::InsecureChannelCredentials(), arguments)));
     }
     contexts.push_back(std::make_unique<grpc::ClientContext>());
     streams.push_back(stubs.back()->StreamColumns(contexts.back().get()));
@@ -216,8 +216,9 @@ TEST_P(BytesOfNoMessage, AreRefused) {
   context.set_wait_for_ready(true);
   grpc::CompletionQueue events;
   const grpc::Slice slice("\x0a\x7fshort");  // A field of 127 bytes, of which there are 5.
-  const auto call = generic.PrepareUnaryCall(
-      &context, std::string("/albtpu.v1.UncertaintyService/") + GetParam(), grpc::ByteBuffer(&slice, 1), &events);
+  const auto call =
+      generic.PrepareUnaryCall(&context, std::string("/albtpu.v1.UncertaintyService/") + GetParam(),
+                               grpc::ByteBuffer(&slice, 1), &events);
   call->StartCall();
   grpc::ByteBuffer response;
   grpc::Status status;
