@@ -19,11 +19,6 @@ Outcome OutcomeOf(std::int32_t code) {
   return code >= outcome_code::kOutside ? Outcome::kOutOfDomain : Outcome::kInvalid;
 }
 
-template <typename Value>
-void Write(Value* column, std::size_t i, Value value) {
-  if (column != nullptr) column[i] = value;
-}
-
 float Remaining(double limit, double ours) {
   const std::optional<double> remaining = RemainingBudget(limit, ours);
   return remaining.has_value() ? static_cast<float>(*remaining) : kNoNumber;
@@ -64,14 +59,19 @@ void AnswerWriter::Write(const PulseBlock& block, const BlockNumbers& numbers) c
 }
 
 void AnswerWriter::WriteOutcomes(const PulseBlock& block) const {
-  for (std::size_t i = 0; i < block.count(); ++i) {
-    const std::int32_t code = block.codes()[i];
-    const Outcome outcome = OutcomeOf(code);
-    const std::int32_t axis = code % outcome_code::kOutside;
-    albtpu::Write(answers_.outcomes, block.first() + i, OneBased(outcome));
-    albtpu::Write(answers_.outcome_axes, block.first() + i,
-                  outcome == Outcome::kInterpolated ? std::uint8_t{0} : OneBased(axis));
-  }
+  const auto write = [&](std::uint8_t* column, auto number_of) {
+    if (column == nullptr) return;
+    column += block.first();
+    if (block.all_inside()) {
+      std::fill_n(column, block.count(), number_of(outcome_code::kInside));
+    } else {
+      for (std::size_t i = 0; i < block.count(); ++i) column[i] = number_of(block.codes()[i]);
+    }
+  };
+  write(answers_.outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
+  write(answers_.outcome_axes, [](std::int32_t code) {
+    return code == outcome_code::kInside ? std::uint8_t{0} : OneBased(code % outcome_code::kOutside);
+  });
 }
 
 void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,

@@ -58,15 +58,18 @@ HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   return lower;
 }
 
-HWY_INLINE V Fraction(const AxisLookup::Nodes& axis, V x, VI lower) {
-  const V from = hn::GatherIndex(d, axis.nodes.data(), lower);
-  const V to = hn::GatherIndex(d, axis.nodes.data() + 1, lower);
-  const V way = hn::Sub(x, from);
-  if (axis.inverse_log_widths.empty()) return hn::Div(way, hn::Sub(to, from));
-  const V inverse_width = hn::GatherIndex(d, axis.inverse_log_widths.data(), lower);
-  const V fraction = hn::Mul(hn::Log1p(d, hn::Div(way, from)), inverse_width);
+// Between two nodes, for each coordinate.
+struct Interval {
+  V from, to;
+  V inverse_width;  // in the scale of the axis
+};
+
+HWY_INLINE V Fraction(const Interval& interval, bool log, V x) {
+  V way = hn::Sub(x, interval.from);
+  if (log) way = hn::Log1p(d, hn::Div(way, interval.from));
   const V one = hn::Set(d, 1.0f);
-  return hn::IfThenElse(hn::Eq(x, to), one, hn::Min(fraction, one));
+  const V fraction = hn::Min(hn::Mul(way, interval.inverse_width), one);
+  return hn::IfThenElse(hn::Eq(x, interval.to), one, fraction);
 }
 
 void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count,
@@ -74,6 +77,9 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
   const bool one_node = axis.nodes.size() == 1;
   const V first = hn::Set(d, axis.nodes.front()), last = hn::Set(d, axis.nodes.back());
   const VI invalid = hn::Set(di, axis.axis), outside = hn::Set(di, outcome_code::kOutside + axis.axis);
+  // The interval of the coordinates before: along a flight line often that of the next ones, all of them.
+  VI lower = hn::Zero(di);
+  Interval interval{hn::Zero(d), hn::Zero(d), hn::Zero(d)};  // empty
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V coordinate = hn::LoadU(d, coordinates + i);
     auto valid = hn::IsFinite(coordinate);
@@ -93,9 +99,14 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
       continue;
     }
     x = hn::IfThenElse(inside, x, first);
-    const VI lower = LowerNode(axis, x);
+    if (!hn::AllTrue(d, hn::And(hn::Ge(x, interval.from), hn::Lt(x, interval.to)))) {
+      lower = LowerNode(axis, x);
+      interval.from = hn::GatherIndex(d, axis.nodes.data(), lower);
+      interval.to = hn::GatherIndex(d, axis.nodes.data() + 1, lower);
+      interval.inverse_width = hn::GatherIndex(d, axis.inverse_widths.data(), lower);
+    }
     hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(lower, hn::Set(di, step))), di, rows + i);
-    hn::StoreU(Fraction(axis, x, lower), d, fractions + i);
+    hn::StoreU(Fraction(interval, axis.log, x), d, fractions + i);
   }
 }
 
@@ -111,14 +122,14 @@ HWY_EXPORT(LocateBlock);
 
 AxisLookup::AxisLookup(const Axis& axis)
     : nodes_{.nodes = {axis.nodes().begin(), axis.nodes().end()},
-             .inverse_log_widths = {},
+             .inverse_widths = {},
              .axis = static_cast<std::int32_t>(Index(axis.id())),
+             .log = axis.scale() == Scale::kLog,
              .folded = axis.id() == AxisId::kAzimuth,
              .endless = axis.id() == AxisId::kFetch} {
-  if (axis.scale() == Scale::kLinear) return;
   for (std::size_t i = 0; i + 1 < axis.size(); ++i) {
-    nodes_.inverse_log_widths.push_back(
-        static_cast<float>(1 / std::log(axis.nodes()[i + 1] / axis.nodes()[i])));
+    const double from = axis.nodes()[i], to = axis.nodes()[i + 1];
+    nodes_.inverse_widths.push_back(static_cast<float>(1 / (nodes_.log ? std::log(to / from) : to - from)));
   }
 }
 

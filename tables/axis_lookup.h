@@ -36,11 +36,13 @@ class AxisLookup {
 
   // What the kernels read.
   struct Nodes {
-    std::vector<float> nodes;               // as they are
-    std::vector<float> inverse_log_widths;  // on a log scale, 1 / log of the ratio of two neighbours
-    std::int32_t axis;                      // Index(id)
-    bool folded;                            // azimuth
-    bool endless;                           // fetch
+    std::vector<float> nodes;  // as they are
+    std::vector<float>
+        inverse_widths;  // 1 / distance of two neighbours, on a log scale that of their logarithms
+    std::int32_t axis;   // Index(id)
+    bool log;
+    bool folded;   // azimuth
+    bool endless;  // fetch
   };
 
  private:

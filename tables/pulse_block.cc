@@ -14,12 +14,18 @@ std::size_t Padded(std::size_t count) {
 }
 static_assert(kBlock % AxisLookup::kPadding == 0);
 
-// AxisLookup folds azimuths that are some turns away.
+// AxisLookup folds azimuths that are some turns away at most.
+bool IsFar(float azimuth) { return std::abs(azimuth) > AxisLookup::kFarthestAzimuth; }
+
+bool AnyIsFar(std::span<const float> azimuths) {
+  bool far = false;
+  for (float azimuth : azimuths) far |= IsFar(azimuth);
+  return far;
+}
+
 void BringNear(float* azimuths, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    if (std::abs(azimuths[i]) > AxisLookup::kFarthestAzimuth) {
-      azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i]));
-    }
+    if (IsFar(azimuths[i])) azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i]));
   }
 }
 
@@ -70,12 +76,17 @@ std::int32_t PulseBlock::LocateConstant(AxisId axis, float coordinate, std::size
 }
 
 void PulseBlock::LocateColumn(AxisId axis, BlockOf<std::int32_t>& rows) {
-  BlockOf<float> coordinates;
   const std::span<const float> column = pulses_[axis].subspan(first_, count_);
-  std::copy(column.begin(), column.end(), coordinates.begin());
-  std::fill(coordinates.begin() + count_, coordinates.begin() + Padded(count_), column.back());
-  if (axis == AxisId::kAzimuth) BringNear(coordinates.begin(), count_);
-  grid_.axis(axis).Locate(coordinates.begin(), Padded(count_), static_cast<std::int32_t>(grid_.step(axis)),
+  const float* coordinates = column.data();
+  BlockOf<float> copy;
+  const bool far = axis == AxisId::kAzimuth && AnyIsFar(column);
+  if (far || Padded(count_) != count_) {
+    std::copy(column.begin(), column.end(), copy.begin());
+    std::fill(copy.begin() + count_, copy.begin() + Padded(count_), column.back());
+    if (far) BringNear(copy.begin(), Padded(count_));
+    coordinates = copy.begin();
+  }
+  grid_.axis(axis).Locate(coordinates, Padded(count_), static_cast<std::int32_t>(grid_.step(axis)),
                           rows.begin(), fractions_[Index(axis)].begin(), codes_.begin());
 }
 

@@ -117,6 +117,7 @@ class Cell {
     const bool stays = row == row_ && wind_speed == wind_speed_ && fetch == fetch_;
     if (stays && azimuth == azimuth_) return pairs_;
     if (!stays || !has_both_azimuths_) {
+      Prefetch(i + kAhead);
       const float* at = records_ + static_cast<std::ptrdiff_t>(row) * kRecordSize;
       Corners corners;
       has_both_azimuths_ = azimuth > 0 && azimuth < 1;
@@ -138,6 +139,31 @@ class Cell {
   }
 
  private:
+  static constexpr std::size_t kAhead = 8;  // pulses
+
+  // Asks for what a pulse to come will read, if it is in another cell: a large table is bound by memory.
+  HWY_INLINE void Prefetch(std::size_t i) const {
+    if (i >= pulses_.count || pulses_.rows[i] == pulses_.rows[i - kAhead]) return;
+    const float* at = records_ + static_cast<std::ptrdiff_t>(pulses_.rows[i]) * kRecordSize;
+    const std::ptrdiff_t fetch = steps_[BlendedPulses::kFetch],
+                         wind_speed = steps_[BlendedPulses::kWindSpeed];
+    for (std::size_t p = 0; p < 2 * kPairs; ++p) {
+      for (const float* end : {at + offsets_[p], at + offsets_[p] + kPair - 1}) {
+        ToSecondCache(end);
+        ToSecondCache(end + fetch);
+        ToSecondCache(end + wind_speed);
+        ToSecondCache(end + fetch + wind_speed);
+      }
+    }
+  }
+
+  // The first has room for few lines that are under way: to ask it gains a fifth, to ask the second doubles the
+  // rate in random order.
+  static HWY_INLINE void ToSecondCache(const float* number) {
+    constexpr int kRead = 0, kSecondCache = 2;
+    __builtin_prefetch(number, kRead, kSecondCache);
+  }
+
   const float* records_;
   const BlendedPulses& pulses_;
   std::ptrdiff_t steps_[BlendedPulses::kOuterCount];
@@ -149,31 +175,48 @@ class Cell {
   HWY_ALIGN float pairs_[kPairs * kPair];
 };
 
-// From one pair to one record.
-HWY_INLINE void StoreRecord(const float* pair, float fraction, float* record) {
-  const hn::CappedTag<float, kRecordSize> dr;
-  for (std::size_t lane = 0; lane < kRecordSize; lane += hn::MaxLanes(dr)) {
-    const auto from = hn::LoadU(dr, pair + lane), to = hn::LoadU(dr, pair + kRecordSize + lane);
-    hn::StoreU(Lerp(hn::Set(dr, fraction), from, to), dr, record + lane);
+// From one pair, given by vectors that hold it, to one record.
+HWY_INLINE void StoreRecord(const V* pair, float fraction, float* record) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (kLanes == kPair) {
+    const hn::Half<D> half;
+    const auto from = hn::LowerHalf(half, pair[0]), to = hn::UpperHalf(half, pair[0]);
+    hn::StoreU(Lerp(hn::Set(half, fraction), from, to), half, record);
+    return;
+  }
+#endif
+  constexpr std::size_t kVectors = kRecordSize / kLanes;
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    hn::StoreU(Lerp(hn::Set(d, fraction), pair[v], pair[kVectors + v]), d, record + v * kLanes);
   }
 }
 
 void BlendWithFootprint(const float* records, const BlendedPulses& pulses, float* blended) {
   Cell<4> cell(records, pulses);
-  HWY_ALIGN float pairs[2 * kPair];
   for (std::size_t i = 0; i < pulses.count; ++i) {
-    LerpPairs<2>(pulses.fractions[BlendedPulses::kIncidence][i], cell.Enter(i), pairs);
-    LerpPairs<1>(pulses.fractions[BlendedPulses::kFootprint][i], pairs, pairs);
-    StoreRecord(pairs, pulses.last[i], blended + i * kRecordSize);
+    const float* at = cell.Enter(i);
+    const V incidence = hn::Set(d, pulses.fractions[BlendedPulses::kIncidence][i]);
+    const V footprint = hn::Set(d, pulses.fractions[BlendedPulses::kFootprint][i]);
+    V pair[kPair / kLanes];
+    for (std::size_t v = 0; v < kPair / kLanes; ++v, at += kLanes) {
+      const V from = Lerp(incidence, hn::Load(d, at), hn::Load(d, at + 2 * kPair));
+      const V to = Lerp(incidence, hn::Load(d, at + kPair), hn::Load(d, at + 3 * kPair));
+      pair[v] = Lerp(footprint, from, to);
+    }
+    StoreRecord(pair, pulses.last[i], blended + i * kRecordSize);
   }
 }
 
 void BlendWithoutFootprint(const float* records, const BlendedPulses& pulses, float* blended) {
   Cell<2> cell(records, pulses);
-  HWY_ALIGN float pairs[kPair];
   for (std::size_t i = 0; i < pulses.count; ++i) {
-    LerpPairs<1>(pulses.fractions[BlendedPulses::kIncidence][i], cell.Enter(i), pairs);
-    StoreRecord(pairs, pulses.last[i], blended + i * kRecordSize);
+    const float* at = cell.Enter(i);
+    const V incidence = hn::Set(d, pulses.fractions[BlendedPulses::kIncidence][i]);
+    V pair[kPair / kLanes];
+    for (std::size_t v = 0; v < kPair / kLanes; ++v, at += kLanes) {
+      pair[v] = Lerp(incidence, hn::Load(d, at), hn::Load(d, at + kPair));
+    }
+    StoreRecord(pair, pulses.last[i], blended + i * kRecordSize);
   }
 }
 

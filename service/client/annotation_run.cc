@@ -41,6 +41,7 @@ class Run {
 
   absl::Status operator()() {
     for (const Job& job : jobs_) {
+      progress_.NextFile();
       const absl::Status status = Annotate(job);
       if (status.ok()) {
         ++done_;
@@ -72,8 +73,8 @@ class Run {
         return made;
       }
       if (!absl::IsNotFound(made) && run_.existing == Existing::kKeep) {
-        return absl::Status(made.code(), absl::StrCat(made.message(), ": --overwrite it, or choose another "
-                                                                      "name"));
+        return absl::Status(made.code(),
+                            absl::StrCat(made.message(), ": --overwrite it, or choose another name"));
       }
     }
     if (absl::Status status = CheckSummaryCanBeWritten(job, run_.existing); !status.ok()) return status;

@@ -41,10 +41,11 @@ absl::Status RunCsv(const CsvOptions& options) {
     absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.shared.existing,
                                                    options.fixed, options.shared.style, **source, progress);
     if (!csv.ok()) return csv.status();
-    return AnnotatedFile{
-        std::move(csv->file),
-        Findings{.input_bytes = csv->input_bytes, .input = nlohmann::ordered_json::object(), .answers = csv->summary.Json()},
-        " " + csv->summary.outcomes().Text()};
+    return AnnotatedFile{std::move(csv->file),
+                         Findings{.input_bytes = csv->input_bytes,
+                                  .input = nlohmann::ordered_json::object(),
+                                  .answers = csv->summary.Json()},
+                         " " + csv->summary.outcomes().Text()};
   };
   return AnnotateFiles(*jobs,
                        {.command = "csv",

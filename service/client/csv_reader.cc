@@ -19,9 +19,9 @@ constexpr std::size_t kBlockSize = 1 << 20;
 
 // How a record at the beginning of a text ends.
 struct RecordEnd {
-  std::size_t text_size = 0;    // Without the line ending.
-  std::size_t size = 0;         // With it.
-  bool open = false;            // The text ends first; `open_quote` tells whether within a quoted cell.
+  std::size_t text_size = 0;  // Without the line ending.
+  std::size_t size = 0;       // With it.
+  bool open = false;          // The text ends first; `open_quote` tells whether within a quoted cell.
   bool open_quote = false;
   bool text_behind_quote = false;  // At `size`: an error.
 };
@@ -51,10 +51,7 @@ RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cel
       state = state == State::kCellStart && character == '"' ? State::kQuoted : State::kPlain;
     }
   }
-  return {.text_size = text.size(),
-          .size = text.size(),
-          .open = true,
-          .open_quote = state == State::kQuoted};
+  return {.text_size = text.size(), .size = text.size(), .open = true, .open_quote = state == State::kQuoted};
 }
 
 std::size_t AfterByteOrderMark(std::string_view text, std::size_t line) {
@@ -104,10 +101,9 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   const RecordEnd end =
       FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
   if (end.text_behind_quote) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
-                     record.cell_count(),
-                     ": text follows a closing quote: double the quotes inside a quoted cell"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
+        record.cell_count(), ": text follows a closing quote: double the quotes inside a quoted cell"));
   }
   if (end.open_quote || end.text_size > CsvReader::kLongestRecord) {
     return absl::InvalidArgumentError(absl::StrCat(

@@ -17,9 +17,9 @@ namespace albtpu::client {
 
 // A record as it stands in the file, whose text it refers to. A quoted cell may span lines.
 struct CsvRecord {
-  std::string_view text;         // All of it, quotes included, without the line ending.
-  std::string_view line_ending;  // "\n", "\r\n", or nothing at the end of a file.
-  std::size_t line = 0;          // Of its first character, from 1.
+  std::string_view text;                 // All of it, quotes included, without the line ending.
+  std::string_view line_ending;          // "\n", "\r\n", or nothing at the end of a file.
+  std::size_t line = 0;                  // Of its first character, from 1.
   std::vector<std::size_t> cell_begins;  // Offsets into `text`.
 
   std::size_t cell_count() const { return cell_begins.size(); }

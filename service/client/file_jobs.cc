@@ -43,8 +43,8 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std:
     }
   }
   if (error) {
-    return absl::FailedPreconditionError(absl::StrCat(folder.string(), ": ", error.message(),
-                                                      ": name a folder that can be read"));
+    return absl::FailedPreconditionError(
+        absl::StrCat(folder.string(), ": ", error.message(), ": name a folder that can be read"));
   }
   if (files.empty()) {
     return absl::NotFoundError(absl::StrCat(folder.string(), ": no ", extension, " file in this folder",

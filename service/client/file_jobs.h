@@ -23,10 +23,10 @@ struct Job {
   bool in_subfolder = false;  // Of the output folder; it may have to be made.
 };
 
-// `extension` with its point: ".las". IN OUT, or every input into the output folder. A folder stands for all files in it of this extension, in
-// the order of their names; with --recursive also those of its subfolders, which the output folder repeats.
-// What lies in the output folder is no input. IsUsageError when the files do not say which, or when two would
-// go to one name.
+// IN OUT, or every input into the output folder. A folder stands for all files in it of `extension` (".las"),
+// in the order of their names; with --recursive also those of its subfolders, which the output folder
+// repeats. What lies in the output folder is no input. IsUsageError when the files do not say which, or when
+// two would go to one name.
 absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::string& extension,
                                           const FileOptions& options);
 

@@ -23,8 +23,8 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
     return absl::OkStatus();
   }
   return absl::FailedPreconditionError(
-      absl::StrCat(name, ": changed while it was read, from ", size_, " to ", now.size_,
-                   " bytes or in their content; nothing was written: start again when it is whole"));
+      absl::StrCat(name, ": changed while it was read (", size_, " bytes, then ", now.size_,
+                   "); nothing was written: start again when nobody writes to it"));
 }
 
 }  // namespace albtpu::client

@@ -45,14 +45,13 @@ class LasFiles {
     SayResolution(annotated->point_format);
     points_ += points;
     bathymetric_ += bathymetric;
-    return AnnotatedFile{
-        std::move(annotated->file),
-        Findings{.input_bytes = annotated->input_bytes,
-                 .input = {{"point_format", annotated->point_format},
-                           {"points", points},
-                           {"points_by_class", annotated->classes.Json()}},
-                 .answers = annotated->summary.Json()},
-        absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text())};
+    return AnnotatedFile{std::move(annotated->file),
+                         Findings{.input_bytes = annotated->input_bytes,
+                                  .input = {{"point_format", annotated->point_format},
+                                            {"points", points},
+                                            {"points_by_class", annotated->classes.Json()}},
+                                  .answers = annotated->summary.Json()},
+                         absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text())};
   }
 
   bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }

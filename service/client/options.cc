@@ -106,8 +106,7 @@ void AddSharedOptions(CLI::App& command, SharedOptions& options) {
   AddSourceOptions(command, options.source);
   AddStyleOptions(command, options.style);
   command.add_flag_callback(
-      "--standard-errors",
-      [&options] { options.style.standard_errors = true; },
+      "--standard-errors", [&options] { options.style.standard_errors = true; },
       "Give the standard error of each value too");
   AddOverwrite(command, options.existing);
 }

@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "absl/status/statusor.h"
 
 namespace albtpu::client {
+
+inline constexpr int kMostWorkers = 16;
 
 // Runs until `read` finds nothing more or something fails, and gives the failure that is first in the file.
 // Memory does not grow with the file: there are a few chunks, used again and again.
@@ -28,8 +31,9 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
     Chunk chunk;
     absl::Status status;
   };
-  // More threads than cores: some wait for a disk or a server.
-  const int threads = oneapi::tbb::info::default_concurrency() + 2;
+  // More threads than cores: some wait for a disk or a server. Not many: one disk feeds them all, and each
+  // has a chunk in memory.
+  const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMostWorkers) + 2;
   std::vector<Slot> slots;
   for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
   std::size_t next = 0;

@@ -32,10 +32,7 @@ Progress::Progress(std::string records, std::size_t file_count, std::uint64_t to
       start_(Clock::now()),
       last_shown_(start_) {}
 
-void Progress::Skip(std::uint64_t bytes) {
-  total_bytes_ -= std::min(bytes, total_bytes_);
-  ++files_begun_;
-}
+void Progress::Skip(std::uint64_t bytes) { total_bytes_ -= std::min(bytes, total_bytes_); }
 
 double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -59,8 +56,7 @@ void Progress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t
 }
 
 Progress::File::File(Progress& run, std::string name) : run_(run), label_(std::move(name)) {
-  ++run_.files_begun_;
-  if (run_.file_count_ > 1) absl::StrAppend(&label_, " (", run_.files_begun_, " of ", run_.file_count_, ")");
+  if (run_.file_count_ > 1) absl::StrAppend(&label_, " (", run_.file_, " of ", run_.file_count_, ")");
 }
 
 void Progress::File::Reach(std::uint64_t bytes, std::uint64_t records) {

@@ -15,13 +15,16 @@ class Progress {
   // and then nothing is shown.
   Progress(std::string records, std::size_t file_count, std::uint64_t total_bytes);
 
-  // Of a file that has `bytes` and needs no work.
+  // Goes to the next of the files, or the first.
+  void NextFile() { ++file_; }
+
+  // The file at hand has `bytes` and needs no work.
   void Skip(std::uint64_t bytes);
 
   std::uint64_t records() const { return records_before_; }  // Of the files that ended.
   double seconds() const;
 
-  // One file, from here to the end of its scope.
+  // The work on the file at hand, from here to the end of its scope.
   class File {
    public:
     File(Progress& run, std::string name);
@@ -48,7 +51,7 @@ class Progress {
   std::uint64_t total_bytes_;
   bool terminal_;
   Clock::time_point start_, last_shown_;
-  std::size_t files_begun_ = 0;
+  std::size_t file_ = 0;  // From 1.
   std::uint64_t bytes_before_ = 0, records_before_ = 0;  // Of the files that ended.
   bool drawn_ = false;
 };

@@ -26,8 +26,7 @@ absl::Status RunPulse(const PulseOptions& options) {
   }
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
   if (!source.ok()) return source.status();
-  const absl::StatusOr<PulseAnswer> answer =
-      AskPulse(options.coordinates, options.shared.style, **source);
+  const absl::StatusOr<PulseAnswer> answer = AskPulse(options.coordinates, options.shared.style, **source);
   if (!answer.ok()) return answer.status();
   const TableSummary& table = (*source)->table();
   std::cout << (options.json ? PulseJson(*answer, table) : PulseText(*answer, table));

@@ -52,7 +52,8 @@ std::string S44Text(const PulseAnswer& answer) {
   const std::uint8_t best = answer.p95.best_s44_orders[0];
   std::string text = absl::StrFormat("\n%s, all at 95 %%: the sea surface alone has THU %.6g m, TVU %.6g m\n",
                                      std::string(kS44Edition), thu, tvu);
-  absl::StrAppend(&text, "best order left open: ", best > 0 ? std::string(Name(kS44Orders[best - 1])) : "none", "\n",
+  absl::StrAppend(&text,
+                  "best order left open: ", best > 0 ? std::string(Name(kS44Orders[best - 1])) : "none", "\n",
                   absl::StrFormat("%-12s %12s %12s %26s\n", "order", "THU limit", "TVU limit",
                                   "left for all else: THU, TVU"));
   for (const S44Order order : kS44Orders) {
@@ -81,8 +82,8 @@ absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle 
   const PulseBatch batch = OnePulse(pulse);
   AnswerSelection surface;
   UncertaintySummary::Select(surface);
-  absl::Status status = source.Answer(style.query(), batch.columns(),
-                                      answer.stated.Resize(1, AnswerCells(style).selection()));
+  absl::Status status =
+      source.Answer(style.query(), batch.columns(), answer.stated.Resize(1, AnswerCells(style).selection()));
   if (status.ok()) {
     status = source.Answer({.coverage = Coverage::kP95, .s44_order = {}}, batch.columns(),
                            answer.p95.Resize(1, surface));

@@ -11,7 +11,7 @@
 namespace albtpu::client {
 namespace {
 
-// A signal handler may neither allocate nor lock, so names live in fixed places. One is enough for every
+// A signal handler may neither allocate nor lock, so names live in fixed places. Two are enough for every
 // command; a program that writes more files at once than there are slots loses only the removal.
 struct Slot {
   std::atomic<bool> taken = false;  // By a RemovedOnSignal.

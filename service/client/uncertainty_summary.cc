@@ -123,7 +123,8 @@ std::string UncertaintySummary::Text() const {
 
 ordered_json UncertaintySummary::BandJson(std::size_t index) const {
   const Band& band = bands_[index];
-  ordered_json json = {{"from", index == 0 ? 0 : kBandEnds[index - 1]}, {"to", nullptr}, {"pulses", band.count}};
+  ordered_json json = {
+      {"from", index == 0 ? 0 : kBandEnds[index - 1]}, {"to", nullptr}, {"pulses", band.count}};
   if (index < kBandEnds.size()) json["to"] = kBandEnds[index];
   json["thu"] = band.thu.Json(band.count, style_.standard_errors);
   json["tvu"] = band.tvu.Json(band.count, style_.standard_errors);

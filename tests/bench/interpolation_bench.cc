@@ -6,7 +6,8 @@
 //   columns_absent     THU, TVU and both biases, azimuth absent
 //   columns_threads    as columns, by AnswerOnAllCores
 //   rows               Interpolate, one pulse after the other: all six and their standard errors
-//   plain              PlainInterpolator: THU, TVU and both biases
+//   plain              PlainInterpolator, quantities apart: THU, TVU and both biases
+//   plain_side_by_side the same, quantities side by side
 // and, after the order, the number of pulses in a batch.
 #include <absl/strings/str_cat.h>
 #include <benchmark/benchmark.h>
@@ -26,10 +27,12 @@ namespace {
 constexpr std::size_t kMany = std::size_t{1} << 17;
 
 struct Tables {
-  explicit Tables(int megabytes) : table(TableOf(megabytes)), columns(table), plain(table) {}
+  explicit Tables(int megabytes)
+      : table(TableOf(megabytes)), columns(table), plain(table), side_by_side(table) {}
   UncertaintyTable table;
   ColumnInterpolator columns;
-  PlainInterpolator plain;
+  PlainInterpolator<Quantities::kApart> plain;
+  PlainInterpolator<Quantities::kSideBySide> side_by_side;
 };
 
 const Tables& TablesOf(int megabytes) {
@@ -111,12 +114,13 @@ void Rows(benchmark::State& state, const Case& of) {
           });
 }
 
-void Plain(benchmark::State& state, const Case& of) {
+template <typename Interpolator>
+void Plain(benchmark::State& state, const Case& of, Interpolator Tables::*interpolator) {
   const Answers answers(kMany, {});
   const auto& values = answers.columns().values;
   Measure(state, of, false,
           [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
-            tables.plain.Answer(pulses, begin, end, {values[2], values[3], values[4], values[5]});
+            (tables.*interpolator).Answer(pulses, begin, end, {values[2], values[3], values[4], values[5]});
           });
 }
 
@@ -133,8 +137,9 @@ void Register(int megabytes, Order order, std::size_t batch) {
   };
   const Wanted all{.refraction = true, .outcomes = true};
   columns("columns", {}, {}, false);
-  add("plain", Plain);
+  add("plain", [](auto& state, const Case& c) { Plain(state, c, &Tables::plain); });
   if (batch < kMany) return add("rows", Rows), void();
+  add("plain_side_by_side", [](auto& state, const Case& c) { Plain(state, c, &Tables::side_by_side); });
   columns("columns_all", {}, all, false);
   columns("columns_errors", {}, {.refraction = true, .standard_errors = true, .outcomes = true}, false);
   columns("columns_p95", {.coverage = Coverage::kP95, .s44_order = {}}, all, false);

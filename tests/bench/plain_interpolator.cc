@@ -5,7 +5,8 @@
 
 namespace albtpu::bench {
 
-PlainInterpolator::PlainInterpolator(const UncertaintyTable& table) {
+template <Quantities kLayout>
+PlainInterpolator<kLayout>::PlainInterpolator(const UncertaintyTable& table) {
   std::size_t step = 1;
   for (std::size_t axis = kAxisCount; axis-- > 0;) {
     PlainAxis& plain = axes_[axis];
@@ -16,15 +17,19 @@ PlainInterpolator::PlainInterpolator(const UncertaintyTable& table) {
     if (!plain.log) continue;
     for (double& node : plain.nodes) node = std::log(node);
   }
-  values_.resize(step * kQuantities);
+  if (kLayout == Quantities::kSideBySide) side_by_side_.resize(step * kQuantities);
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const std::vector<float>& values = table.variable(albtpu::kQuantities[2 + q])->values;
-    for (std::size_t i = 0; i < values.size(); ++i) values_[i * kQuantities + q] = values[i];
+    if (kLayout == Quantities::kApart) apart_[q] = values;
+    for (std::size_t i = 0; i < side_by_side_.size() / kQuantities; ++i) {
+      side_by_side_[i * kQuantities + q] = values[i];
+    }
   }
 }
 
-void PlainInterpolator::Answer(const PulseColumns& pulses, std::size_t begin, std::size_t end,
-                               const std::array<float*, kQuantities>& answers) const {
+template <Quantities kLayout>
+void PlainInterpolator<kLayout>::Answer(const PulseColumns& pulses, std::size_t begin, std::size_t end,
+                                        const std::array<float*, kQuantities>& answers) const {
   constexpr std::size_t kCorners = std::size_t{1} << kAxisCount;
   for (std::size_t i = begin; i < end; ++i) {
     std::array<std::size_t, kCorners> index{};
@@ -49,11 +54,19 @@ void PlainInterpolator::Answer(const PulseColumns& pulses, std::size_t begin, st
     }
     std::array<double, kQuantities> sum{};
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
-      const double* values = values_.data() + index[corner] * kQuantities;
-      for (std::size_t q = 0; q < kQuantities; ++q) sum[q] += weight[corner] * values[q];
+      for (std::size_t q = 0; q < kQuantities; ++q) {
+        if constexpr (kLayout == Quantities::kApart) {
+          sum[q] += weight[corner] * apart_[q][index[corner]];
+        } else {
+          sum[q] += weight[corner] * side_by_side_[index[corner] * kQuantities + q];
+        }
+      }
     }
     for (std::size_t q = 0; q < kQuantities; ++q) answers[q][i] = static_cast<float>(sum[q]);
   }
 }
+
+template class PlainInterpolator<Quantities::kApart>;
+template class PlainInterpolator<Quantities::kSideBySide>;
 
 }  // namespace albtpu::bench

@@ -1,4 +1,4 @@
-// A table interpolated as one would by hand, in scalar double precision: the peer of ColumnInterpolator.
+// A table interpolated as one would by hand, in scalar double precision: peers of ColumnInterpolator.
 #pragma once
 
 #include <array>
@@ -10,9 +10,15 @@
 
 namespace albtpu::bench {
 
-// THU, TVU and both biases, multilinear. Nodes are searched by halves, index and weight of each corner are
-// found once for all four quantities, which stand side by side in double precision. No outcomes: pulses are
-// inside the domain and have an azimuth of 0 to 90 degrees.
+// How the quantities lie in memory.
+enum class Quantities {
+  kApart,       // an array each, in the table's single precision
+  kSideBySide,  // at each node, in double precision
+};
+
+// THU, TVU and both biases, multilinear. Nodes are searched by halves; index and weight of each corner are found
+// once for all four quantities. No outcomes: pulses are inside the domain and have an azimuth of 0 to 90 degrees.
+template <Quantities kLayout>
 class PlainInterpolator {
  public:
   static constexpr std::size_t kQuantities = 4;
@@ -31,7 +37,8 @@ class PlainInterpolator {
   };
 
   std::array<PlainAxis, kAxisCount> axes_;
-  std::vector<double> values_;
+  std::array<std::vector<float>, kQuantities> apart_;
+  std::vector<double> side_by_side_;
 };
 
 }  // namespace albtpu::bench

@@ -44,7 +44,7 @@ void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
 
 // Nodes, their neighbours in single precision, and much between and beyond.
 std::vector<float> CoordinatesOf(const Axis& axis, std::mt19937& random) {
-  std::vector<float> coordinates = {-1, -0.0f, 0, 1e9f, -1e9f};
+  std::vector<float> coordinates = {-1, -0.0f, 0, 1e6f, -1e6f};
   for (double node : axis.nodes()) {
     const auto at = static_cast<float>(node);
     for (const float x : {at, std::nextafter(at, 0.0f), std::nextafter(at, kInfinity)})

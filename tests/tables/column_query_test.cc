@@ -56,8 +56,7 @@ struct Answers {
     }
     return answers;
   }
-  // Numbers bit by bit.
-  std::vector<std::uint32_t> At(std::size_t i) const {
+  std::vector<std::uint32_t> BitsAt(std::size_t i) const {
     std::vector<std::uint32_t> row = {outcomes[i], axes[i], best[i], std::bit_cast<std::uint32_t>(thu[i]),
                                       std::bit_cast<std::uint32_t>(tvu[i])};
     for (std::size_t q = 0; q < kQuantityCount; ++q) {
@@ -286,7 +285,7 @@ TEST_P(ColumnQuery, AnswersAPulseAloneAsAmongOthersBitByBit) {
             const std::span<const float> column = pulses[axis];
             alone.axis[Index(axis)] = column.size() <= 1 ? column : column.subspan(i, 1);
           }
-          ASSERT_EQ(Ask(interpolator, query, alone).At(0), together.At(i)) << i;
+          ASSERT_EQ(Ask(interpolator, query, alone).BitsAt(0), together.BitsAt(i)) << i;
         }
       }
     }
@@ -309,8 +308,8 @@ TEST_P(ColumnQuery, AnswersInAnyOrderAndInPiecesBitByBit) {
   }
   const Answers backward = Ask(interpolator, {}, Pulses(columns, 2000));
   for (std::size_t i = 0; i < 2000; ++i) {
-    ASSERT_EQ(pieces.At(i), forward.At(i));
-    ASSERT_EQ(backward.At(1999 - i), forward.At(i));
+    ASSERT_EQ(pieces.BitsAt(i), forward.BitsAt(i));
+    ASSERT_EQ(backward.BitsAt(1999 - i), forward.BitsAt(i));
   }
 }
 
@@ -344,7 +343,7 @@ TEST_P(ColumnQuery, OnAllCoresAnswersBitByBitAsOnOne) {
   const Answers one = Ask(interpolator, {}, Pulses(columns, 20001));
   Answers all(20001);
   AnswerOnAllCores(interpolator, {}, Pulses(columns, 20001), all.columns());
-  for (std::size_t i = 0; i < 20001; ++i) ASSERT_EQ(all.At(i), one.At(i));
+  for (std::size_t i = 0; i < 20001; ++i) ASSERT_EQ(all.BitsAt(i), one.BitsAt(i));
 }
 
 }  // namespace

@@ -3,11 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tables/axis.h"
 
 namespace albtpu::client {
 namespace {
+
+// The pulse of one point.
+Pulse At(const FlightLine& line, double z, double scan_angle) {
+  PulseBatch pulses;
+  line.MakePulses({&z, 1}, {&scan_angle, 1}, pulses);
+  return PulseAt(pulses.columns(), 0);
+}
 
 TEST(BeamGeometry, WidensTheFootprintWithDistance) {
   EXPECT_DOUBLE_EQ(FootprintDiameter(400, 1, 0), 0.4);
@@ -42,7 +50,7 @@ TEST(BeamGeometry, MakesAPulseOfAPoint) {
   line.wind_speed = 6;
   line.footprint = DivergingBeam{.altitude = 400, .divergence = 1};
   line.azimuth = AcrossTrackScan{.flight_direction = 30, .wind_from = 10};
-  const Pulse pulse = line.At(-25.5, -12.006);
+  const Pulse pulse = At(line, -25.5, -12.006);
   EXPECT_EQ(pulse.wind_speed, 6);
   EXPECT_TRUE(std::isinf(pulse.fetch));
   EXPECT_EQ(pulse.incidence, 12.006f);
@@ -57,7 +65,7 @@ TEST(BeamGeometry, TurnsFeetIntoMetresForDepthOnly) {
   line.metres_per_unit = 0.3048;
   line.footprint = 0.5f;
   line.azimuth = 45.0f;
-  const Pulse pulse = line.At(0, 3);
+  const Pulse pulse = At(line, 0, 3);
   EXPECT_EQ(pulse.depth, 3.048f);
   EXPECT_EQ(pulse.footprint, 0.5f);
   EXPECT_EQ(pulse.azimuth, 45.0f);
@@ -66,8 +74,25 @@ TEST(BeamGeometry, TurnsFeetIntoMetresForDepthOnly) {
 TEST(BeamGeometry, GivesANegativeDepthToAPointAboveTheWater) {
   FlightLine line;
   line.water_level = 1;
-  EXPECT_LT(line.At(2, 0).depth, 0);
-  EXPECT_FALSE(line.At(2, 0).azimuth.has_value());
+  EXPECT_LT(At(line, 2, 0).depth, 0);
+  EXPECT_FALSE(At(line, 2, 0).azimuth.has_value());
+}
+
+TEST(BeamGeometry, SaysOnceWhatIsAlikeForAllPoints) {
+  FlightLine line;
+  line.wind_speed = 6;
+  line.footprint = 0.5f;
+  const std::vector<double> z = {-1, -2, -3}, scan_angles = {-5, 0, 5};
+  PulseBatch pulses;
+  line.MakePulses(z, scan_angles, pulses);
+  EXPECT_TRUE(IsValid(pulses.columns()));
+  EXPECT_EQ(pulses.size, 3u);
+  EXPECT_EQ(pulses[AxisId::kWindSpeed], std::vector<float>{6});
+  EXPECT_EQ(pulses[AxisId::kFootprint], std::vector<float>{0.5});
+  EXPECT_TRUE(pulses[AxisId::kFetch].empty());
+  EXPECT_TRUE(pulses[AxisId::kAzimuth].empty());
+  EXPECT_EQ(pulses[AxisId::kDepth], (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(pulses[AxisId::kIncidence], (std::vector<float>{5, 0, 5}));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "service/client/exit_status.h"
 #include "service/client/local_source.h"
 #include "service/client/number_text.h"
+#include "tests/service/client/one_answer.h"
 #include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
 
@@ -25,20 +26,23 @@ class CsvAnnotation : public ::testing::Test {
     const std::filesystem::path input = folder_.Write("in.csv", text);
     const std::filesystem::path output = folder_ / "out.csv";
     std::filesystem::remove(output);
-    const absl::StatusOr<OutcomeCounts> counts =
-        AnnotateCsv(input, output, Existing::kKeep, fixed_, style_, source_);
-    status_ = counts.status();
-    if (!counts.ok()) {
+    Progress progress("pulses", 1, 0);
+    absl::StatusOr<AnnotatedCsv> annotated =
+        AnnotateCsv(input, output, Existing::kKeep, fixed_, style_, source_, progress);
+    status_ = annotated.status();
+    if (!annotated.ok()) {
       EXPECT_EQ(folder_.file_count(), 1u) << "something was left behind";
-      return std::string(counts.status().message());
+      return std::string(annotated.status().message());
     }
-    counts_ = *counts;
+    EXPECT_TRUE(annotated->file.Commit().ok());
+    EXPECT_EQ(annotated->input_bytes, text.size());
+    counts_ = annotated->summary.outcomes();
     return ReadFile(output);
   }
 
   // What a pulse's cells must be.
-  static std::string Cells(const Pulse& pulse) {
-    const PulseUncertainty answer = Interpolate(SyntheticTable(), pulse);
+  std::string Cells(const Pulse& pulse) {
+    const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, pulse);
     std::string cells;
     for (const float value : answer.values) {
       absl::StrAppend(&cells, ",", answer.outcome == Outcome::kInterpolated ? FormatFloat(value) : "");
@@ -128,7 +132,7 @@ TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44WhenAsked) {
               HasSubstr("outcome,refraction_along_wind_standard_error,refraction_cross_wind_standard_error,"
                         "thu_standard_error,tvu_standard_error,bias_along_beam_standard_error,"
                         "bias_vertical_standard_error,s44_best_order,s44_remaining_thu,s44_remaining_tvu\n"));
-  const PulseUncertainty p95 = WithCoverage(Interpolate(SyntheticTable(), kPulse), Coverage::kP95);
+  const PulseUncertainty p95 = albtpu::testing::AnswerOf(source_, kPulse, Coverage::kP95);
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(p95[Quantity::kThu]), ",")));
   const double left = RemainingBudget(ThuLimit(S44Order::k1b, 7), p95[Quantity::kThu]).value();
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(static_cast<float>(left)), ",")));
@@ -177,9 +181,22 @@ TEST_F(CsvAnnotation, RefusesRecordsOfAnotherLength) {
 
 TEST_F(CsvAnnotation, DoesNotWriteOverItsInput) {
   const std::filesystem::path input = folder_.Write("in.csv", kHeader);
-  const auto status = AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_).status();
+  Progress progress("pulses", 1, 0);
+  const auto status =
+      AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_, progress).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
   EXPECT_EQ(ReadFile(input), kHeader);
+}
+
+TEST_F(CsvAnnotation, RefusesAnInputThatChangesWhileItIsRead) {
+  albtpu::testing::DisturbedSource source(
+      source_, [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
+  const std::filesystem::path input = folder_.Write("in.csv", std::string(kHeader) + "\n5,,12,,.6,7\n");
+  Progress progress("pulses", 1, 0);
+  const auto status =
+      AnnotateCsv(input, folder_ / "out.csv", Existing::kKeep, fixed_, style_, source, progress).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("in.csv: changed while it was read"));
+  EXPECT_EQ(folder_.file_count(), 1u);
 }
 
 TEST_F(CsvAnnotation, KeepsTheOrderAcrossChunks) {

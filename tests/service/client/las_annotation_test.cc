@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
 #include <random>
 #include <vector>
 
 #include "service/client/little_endian.h"
 #include "service/client/local_source.h"
 #include "tests/service/client/las_builder.h"
+#include "tests/service/client/one_answer.h"
 #include "tests/service/client/simulated_flight.h"
 #include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
@@ -56,12 +59,14 @@ class LasAnnotationTest : public ::testing::Test {
     const std::filesystem::path input = folder_.Write("in.las", file);
     const std::filesystem::path output = folder_ / "out.las";
     absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(input, output, Existing::kReplace, annotation_, source_);
+        AnnotateLas(input, output, Existing::kReplace, annotation_, source_, progress_);
     if (!annotated.ok()) {
       EXPECT_EQ(folder_.file_count(), 1u) << "something was left behind";
       return std::string(annotated.status().message());
     }
     EXPECT_TRUE(annotated->file.Commit().ok());
+    EXPECT_EQ(annotated->input_bytes, file.size());
+    classes_ = annotated->classes;
     summary_ = annotated->summary;
     std::string bytes = ReadFile(output);
     std::filesystem::remove(output);
@@ -69,16 +74,19 @@ class LasAnnotationTest : public ::testing::Test {
   }
   std::string Annotate(const LasSpec& spec) { return Annotate(BuildLas(spec)); }
 
-  PulseUncertainty AnswerFor(const LasSpec& spec, std::size_t point) const {
-    return Interpolate(
-        table_, annotation_.flight_line.At(spec.points[point].z * spec.scale, spec.points[point].scan_angle));
+  PulseUncertainty AnswerFor(const LasSpec& spec, std::size_t point) {
+    PulseBatch pulses;
+    const double z = spec.points[point].z * spec.scale;
+    annotation_.flight_line.MakePulses({&z, 1}, {&spec.points[point].scan_angle, 1}, pulses);
+    return albtpu::testing::AnswerOf(source_, PulseAt(pulses.columns(), 0), annotation_.style.coverage);
   }
 
   TemporaryFolder folder_;
-  UncertaintyTable table_ = SyntheticTable();
   LocalSource source_{"", SyntheticTable()};
   LasAnnotation annotation_;
-  LasSummary summary_{AnswerStyle{}};
+  LasClassCounts classes_;
+  UncertaintySummary summary_{AnswerStyle{}};
+  Progress progress_{"points", 1, 0};
 };
 
 // The annotated file must be what the builder makes of the specification with our record added and 8 bytes
@@ -139,9 +147,9 @@ TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
 
 TEST_F(LasAnnotationTest, CountsWhatItFound) {
   Annotate(Spec(4, 6));
-  EXPECT_EQ(summary_.points(), 5u);
+  EXPECT_EQ(classes_.points(), 5u);
   EXPECT_EQ(summary_.outcomes().Text(), "4 pulses: 2 interpolated, 2 OUT_OF_DOMAIN:depth");
-  EXPECT_EQ(summary_.ClassesText(), "class 2: 1 points, class 26: 4 points");
+  EXPECT_EQ(classes_.Text(), "class 2: 1 points, class 26: 4 points");
   EXPECT_THAT(summary_.Text(), HasSubstr("depth 0.800 m to 5.000 m"));
 }
 
@@ -161,7 +169,7 @@ TEST_F(LasAnnotationTest, StatesTheCoverageThatIsAsked) {
   annotation_.style.coverage = Coverage::kP95;
   const LasSpec spec = Spec(4, 6);
   const std::string output = Annotate(spec);
-  const PulseUncertainty p95 = WithCoverage(AnswerFor(spec, 0), Coverage::kP95);
+  const PulseUncertainty p95 = AnswerFor(spec, 0);
   EXPECT_EQ(Load<float>(output, Load<std::uint32_t>(output, 96) + 30), p95[Quantity::kThu]);
   EXPECT_THAT(output, HasSubstr("sea surface only, 95 %, m"));
 }
@@ -175,7 +183,7 @@ TEST_F(LasAnnotationTest, WritesAFileWithoutPoints) {
   LasSpec spec = Spec(2, 0);
   spec.points.clear();
   EXPECT_EQ(Annotate(spec).size(), BuildLas(spec).size() + 54 + 2 * 192);
-  EXPECT_EQ(summary_.points(), 0u);
+  EXPECT_EQ(classes_.points(), 0u);
 }
 
 TEST_F(LasAnnotationTest, TakesLegacyClassesWithoutTheirFlags) {
@@ -265,9 +273,38 @@ TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
     }
     if (random() % 8 == 0) damaged.resize(random() % file.size());
     const std::filesystem::path input = folder_.Write("in.las", damaged);
-    const auto annotated = AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_);
+    const auto annotated =
+        AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_, progress_);
     EXPECT_THAT(std::string(annotated.status().message()), AnyOf("", HasSubstr("in.las: ")));
   }
+  EXPECT_EQ(folder_.file_count(), 1u);
+}
+
+TEST_F(LasAnnotationTest, RefusesAnInputThatChangesWhileItIsRead) {
+  const std::string file = BuildLas(Spec(4, 6));
+  for (const std::size_t size : {file.size(), file.size() - 1, file.size() + 1}) {
+    const std::filesystem::path input = folder_.Write("in.las", file);
+    std::filesystem::last_write_time(input,
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::seconds(9));
+    albtpu::testing::DisturbedSource source(source_, [&] {
+      std::string changed = file;
+      changed.resize(size);
+      std::ofstream(input, std::ios::binary) << changed;
+    });
+    const auto status =
+        AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
+    EXPECT_THAT(std::string(status.message()), HasSubstr("in.las: changed while it was read"));
+    EXPECT_EQ(folder_.file_count(), 1u);
+  }
+}
+
+TEST_F(LasAnnotationTest, LeavesNothingWhenTheSourceFails) {
+  const std::filesystem::path input = folder_.Write("in.las", BuildLas(Spec(4, 6)));
+  albtpu::testing::DisturbedSource source(
+      source_, [] {}, absl::UnavailableError("gone"));
+  const auto status =
+      AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source, progress_).status();
+  EXPECT_EQ(status, absl::UnavailableError("gone"));
   EXPECT_EQ(folder_.file_count(), 1u);
 }
 
@@ -276,7 +313,7 @@ TEST_F(LasAnnotationTest, DoesNotWriteOverItsInput) {
   const std::filesystem::path input = folder_.Write("in.las", file);
   std::filesystem::create_symlink(input, folder_ / "out.las");
   const auto status =
-      AnnotateLas(input, folder_ / "out.las", Existing::kReplace, annotation_, source_).status();
+      AnnotateLas(input, folder_ / "out.las", Existing::kReplace, annotation_, source_, progress_).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
   EXPECT_EQ(ReadFile(input), file);
 }

@@ -128,7 +128,8 @@ class LasTest(programs.Test):
         result = query("las", *files, *flags)
         self.assert_fails(result, 1, "1 of 4 files failed")
         self.assertIn("bad.las", result.stderr)
-        self.assertEqual(sorted(path.name for path in out.iterdir()), ["a.las", "b.las", "land.las"])
+        self.assertEqual(sorted(path.name for path in out.iterdir()),
+                         ["a.las", "a.las.json", "b.las", "b.las.json", "land.las", "land.las.json"])
         values = LasFile(out / "land.las")
         self.assertTrue(np.all(values.field(values.record_length - 8, "<f4") == -1))
         self.assertIn("no point of class 40", result.stderr)

@@ -7,6 +7,7 @@
 
 #include "service/client/local_source.h"
 #include "service/client/number_text.h"
+#include "tests/service/client/one_answer.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu::client {
@@ -21,21 +22,21 @@ const Pulse kPulse = {.wind_speed = 5, .incidence = 12.5f, .azimuth = 30.0f, .fo
 
 class PulseTextTest : public ::testing::Test {
  protected:
-  Json JsonOf(const Pulse& pulse) {
-    return Json::parse(PulseJson(pulse, Interpolate(table_, pulse), style_, summary_));
+  PulseAnswer Ask(const Pulse& pulse) {
+    FixedCoordinates fixed = {pulse.wind_speed, {},         pulse.incidence, pulse.azimuth,
+                              pulse.footprint,  pulse.depth};
+    return AskPulse(fixed, style_, source_).value();
   }
-  std::string TextOf(const Pulse& pulse) {
-    return PulseText(pulse, Interpolate(table_, pulse), style_, summary_);
-  }
+  Json JsonOf(const Pulse& pulse) { return Json::parse(PulseJson(Ask(pulse), source_.table())); }
+  std::string TextOf(const Pulse& pulse) { return PulseText(Ask(pulse), source_.table()); }
 
-  UncertaintyTable table_ = SyntheticTable();
-  TableSummary summary_ = Summarize("", table_);
+  LocalSource source_{"", SyntheticTable()};
   AnswerStyle style_;
 };
 
 TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
   const Json json = JsonOf(kPulse);
-  const PulseUncertainty answer = Interpolate(table_, kPulse);
+  const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, kPulse);
   for (const Quantity quantity : kQuantities) {
     EXPECT_EQ(json.at(std::string(Describe(quantity).name)).get<float>(), answer[quantity]);
   }
@@ -44,14 +45,14 @@ TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
   EXPECT_TRUE(json.at("fetch").is_null());
   EXPECT_EQ(json.at("azimuth_absent"), false);
   EXPECT_EQ(json.at("table"), "synthetic");
-  EXPECT_EQ(json.at("digest"), table_.digest());
+  EXPECT_EQ(json.at("digest"), source_.table().digest);
   EXPECT_EQ(json.at("coverage"), "2sigma");
   EXPECT_FALSE(json.contains("thu_standard_error"));
 }
 
 TEST_F(PulseTextTest, PrintsNumbersWithTheDigitsOfTheCsv) {
-  const PulseUncertainty answer = Interpolate(table_, kPulse);
-  EXPECT_THAT(PulseJson(kPulse, answer, style_, summary_),
+  const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, kPulse);
+  EXPECT_THAT(PulseJson(Ask(kPulse), source_.table()),
               HasSubstr("\"thu\": " + FormatFloat(answer[Quantity::kThu]) + ",\n"));
 }
 
@@ -75,7 +76,7 @@ TEST_F(PulseTextTest, TellsPeopleTheCoverageTheTableAndEveryOrder) {
                            "special", "1a", "1b", "IHO S-44 edition", "all at 95 %"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
-  EXPECT_THAT(text, HasSubstr(table_.digest()));
+  EXPECT_THAT(text, HasSubstr(source_.table().digest));
   style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b, .standard_errors = true};
   EXPECT_THAT(TextOf(kPulse), HasSubstr("m, 95 %\n"));
   EXPECT_THAT(TextOf(kPulse), HasSubstr(" +- "));
@@ -91,7 +92,7 @@ TEST_F(PulseTextTest, TellsPeopleTheRangeThatThereIs) {
 }
 
 TEST_F(PulseTextTest, TellsPeopleWhatTheTableDoesNotHold) {
-  table_ = SyntheticTable({.published = true});
+  source_ = LocalSource("", SyntheticTable({.published = true}));
   EXPECT_THAT(TextOf(kPulse), HasSubstr("bias_vertical            not in this table"));
 }
 

@@ -1,0 +1,135 @@
+"""albtpu-query las, file to file, beside a plain copy: in this process and through a server.
+
+Usage: las_bench.py BUILD [--millions N] [--sample IN.las --classes N --water-level Z] [--folder DIR] [--csv]
+
+The file is the sample, the survey that lies beside the checkout or else a simulated flight, repeated. Prints a Markdown
+table: points a second by the clock, processor seconds of client and server, and the most memory each had at a time.
+"""
+
+import argparse
+import contextlib
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tests" / "e2e"))
+import serving  # noqa: E402
+
+SURVEY = SOURCE.parent / "shared" / "data" / "florida_topobathy_snippet.las"
+PIECE = 64 << 20
+FLAGS = ("--wind-speed", "6.5", "--fetch", "30000", "--altitude", "400", "--divergence", "1.5", "--wind-from", "100",
+         "--flight-direction", "30", "--overwrite")
+
+
+def repeat(sample, target, points):
+    """The records of `sample` again and again until there are so many; nothing behind them."""
+    data = bytearray(sample.read_bytes())
+    offset, = struct.unpack_from("<I", data, 96)
+    length, legacy_count = struct.unpack_from("<HI", data, 105)
+    count = struct.unpack_from("<Q", data, 247)[0] if data[25] >= 4 else legacy_count
+    records = bytes(data[offset:offset + count * length])
+    head = data[:offset]
+    struct.pack_into("<I", head, 107, points if legacy_count and points < 1 << 32 else 0)
+    if data[25] >= 4:
+        struct.pack_into("<QI", head, 235, 0, 0)
+        struct.pack_into("<Q", head, 247, points)
+    piece = records * max(1, PIECE // len(records))
+    with open(target, "wb") as file:
+        file.write(head)
+        left = points * length
+        while left > 0:
+            left -= file.write(piece[:left])
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def run(command):
+    """Wall seconds, processor seconds and peak MB of a command."""
+    start = time.monotonic()
+    process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE)
+    peak = 0.0
+
+    def watch():  # What `wait4` tells of memory counts this process too, until it became another.
+        nonlocal peak
+        with contextlib.suppress(OSError):
+            while (now := peak_memory(process.pid)) > 0:
+                peak = now
+                time.sleep(0.02)
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    messages = process.stderr.read().decode()
+    watcher.join()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise SystemExit(f"{command}: {messages}")
+    return time.monotonic() - start, usage.ru_utime + usage.ru_stime, peak
+
+
+def processor_seconds(pid):
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def peak_memory(pid):
+    for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
+        if line.startswith("VmHWM"):
+            return int(line.split()[1]) / 1024
+    return 0.0  # It has ended.
+
+
+def row(what, points, seconds, client, memory, server="", server_memory=""):
+    print(f"| {what} | {points / seconds / 1e6:.2f} | {seconds:.1f} | {client:.1f} | {server} | {memory:.0f} | "
+          f"{server_memory} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--millions", type=float, default=50)
+    parser.add_argument("--sample", type=pathlib.Path)
+    parser.add_argument("--classes", default="26")
+    parser.add_argument("--water-level", default="-23.09")
+    parser.add_argument("--table", type=pathlib.Path, default=SOURCE / "tables" / "survey.h5")
+    parser.add_argument("--folder", help="Where the files are made; they need three times their size")
+    options = parser.parse_args()
+    programs = options.build / "service"
+    points = int(options.millions * 1e6)
+    with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+        folder = pathlib.Path(folder)
+        sample, classes, level = options.sample or SURVEY, options.classes, options.water_level
+        if options.sample is None and not SURVEY.exists():
+            sample, classes, level = folder / "flight.las", "40", "0"
+            subprocess.run([options.build / "tests/service/client/albtpu_simulated_flight", sample], check=True)
+        source, target = folder / "in.las", folder / "out.las"
+        repeat(sample, source, points)
+        flags = ("--classes", classes, "--water-level", level, *FLAGS)
+        query = (programs / "client" / "albtpu-query", "las", source, target, *flags)
+        print("| what | million points/s | s | CPU s, client | CPU s, server | MB, client | MB, server |\n"
+              "|---|---|---|---|---|---|---|")
+        copy = ("dd", f"if={source}", f"of={folder / 'copy.las'}", "bs=4M", "conv=fsync")
+        row("copied by `dd conv=fsync`", points, *run(copy))
+        (folder / "copy.las").unlink()
+        row("in process (`--table`)", points, *run((*query, "--table", options.table)))
+        local = target.read_bytes() if points <= 5e6 else None
+        tables = folder / "tables"
+        tables.mkdir()
+        (tables / "survey.h5").symlink_to(options.table.resolve())
+        with serving.Server(programs / "server" / "albtpu-serve", "--tables", tables) as server:
+            before = processor_seconds(server.process.pid)
+            seconds, client, memory = run((*query, "--server", server.address))
+            row("through a server", points, seconds, client, memory,
+                f"{processor_seconds(server.process.pid) - before:.1f}", f"{peak_memory(server.process.pid):.0f}")
+        if local is not None and target.read_bytes() != local:
+            raise SystemExit("the server gave other bytes than the table file")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,215 @@
+"""albtpu-query on many files and on large ones: killed, resumed, without its server, within bounded memory."""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import threading
+
+import numpy as np
+
+import programs
+from las_file import LasFile
+from programs import make_flight, make_table, query
+
+FLAGS = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
+
+
+def repeat(source, target, times):
+    """The points of a LAS 1.4 file, so many times; nothing behind them."""
+    data = bytearray(source.read_bytes())
+    offset, = struct.unpack_from("<I", data, 96)
+    length, = struct.unpack_from("<H", data, 105)
+    count, = struct.unpack_from("<Q", data, 247)
+    struct.pack_into("<QIQ", data, 235, 0, 0, times * count)
+    with open(target, "wb") as file:
+        file.write(data[:offset])
+        for _ in range(times):
+            file.write(data[offset:offset + count * length])
+    return target
+
+
+def start(*arguments):
+    return subprocess.Popen([programs.PATHS["query"], *map(str, arguments)], stderr=subprocess.PIPE, text=True)
+
+
+class ManyFilesTest(programs.Test):
+    def make_survey(self, count, times=1):
+        flight = make_flight(self.folder / "flight.las")
+        survey = self.folder / "survey"
+        survey.mkdir()
+        for i in range(count):
+            repeat(flight, survey / f"line{i}.las", times)
+        out = self.folder / "out"
+        out.mkdir()
+        return survey, out
+
+    def outputs(self, out):
+        return {path.name: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name[0] != "."}
+
+    def test_summary_tells_what_the_points_tell(self):
+        source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
+        query("las", source, target, "--table", self.table, *FLAGS, check=0)
+        las, summary = LasFile(target), json.loads((self.folder / "out.las.json").read_text())
+        chosen = las.classes == 40
+        depths = (0 - las.z[chosen]).astype(np.float32)
+        thu, tvu = (las.field(las.record_length - at, "<f4")[chosen] for at in (8, 4))
+        self.assertEqual(summary["input"]["points"], las.point_count)
+        self.assertEqual(summary["input"]["points_by_class"]["40"], np.count_nonzero(chosen))
+        self.assertEqual(summary["output"]["bytes"], target.stat().st_size)
+        self.assertEqual(summary["table"]["digest"], self.digest())
+        answers = summary["answers"]
+        self.assertEqual(answers["outcomes"]["INTERPOLATED"], np.count_nonzero(thu >= 0))
+        self.assertEqual(sum(answers["s44_best_order"].values()), np.count_nonzero(thu >= 0))
+        for band in answers["depth_bands"]:
+            inside = (depths >= band["from"]) & (depths < (band["to"] or np.inf)) & (thu >= 0)
+            self.assertEqual(band["pulses"], np.count_nonzero(inside))
+            for name, values in (("thu", thu[inside]), ("tvu", tvu[inside])):
+                self.assertEqual(np.float32(band[name]["least"]), values.min())
+                self.assertEqual(np.float32(band[name]["greatest"]), values.max())
+                np.testing.assert_allclose(band[name]["mean"], values.mean(dtype=float), rtol=1e-12)
+        self.assertEqual(sum(band["pulses"] for band in answers["depth_bands"]), np.count_nonzero(thu >= 0))
+
+    def digest(self):
+        text = query("tables", "--table", self.table, check=0).stdout
+        return next(line.split()[1] for line in text.splitlines() if line.split()[0] == "digest")
+
+    def test_equal_runs_give_equal_bytes(self):
+        survey, out = self.make_survey(2, 5)
+        tables = self.folder / "tables"
+        tables.mkdir()
+        make_table(tables / "quick.h5")
+        query("las", survey, "--output-dir", out, "--table", self.table, *FLAGS, check=0)
+        first = self.outputs(out)
+        self.assertEqual(len(first), 4)
+        with programs.server(tables) as address:
+            query("las", survey, "--output-dir", out, "--server", address, *FLAGS, "--overwrite", check=0)
+        self.assertEqual(self.outputs(out), first)
+
+    def test_folders_are_repeated_when_recursive(self):
+        survey, out = self.make_survey(1)
+        (survey / "north").mkdir()
+        shutil.copy(survey / "line0.las", survey / "north" / "line0.las")
+        query("las", survey, "--recursive", "--output-dir", out, "--table", self.table, *FLAGS, check=0)
+        self.assertEqual(sorted(str(path.relative_to(out)) for path in out.rglob("*.las")),
+                         ["line0.las", "north/line0.las"])
+        self.assert_fails(query("las", out / "north", "--output-dir", out / "no", *FLAGS), 1, "is no folder")
+
+    def test_csv_takes_many_files_too(self):
+        source, out = self.folder / "in", self.folder / "out"
+        source.mkdir()
+        out.mkdir()
+        for name in ("a", "b"):
+            (source / f"{name}.csv").write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n5,12,0.5,80\n")
+        flags = ("csv", source, "--output-dir", out, "--table", self.table)
+        query(*flags, check=0)
+        summary = json.loads((out / "a.csv.json").read_text())
+        self.assertEqual(summary["answers"]["outcomes"], {"INTERPOLATED": 1, "OUT_OF_DOMAIN:depth": 1})
+        self.assertEqual(query(*flags, "--resume", check=0).stderr.count("is made already"), 2)
+
+    def test_killed_run_goes_on_where_it_was(self):
+        survey, out = self.make_survey(4, 20)
+        expected = self.folder / "expected"
+        expected.mkdir()
+        flags = ("--table", self.table, *FLAGS)
+        query("las", survey, "--output-dir", expected, *flags, check=0)
+        process = start("las", survey, "--output-dir", out, *flags)
+        for line in process.stderr:
+            if "line1.las" in line:  # The second file is written.
+                break
+        process.send_signal(signal.SIGKILL)
+        process.communicate(timeout=60)
+        made = set(self.outputs(out))
+        self.assertLessEqual({"line0.las", "line0.las.json", "line1.las", "line1.las.json"}, made)
+        self.assert_fails(query("las", survey, "--output-dir", out, *flags), 1, "files failed")
+        result = query("las", survey, "--output-dir", out, *flags, "--resume", check=0)
+        self.assertGreaterEqual(result.stderr.count("is made already"), 2)
+        self.assertEqual(self.outputs(out), self.outputs(expected))
+
+    def test_resumes_only_what_was_made_alike(self):
+        survey, out = self.make_survey(2)
+        flags = ("las", survey, "--output-dir", out, "--resume", "--water-level", 0, "--footprint", 1)
+        query(*flags, "--wind-speed", 6, "--table", self.table, check=0)
+        before = self.outputs(out)
+        other = make_table(self.folder / "other.h5", "--factor", "2")
+        for more, what in ((("--wind-speed", 7, "--table", self.table), "parameters.wind_speed is 6.0 there, 7.0 here"),
+                           (("--wind-speed", 6, "--table", other), "table.digest is")):
+            result = query(*flags, *more)
+            self.assert_fails(result, 1, "2 of 2 files failed")
+            self.assertIn(what, result.stderr)
+            self.assertEqual(self.outputs(out), before)
+        os.truncate(out / "line0.las", 1000)
+        result = query(*flags, "--wind-speed", 6, "--table", self.table, "--overwrite", check=0)
+        self.assertEqual(result.stderr.count("is made already"), 1)
+        self.assertEqual(self.outputs(out), before)
+
+    def test_server_that_goes_away_leaves_whole_files_only(self):
+        survey, out = self.make_survey(3, 100)
+        make_flight(survey / "line0.las")
+        tables = self.folder / "tables"
+        tables.mkdir()
+        make_table(tables / "quick.h5")
+        with programs.server(tables) as address:
+            process = start("las", survey, "--output-dir", out, "--server", address, *FLAGS)
+            for line in process.stderr:
+                if "line0.las" in line:  # The first file is written.
+                    break
+        rest = process.communicate(timeout=120)[1]
+        if process.returncode == 0:  # It was through before the server had gone.
+            self.skipTest("the client was faster than the server's end")
+        self.assertEqual(process.returncode, 1)
+        last = rest.strip().split("\n")[-1]
+        self.assertIn(f"server {address}", last)
+        self.assertIn("of 3 files are done", last)
+        self.assertIn("--resume", last)
+        self.assertEqual([path for path in out.iterdir() if path.name.startswith(".")], [])
+        with programs.server(tables) as address:
+            query("las", survey, "--output-dir", out, "--server", address, *FLAGS, "--resume", check=0)
+        self.assertEqual(len(self.outputs(out)), 6)
+        self.assertEqual((out / "line1.las").read_bytes(), (out / "line2.las").read_bytes())
+
+    def test_memory_does_not_grow_with_the_file(self):
+        flight, out = make_flight(self.folder / "flight.las"), self.folder / "out.las"
+        source = repeat(flight, self.folder / "in.las", 150)
+        self.assertGreater(LasFile(source).point_count, 3_000_000)
+        process = start("las", source, out, "--table", self.table, *FLAGS)
+        peak = 0.0
+        while process.returncode is None:
+            with open(f"/proc/{process.pid}/status") as status:
+                peak = max([peak, *(float(line.split()[1]) / 1024 for line in status if line.startswith("VmHWM"))])
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(0.01)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
+        self.assertTrue(0 < peak < 300, f"{peak} MB")
+        old, new = LasFile(source), LasFile(out)
+        np.testing.assert_array_equal(new.records[:, :-8], old.records)
+        one = new.records[:len(LasFile(flight).records)]
+        np.testing.assert_array_equal(new.records.reshape(150, *one.shape)[[0, 70, 149]],
+                                      np.broadcast_to(one, (3, *one.shape)))
+
+    def test_input_that_changes_is_refused(self):
+        flight, target = make_flight(self.folder / "flight.las"), self.folder / "out.las"
+        source = repeat(flight, self.folder / "in.las", 20)
+        ended = threading.Event()
+
+        def change():  # Until it is seen: the last change comes after the file was opened.
+            while not ended.is_set():
+                os.utime(source)
+
+        changer = threading.Thread(target=change)
+        changer.start()
+        try:
+            result = query("las", source, target, "--table", self.table, *FLAGS)
+        finally:
+            ended.set()
+            changer.join()
+        self.assert_fails(result, 1, "in.las: changed while it was read")
+        self.assertEqual(self.names(), ["flight.las", "in.las", "quick.h5"])
+
+
+if __name__ == "__main__":
+    programs.main()
