@@ -1,0 +1,46 @@
+"""Where coordinates lie between the nodes of an axis. The twin of Axis::Locate in tables/axis.h."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .tables import Axis
+
+Doubles = NDArray[np.float64]
+
+
+class Brackets(NamedTuple):
+    """Arrays of one element for all pulses, or one for each."""
+
+    valid: NDArray[np.bool_]  # Finite; a fetch may be +infinity.
+    inside: NDArray[np.bool_]  # The axis reaches it.
+    lower: NDArray[np.intp]  # The node below; on an axis of one node 0.
+    fraction: Doubles  # Of the way to the next node in the axis' scale, 0 to 1; anything where not inside.
+
+
+def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
+    """Both ends of an axis belong to it, and nothing beyond.
+
+    But azimuths are folded into 0 to 90 degrees, fetches above the last node are held at it, and an axis of
+    one fetch answers at any fetch above zero.
+    """
+    nodes = axis.nodes.astype(np.float64)
+    valid = np.isfinite(coordinate)
+    if name == "azimuth":
+        half_turn = np.fmod(np.abs(coordinate), 180.0)
+        coordinate = np.minimum(half_turn, 180.0 - half_turn)
+    if name == "fetch":
+        valid = valid | (coordinate == np.inf)
+        if nodes.size == 1:
+            coordinate = np.where(coordinate > 0, nodes[0], coordinate)
+        coordinate = np.minimum(coordinate, nodes[-1])
+    inside = (coordinate >= nodes[0]) & (coordinate <= nodes[-1])
+    if nodes.size == 1:
+        return Brackets(valid, inside, np.zeros(coordinate.shape, np.intp), np.zeros(coordinate.shape))
+    lower = np.clip(np.searchsorted(nodes, coordinate, side="right") - 1, 0, nodes.size - 2)
+    if axis.scale == "log":
+        nodes, coordinate = np.log(nodes), np.log(coordinate)
+    return Brackets(valid, inside, lower, (coordinate - nodes[lower]) / (nodes[lower + 1] - nodes[lower]))

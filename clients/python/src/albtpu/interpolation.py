@@ -1,0 +1,144 @@
+"""Multilinear interpolation in a table, each axis in its own scale. The twin of tables/interpolation.h."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bracket import Brackets, locate
+from .coverage import radius_over_thu
+from .schema import AXES, INTERPOLATED, INVALID, OUT_OF_DOMAIN, REFRACTIONS
+from .table_reader import TableContent
+
+Doubles = NDArray[np.float64]
+Columns = Mapping[str, NDArray[np.float32]]
+
+
+class PulseNumbers(NamedTuple):
+    """Outcomes, and numbers at 2 sigma that stand where the outcome is INTERPOLATED."""
+
+    outcomes: NDArray[np.uint8]
+    outcome_axes: NDArray[np.uint8]
+    values: dict[str, Doubles]  # Rounded to single precision, as a service has them.
+    standard_errors: dict[str, Doubles]
+    radius_over_thu: Doubles  # The 95 % radius of the horizontal error over the THU.
+
+
+class Interpolator:
+    """A table as seen by pulses that have `constant` coordinates, columns of one element, in common.
+
+    What they have in common is interpolated once, here; the table that is left is smaller. `values` and
+    `standard_errors` are the names of those that are wanted and that the table has.
+    """
+
+    def __init__(self, content: TableContent, values: Sequence[str], standard_errors: Sequence[str],
+                 constant: Columns) -> None:
+        self._axes = content.table.axes
+        self._constant = self._locate(constant)
+        self._log = [name for name in values if content.table.quantities[name].scale == "log"]
+        self._grids: list[tuple[list[tuple[str, bool]], _Grid]] = []
+        for over_depth, axes in ((True, list(AXES)), (False, list(AXES)[:-1])):
+            variables = {(name, False): content.values[name]
+                         for name in values if (name not in REFRACTIONS) == over_depth}
+            variables.update({(name, True): content.standard_errors[name]
+                              for name in standard_errors if (name not in REFRACTIONS) == over_depth})
+            if variables:
+                stacked = np.stack([np.log(array, dtype=np.float64) if name in self._log and not is_error
+                                    else array for (name, is_error), array in variables.items()], axis=-1)
+                self._grids.append((list(variables), _Grid(stacked, axes, self._constant)))
+
+    def __call__(self, columns: Columns, count: int) -> PulseNumbers:
+        """The uncertainty of `count` pulses; `columns` has all axes that are not constant."""
+        located = self._locate({axis: column for axis, column in columns.items()
+                                if axis not in self._constant})
+        outcomes, outcome_axes = _outcomes(located | self._constant, count)
+        values, standard_errors = {}, {}
+        for names, grid in self._grids:
+            for (name, is_error), numbers in zip(names, grid.at(located, count).T):
+                if is_error:
+                    standard_errors[name] = numbers
+                else:
+                    values[name] = np.exp(numbers) if name in self._log else numbers
+                    values[name] = values[name].astype(np.float32).astype(np.float64)
+        radius = np.ones(count)
+        if all(name in values for name in REFRACTIONS):
+            radius = radius_over_thu(*(values[name] for name in REFRACTIONS))
+        return PulseNumbers(outcomes, outcome_axes, values, standard_errors, radius)
+
+    def _locate(self, columns: Columns) -> dict[str, Brackets]:
+        return {axis: locate(axis, self._axes[axis], column.astype(np.float64))
+                for axis, column in columns.items()}
+
+
+def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
+    """The answer without azimuth, from those at 0 and 90 degrees.
+
+    Each value is the larger in magnitude, with its standard error. If not both have numbers neither has the
+    answer: invalid before out of domain, then the first axis.
+    """
+    worse = (crosswind.outcomes > downwind.outcomes) | (
+        (crosswind.outcomes == downwind.outcomes) & (crosswind.outcome_axes < downwind.outcome_axes))
+    takes = {name: np.abs(crosswind.values[name]) > np.abs(value) for name, value in downwind.values.items()}
+
+    def chosen(ours: dict[str, Doubles], theirs: dict[str, Doubles]) -> dict[str, Doubles]:
+        return {name: np.where(takes[name], theirs[name], ours[name]) for name in ours}
+
+    radius = downwind.radius_over_thu
+    if "thu" in downwind.values:
+        thu_0, thu_90 = downwind.values["thu"], crosswind.values["thu"]
+        radius_0, radius_90 = thu_0 * downwind.radius_over_thu, thu_90 * crosswind.radius_over_thu
+        radius = np.where(
+            thu_0 >= thu_90,
+            np.where(radius_0 >= radius_90, downwind.radius_over_thu, radius_90 / thu_0),
+            np.where(radius_90 >= radius_0, crosswind.radius_over_thu, radius_0 / thu_90))
+    return PulseNumbers(np.maximum(downwind.outcomes, crosswind.outcomes),
+                        np.where(worse, crosswind.outcome_axes, downwind.outcome_axes),
+                        chosen(downwind.values, crosswind.values),
+                        chosen(downwind.standard_errors, crosswind.standard_errors), radius)
+
+
+class _Grid:
+    """Variables over the same axes, interpolated together; along constant axes once and for all."""
+
+    def __init__(self, variables: NDArray[Any], axes: Sequence[str],
+                 constant: dict[str, Brackets]) -> None:
+        grid = variables.astype(np.float64)
+        self._axes: list[str] = []
+        for axis in axes:
+            along = len(self._axes)
+            if axis not in constant:
+                self._axes.append(axis)
+                continue
+            lower, fraction = constant[axis].lower[0], constant[axis].fraction[0]
+            upper = min(lower + 1, grid.shape[along] - 1)
+            grid = grid.take(lower, along) * (1 - fraction) + grid.take(upper, along) * fraction
+        self._sizes = grid.shape[:-1]
+        self._strides = [int(np.prod(self._sizes[i + 1:])) for i in range(len(self._axes))]
+        self._values = grid.reshape(-1, grid.shape[-1])
+
+    def at(self, located: dict[str, Brackets], count: int) -> Doubles:
+        """The variables of `count` pulses, (count, variables)."""
+        total = np.zeros((count, self._values.shape[1]))
+        for corner in product(*((0, 1) if size > 1 else (0,) for size in self._sizes)):
+            index, weight = np.zeros(count, np.intp), np.ones(count)
+            for axis, stride, upper in zip(self._axes, self._strides, corner):
+                index += stride * (located[axis].lower + upper)
+                weight *= located[axis].fraction if upper else 1 - located[axis].fraction
+            total += weight[:, None] * self._values[index]
+        return total
+
+
+def _outcomes(located: dict[str, Brackets], count: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    """The outcome of each pulse and the first axis that made it: invalid on any before out of domain."""
+    outcomes, outcome_axes = np.full(count, INTERPOLATED, np.uint8), np.zeros(count, np.uint8)
+    for number, axis in reversed(list(enumerate(AXES, 1))):
+        outside = np.broadcast_to(~located[axis].inside, count)
+        outcomes[outside], outcome_axes[outside] = OUT_OF_DOMAIN, number
+    for number, axis in reversed(list(enumerate(AXES, 1))):
+        invalid = np.broadcast_to(~located[axis].valid, count)
+        outcomes[invalid], outcome_axes[invalid] = INVALID, number
+    return outcomes, outcome_axes

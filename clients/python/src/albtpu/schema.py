@@ -1,0 +1,43 @@
+"""Names, units and numbers of axes, quantities, outcomes and S-44 orders: those of tables and of the wire."""
+
+from typing import NamedTuple
+
+
+class Description(NamedTuple):
+    """An axis or a quantity for people: CF units and a line of text."""
+
+    units: str
+    long_name: str
+
+
+# The axes of a table, in the order of its dimensions, slowest first. The number of an axis on the wire is its
+# position here, from 1.
+AXES: dict[str, Description] = {
+    "wind_speed": Description("m s-1", "wind speed at 10 m above the sea"),
+    "fetch": Description("m", "fetch; at the last node and beyond, the sea is fully developed"),
+    "incidence": Description("degree", "incidence of the beam in air, from the vertical"),
+    "azimuth": Description("degree", "azimuth of the beam from downwind, folded into 0 to 90 degrees"),
+    "footprint": Description("m", "diameter of the beam at the mean surface, across its axis"),
+    "depth": Description("m", "depth below the located surface"),
+}
+
+# What the sea surface does to a pulse. The number of a quantity on the wire is its position here, from 1.
+QUANTITIES: dict[str, Description] = {
+    "refraction_along_wind": Description("degree", "uncertainty of the direction in water, along the wind"),
+    "refraction_cross_wind": Description("degree", "uncertainty of the direction in water, across the wind"),
+    "thu": Description("m", "total horizontal uncertainty of the sea surface"),
+    "tvu": Description("m", "total vertical uncertainty of the sea surface"),
+    "bias_along_beam": Description(
+        "m", "horizontal bias, positive if reported too far along the azimuth of the beam"),
+    "bias_vertical": Description("m", "vertical bias, positive if reported too shallow"),
+}
+REFRACTIONS = ("refraction_along_wind", "refraction_cross_wind")  # All axes but depth.
+BIASES = ("bias_along_beam", "bias_vertical")  # Means of the error, at any coverage; may be negative.
+STANDARD_ERROR = "_standard_error"  # Ends the name of the standard error of a quantity.
+
+# By their numbers.
+OUTCOMES = ("UNSPECIFIED", "INTERPOLATED", "OUT_OF_DOMAIN", "INVALID")
+INTERPOLATED, OUT_OF_DOMAIN, INVALID = 1, 2, 3
+COVERAGES = {"2sigma": 1, "p95": 2}
+# IHO S-44 edition 6.1.0, from the strictest; 0 is none.
+S44_ORDERS = ("", "exclusive", "special", "1a", "1b", "2")

@@ -1,0 +1,92 @@
+"""Answers from a service."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import grpc
+import numpy as np
+
+from .channel import File, open_channel
+from .progress import Progress
+from .query import Query
+from .retries import Retries, explained
+from .source import UncertaintySource
+from .stream import ColumnStream
+from .tables import AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
+from .uncertainties import AnswerColumns
+from .v1 import uncertainty_service_pb2 as wire
+from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+
+_SCALES = ("", "linear", "log")  # By their numbers.
+
+
+def connect(target: str, *, tls: bool = False, ca: File | None = None, cert: File | None = None,
+            key: File | None = None, token: str | None = None, timeout: float = 60.0,
+            patience: float = 10.0) -> Service:
+    """A service of tables (`albtpu-serve`), at "HOST:PORT", "dns:///NAME:PORT" or "unix:PATH".
+
+    tls:       talk TLS, also meant by each of the following; else plain text.
+    ca:        PEM file of the authorities to trust. Left out: those of gRPC.
+    cert, key: PEM files of the certificate to show, and of its key.
+    token:     sent with every call, as `authorization: Bearer TOKEN`.
+    timeout:   s, how long one answer may take.
+    patience:  s, how long a server that is not there is tried again, with growing pauses.
+
+    Nothing is sent before the first question. Raises ArgumentError for a target or file that is not right.
+
+        with albtpu.connect("localhost:50051") as service:
+            answer = service.query(wind_speed=5, incidence=theta, footprint=0.5, depth=d)
+    """
+    channel = open_channel(target, tls=tls, ca=ca, cert=cert, key=key, token=token)
+    return Service(target, channel, timeout, patience)
+
+
+class Service(UncertaintySource):
+    """A service, at the other end of a channel. May be used from several threads."""
+
+    def __init__(self, target: str, channel: grpc.Channel, timeout: float, patience: float) -> None:
+        self._target, self._channel, self._timeout, self._patience = target, channel, timeout, patience
+        self._stub = UncertaintyServiceStub(channel)
+
+    def tables(self) -> list[TableSummary]:
+        """All tables of the server, by name, versions of one name from the newest."""
+        listed = self._ask(self._stub.ListTables, wire.ListTablesRequest())
+        return [TableSummary(TableReference.of(table.reference), table.title,
+                             is_default=table.reference.name == listed.default_table)
+                for table in listed.tables]
+
+    def table(self, name: str | None = None) -> Table:
+        """Raises TableNotFoundError, which lists the names there are."""
+        table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
+        return Table(
+            TableReference.of(table.reference), table.title,
+            {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
+                             _SCALES[axis.scale]) for axis in table.axes},
+            {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
+                                     quantity.has_standard_error) for quantity in table.quantities},
+            table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())})
+
+    def close(self) -> None:
+        self._channel.close()
+
+    def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
+        if query.size == 0:
+            return self.table(query.table).reference
+        stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
+        return stream.run(Retries(self._channel, self._patience))
+
+    def _ask(self, method: Any, request: Any) -> Any:
+        retries = Retries(self._channel, self._patience)
+        while True:
+            try:
+                return method(request, timeout=self._timeout)
+            except grpc.RpcError as error:
+                if not retries.wait_after(error):
+                    raise explained(self._target, error) from error
+
+
+def _attribute(value: Any) -> AttributeValue:
+    kind = value.WhichOneof("value")
+    plain: AttributeValue = list(value.numbers.values) if kind == "numbers" else getattr(value, kind)
+    return plain

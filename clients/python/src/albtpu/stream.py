@@ -1,0 +1,152 @@
+"""A large query in one stream: several batches under way, answers written into their place as they come."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+import grpc
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ServiceError, TableChangedError, UnreachableError
+from .progress import Progress
+from .query import Query
+from .retries import Retries, explained
+from .schema import COVERAGES, QUANTITIES, S44_ORDERS
+from .tables import TableReference
+from .uncertainties import AnswerColumns
+from .v1 import uncertainty_service_pb2 as wire
+from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+
+_BATCH = 32768  # Pulses: a message takes twice as many, and then waits longer for both sides.
+_UNDER_WAY = 8  # Batches that are sent and not answered.
+
+
+class ColumnStream:
+    """Asks a server all of a query.
+
+    A server that goes away is asked again from the first batch that it left unanswered; `timeout` is how many
+    seconds an answer may take.
+    """
+
+    def __init__(self, target: str, stub: UncertaintyServiceStub, query: Query, columns: AnswerColumns,
+                 progress: Progress, timeout: float) -> None:
+        self._target, self._stub, self._query, self._columns = target, stub, query, columns
+        self._progress, self._timeout = progress, timeout
+        self._answered = 0  # Pulses.
+        self._table: TableReference | None = None
+
+    def run(self, retries: Retries) -> TableReference:
+        """Returns the table that answered all pulses, at least one; raises ServiceError."""
+        while self._answered < self._query.size:
+            before = self._answered
+            try:
+                self._run_once()
+            except grpc.RpcError as error:
+                if self._answered > before:
+                    retries.succeeded()
+                if not retries.wait_after(error):
+                    raise explained(self._target, error) from error
+        assert self._table is not None
+        return self._table
+
+    def _run_once(self) -> None:
+        sender = _Sender(self._query, self._answered, self._timeout)
+        call = sender.call = self._stub.StreamColumns(sender.requests())
+        try:
+            for response in call:
+                self._take(response.answer, sender.lengths.popleft() if sender.lengths else 0)
+                sender.free.release()
+            if self._answered < self._query.size:
+                raise self._wrong(f"it ended the stream after {self._answered} of {self._query.size} pulses")
+        except grpc.RpcError as error:
+            if sender.timed_out:
+                raise UnreachableError(f"server {self._target}: no answer in {self._timeout:g} s") from error
+            raise
+        finally:
+            sender.stop()
+            call.cancel()
+
+    def _take(self, answer: Any, length: int) -> None:
+        """Writes the answer to the next batch, whose columns had `length` elements, into its place."""
+        table = TableReference.of(answer.table)
+        self._table = self._table or table
+        if table.digest != self._table.digest:
+            raise TableChangedError(
+                f"server {self._target}: table {table.name} changed from digest {self._table.digest} to "
+                f"{table.digest} after {self._answered} of {self._query.size} pulses: ask again")
+        begin, end = self._answered, min(self._answered + _BATCH, self._query.size)
+        for column, content in self._pairs(answer):
+            numbers = np.frombuffer(content, column.dtype.newbyteorder("<")) if content else column[:0]
+            if numbers.size != length:
+                raise self._wrong(f"it answered {length} pulses with a column of {len(content)} bytes")
+            column[begin:end] = numbers
+        self._answered = end
+        self._progress(end - begin)
+
+    def _pairs(self, answer: Any) -> Iterator[tuple[NDArray[Any], bytes]]:
+        """Where each column of an answer goes."""
+        columns = self._columns
+        yield columns.outcomes, answer.outcomes
+        yield columns.outcome_axes, answer.outcome_axes
+        for name, column in columns.values.items():
+            yield column, getattr(answer.sea_surface, name)
+        for name, column in columns.standard_errors.items():
+            yield column, getattr(answer.sea_surface_standard_error, name)
+        if columns.best_s44_orders is not None:
+            yield columns.best_s44_orders, answer.s44.best_orders
+        if columns.remaining_thu is not None and columns.remaining_tvu is not None:
+            yield columns.remaining_thu, answer.s44.remaining_thu
+            yield columns.remaining_tvu, answer.s44.remaining_tvu
+
+    def _wrong(self, what: str) -> ServiceError:
+        return ServiceError(f"server {self._target}: {what}: is it an albtpu-serve of this version?")
+
+
+class _Sender:
+    """What gRPC sends, in a thread of its own: never more than _UNDER_WAY batches ahead of the answers.
+
+    It ends the call when it waits longer than `timeout` seconds for one.
+    """
+
+    def __init__(self, query: Query, begin: int, timeout: float) -> None:
+        self._query, self._begin, self._timeout = query, begin, timeout
+        self._stopped = False
+        self.free = threading.Semaphore(_UNDER_WAY)  # The reader releases one for each answer.
+        self.lengths: deque[int] = deque()  # Of the columns in the batches under way.
+        self.call: Any = None
+        self.timed_out = False
+
+    def requests(self) -> Iterator[Any]:
+        """Yields the batches, and then waits until they are answered."""
+        numbers = list(QUANTITIES)
+        options = dict(
+            table=self._query.table, coverage=COVERAGES[self._query.coverage],
+            standard_errors=self._query.standard_errors, best_s44_order=self._query.best_s44_order,
+            s44_order=S44_ORDERS.index(self._query.s44_order or ""))
+        quantities = [numbers.index(name) + 1 for name in self._query.quantities]
+        for begin in range(self._begin, self._query.size, _BATCH):
+            if not self._wait():
+                return
+            columns = self._query.batch(begin, min(begin + _BATCH, self._query.size))
+            self.lengths.append(max(column.size for column in columns.values()))
+            pulses = {axis: column.tobytes() for axis, column in columns.items()}
+            yield wire.StreamColumnsRequest(query=dict(options=options, pulses=pulses, quantities=quantities))
+        for _ in range(_UNDER_WAY):
+            if not self._wait():
+                return
+
+    def stop(self) -> None:
+        """Lets the thread of gRPC go, wherever it waits."""
+        self._stopped = True
+        self.free.release(2 * _UNDER_WAY)
+
+    def _wait(self) -> bool:
+        if self.free.acquire(timeout=self._timeout):
+            return not self._stopped
+        self.timed_out = True
+        self.call.cancel()
+        return False

@@ -1,0 +1,71 @@
+"""A query's way through a table: interpolation, coverage, S-44."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .coverage import FACTOR_95
+from .interpolation import Interpolator, PulseNumbers, larger_of
+from .query import Query
+from .s44 import best_orders, limits, remaining
+from .schema import BIASES, INTERPOLATED, QUANTITIES, REFRACTIONS
+from .table_reader import TableContent
+from .uncertainties import AnswerColumns
+
+Doubles = NDArray[np.float64]
+
+
+class TableAnswers:
+    """Answers a query block by block."""
+
+    def __init__(self, content: TableContent, query: Query) -> None:
+        self._query = query
+        self._s44 = query.best_s44_order or query.s44_order is not None
+        wanted = set(query.quantities)
+        if self._s44 or query.coverage == "p95":
+            wanted.update(("thu", "tvu", *REFRACTIONS))
+        values = [name for name in QUANTITIES if name in wanted and name in content.values]
+        errors = [name for name in values if query.standard_errors and name in content.standard_errors]
+        columns = {"fetch": np.array([np.inf])} | dict(query.columns)
+        constant = {axis: column.astype(np.float32) for axis, column in columns.items() if column.size == 1}
+        azimuths: list[dict[str, NDArray[np.float32]]] = [{}]
+        if "azimuth" not in columns:
+            azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in (0, 90)]
+        with np.errstate(all="ignore"):  # Of a constant out of domain nothing will be used.
+            self._interpolators = [Interpolator(content, values, errors, constant | azimuth)
+                                   for azimuth in azimuths]
+
+    def fill(self, columns: AnswerColumns, begin: int, end: int) -> None:
+        """Writes the answers for the pulses from `begin` to `end`."""
+        block, count = slice(begin, end), end - begin
+        pulses = self._query.batch(begin, end)
+        with np.errstate(all="ignore"):  # What is computed for pulses out of domain is dropped.
+            two_sigma = [interpolate(pulses, count) for interpolate in self._interpolators]
+            numbers = two_sigma[0] if len(two_sigma) == 1 else larger_of(*two_sigma)
+            columns.outcomes[block], columns.outcome_axes[block] = numbers.outcomes, numbers.outcome_axes
+            none = numbers.outcomes != INTERPOLATED
+            for target, source in ((columns.values, numbers.values),
+                                   (columns.standard_errors, numbers.standard_errors)):
+                for name, column in target.items():
+                    column[block] = source[name] * self._factor(name, numbers) if name in source else np.nan
+                    column[block][none] = np.nan
+            if self._s44:
+                self._fill_s44(columns, block, numbers, none, pulses["depth"].astype(np.float64))
+
+    def _factor(self, name: str, numbers: PulseNumbers) -> Doubles | float:
+        if self._query.coverage == "2sigma" or name in BIASES:
+            return 1.0
+        return numbers.radius_over_thu if name == "thu" else FACTOR_95
+
+    def _fill_s44(self, columns: AnswerColumns, block: slice, numbers: PulseNumbers, none: NDArray[np.bool_],
+                  depth: Doubles) -> None:
+        thu = (numbers.values["thu"] * numbers.radius_over_thu).astype(np.float32).astype(np.float64)
+        tvu = (numbers.values["tvu"] * FACTOR_95).astype(np.float32).astype(np.float64)
+        thu[none] = tvu[none] = np.nan
+        if columns.best_s44_orders is not None:
+            columns.best_s44_orders[block] = best_orders(thu, tvu, depth)
+        if columns.remaining_thu is not None and columns.remaining_tvu is not None:
+            thu_limit, tvu_limit = limits(str(self._query.s44_order), depth)
+            columns.remaining_thu[block] = remaining(thu_limit, thu)
+            columns.remaining_tvu[block] = remaining(tvu_limit, tvu)

@@ -1,0 +1,117 @@
+"""From the bytes of a table file to axes and values, held to the rules of tables/FORMAT.md."""
+
+from __future__ import annotations
+
+import io
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import TableFileError
+from .schema import AXES, BIASES, QUANTITIES, REFRACTIONS, STANDARD_ERROR
+from .seal import check_seal
+from .tables import AttributeValue, Axis, Quantity, Table, TableReference
+
+Floats = NDArray[np.float32]
+_RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_digest", "campaign")
+
+
+class TableContent(NamedTuple):
+    """All of a table."""
+
+    table: Table
+    values: dict[str, Floats]  # By quantity, in the order of the axes (without depth for refraction).
+    standard_errors: dict[str, Floats]  # Those that are known.
+
+
+def read_table(name: str, file: bytes) -> TableContent:
+    """Reads the table in `file`; raises TableFileError, with a text that follows the name of the file."""
+    check_seal(file)
+    try:
+        with h5py.File(io.BytesIO(file)) as opened:  # The very bytes that were checked, not the file again.
+            return _read_content(name, opened)
+    except (OSError, KeyError) as error:
+        raise TableFileError(f"is sealed, but cannot be read as HDF5: {error}") from error
+
+
+def _read_content(name: str, file: h5py.File) -> TableContent:
+    if (coverage := _text(file, "coverage")) != "2 sigma":
+        raise TableFileError(f"attribute 'coverage' is '{coverage}': it should be '2 sigma'")
+    axes = {axis: _read_axis(file, axis) for axis in AXES}
+    values, standard_errors, quantities = {}, {}, {}
+    for quantity, (units, long_name) in QUANTITIES.items():
+        if quantity not in file:
+            if quantity in BIASES:
+                continue
+            raise TableFileError(f"variable '{quantity}' is missing")
+        values[quantity] = _read_values(file, quantity, quantity, axes)
+        scale = _scale(file[quantity], "variable", quantity, values[quantity])
+        if (errors := quantity + STANDARD_ERROR) in file:
+            standard_errors[quantity] = _read_values(file, errors, quantity, axes)
+        quantities[quantity] = Quantity(units, long_name, scale, quantity in standard_errors)
+    reference = TableReference(name, _text(file, "id"), _text(file, "version"), _text(file, "content_digest"))
+    attributes = {key: _plain(value) for key, value in sorted(file.attrs.items()) if key not in _RESERVED}
+    table = Table(reference, _text(file, "title"), axes, quantities, _text(file, "campaign"), attributes)
+    return TableContent(table, values, standard_errors)
+
+
+def _read_axis(file: h5py.File, axis: str) -> Axis:
+    nodes = _floats(file, "axis", axis, AXES[axis].units)
+    if nodes.ndim != 1 or nodes.size == 0:
+        raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and "
+                             "a node")
+    largest = 90 if axis == "azimuth" else np.inf
+    increase = bool((np.diff(nodes) > 0).all())
+    if not (np.isfinite(nodes).all() and nodes[0] >= 0 and nodes[-1] <= largest and increase):
+        raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, "
+                             "or are azimuths above 90 degrees")
+    return Axis(nodes, *AXES[axis], _scale(file[axis], "axis", axis, nodes))
+
+
+def _read_values(file: h5py.File, name: str, quantity: str, axes: dict[str, Axis]) -> Floats:
+    values = _floats(file, "variable", name, QUANTITIES[quantity].units)
+    expected = tuple(axis.nodes.size for axis in axes.values())
+    expected = expected[:-1] if quantity in REFRACTIONS else expected
+    if values.shape != expected:
+        raise TableFileError(f"variable '{name}' has the shape {values.shape}: its axes have {expected}")
+    if not np.isfinite(values).all() or (name not in BIASES and (values < 0).any()):
+        raise TableFileError(f"variable '{name}' has values that are not finite, or are negative")
+    return values
+
+
+def _floats(file: h5py.File, kind: str, name: str, units: str) -> Floats:
+    dataset = file.get(name)
+    if not isinstance(dataset, h5py.Dataset) or dataset.dtype != np.dtype("<f4"):
+        raise TableFileError(f"{kind} '{name}' is no dataset of float32")
+    if (found := _text(dataset, "units")) != units:
+        raise TableFileError(f"{kind} '{name}' is in '{found}': it should be in '{units}'")
+    values: Floats = dataset[()]
+    return values
+
+
+def _scale(dataset: h5py.Dataset, kind: str, name: str, values: Floats) -> str:
+    scale = _text(dataset, "interpolation")
+    if scale not in ("linear", "log"):
+        raise TableFileError(f"{kind} '{name}' has interpolation '{scale}': it should be 'linear' or 'log'")
+    if scale == "log" and not (values > 0).all():
+        raise TableFileError(f"{kind} '{name}' is on a log scale and not positive everywhere")
+    return scale
+
+
+def _text(of: h5py.HLObject, attribute: str) -> str:
+    if attribute not in of.attrs:
+        raise TableFileError(f"attribute '{attribute}' of '{of.name}' is missing")
+    value = _plain(of.attrs[attribute])
+    if not isinstance(value, str):
+        raise TableFileError(f"attribute '{attribute}' of '{of.name}' is a number: it should be text")
+    return value
+
+
+def _plain(value: Any) -> AttributeValue:
+    if isinstance(value, h5py.Empty):
+        return ""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.tolist() if hasattr(value, "tolist") else value

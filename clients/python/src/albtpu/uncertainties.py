@@ -1,0 +1,205 @@
+"""What is answered: named arrays with units, and an outcome for every pulse."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ArgumentError
+from .query import Query
+from .schema import (AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS,
+                     STANDARD_ERROR)
+from .tables import TableReference
+
+if TYPE_CHECKING:
+    import xarray
+
+Floats = NDArray[np.float32]
+Numbers = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class AnswerColumns:
+    """The memory of an answer, flat: an element a pulse. None, or not there, where not asked for."""
+
+    outcomes: Numbers
+    outcome_axes: Numbers
+    values: dict[str, Floats]
+    standard_errors: dict[str, Floats]
+    best_s44_orders: Numbers | None
+    remaining_thu: Floats | None
+    remaining_tvu: Floats | None
+
+    @classmethod
+    def for_query(cls, query: Query) -> AnswerColumns:
+        """Memory that an answer to `query` is still to be written into."""
+        size = query.size
+
+        def floats() -> Floats:
+            return np.empty(size, np.float32)
+
+        return cls(outcomes=np.empty(size, np.uint8), outcome_axes=np.empty(size, np.uint8),
+                   values={name: floats() for name in query.quantities},
+                   standard_errors={name: floats() for name in query.quantities if query.standard_errors},
+                   best_s44_orders=np.empty(size, np.uint8) if query.best_s44_order else None,
+                   remaining_thu=floats() if query.s44_order else None,
+                   remaining_tvu=floats() if query.s44_order else None)
+
+
+class Uncertainties:
+    """The answer to a query. All arrays have the shape of the query; NaN where there is no number.
+
+    thu, tvu, refraction_along_wind, refraction_cross_wind, bias_along_beam, bias_vertical: arrays of float32,
+    in `units`; asking for one that the query did not want is an AttributeError.
+
+    table:            which table answered: name, id, version, digest.
+    coverage:         "2sigma" or "p95", of all but the biases and S-44.
+    azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
+    pulses:           what was asked, by axis, as arrays of that shape.
+    values:           the quantities by name.
+    standard_errors:  their Monte Carlo standard errors by name; empty if not asked for.
+    outcomes:         numbers 1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
+    outcome_axes:     the axis that made it, by its position in albtpu.AXES from 1; 0 if interpolated.
+    best_s44_orders:  1 exclusive, 2 special, 3 1a, 4 1b, 5 2, 0 none (uint8); None if not asked for.
+    remaining_thu, remaining_tvu: what the sea surface leaves of the limits of the S-44 order for all other
+                      sources, m at 95 %, NaN if nothing; None if not asked for.
+    """
+
+    refraction_along_wind: Floats
+    refraction_cross_wind: Floats
+    thu: Floats
+    tvu: Floats
+    bias_along_beam: Floats
+    bias_vertical: Floats
+
+    def __init__(self, query: Query, columns: AnswerColumns, table: TableReference) -> None:
+        def shaped(column: NDArray[Any]) -> NDArray[Any]:
+            return column.reshape(query.shape)
+
+        def maybe_shaped(column: NDArray[Any] | None) -> NDArray[Any] | None:
+            return None if column is None else shaped(column)
+
+        self.table = table
+        self.coverage = query.coverage
+        self.azimuth_absent = "azimuth" not in query.pulses
+        self.pulses = query.pulses
+        self.outcomes: Numbers = shaped(columns.outcomes)
+        self.outcome_axes: Numbers = shaped(columns.outcome_axes)
+        self.values: Mapping[str, Floats] = {name: shaped(column) for name, column in columns.values.items()}
+        self.standard_errors: Mapping[str, Floats] = {
+            name: shaped(column) for name, column in columns.standard_errors.items()}
+        self.best_s44_orders: Numbers | None = maybe_shaped(columns.best_s44_orders)
+        self.remaining_thu: Floats | None = maybe_shaped(columns.remaining_thu)
+        self.remaining_tvu: Floats | None = maybe_shaped(columns.remaining_tvu)
+        self.__dict__.update(self.values)
+
+    def __getattr__(self, name: str) -> Any:
+        hint = ": name it in 'quantities'" if name in QUANTITIES else ""
+        raise AttributeError(f"this answer has no '{name}'{hint}")
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {name}" for name, count in self.outcome_counts().items())
+        return (f"<albtpu.Uncertainties {', '.join(self.values)} of shape {self.outcomes.shape}, "
+                f"{self.coverage}, table {self.table.id} {self.table.version}: {counts or 'no pulse'}>")
+
+    @property
+    def outcome(self) -> NDArray[np.object_]:
+        """Words: "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID"."""
+        words = np.array([*OUTCOMES, *(f"{OUTCOMES[OUT_OF_DOMAIN]}:{axis}" for axis in AXES)], object)
+        axis_at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0))
+        with_axis = np.uint8(len(OUTCOMES) - 1) + axis_at_fault
+        return np.asarray(words[np.where(axis_at_fault > 0, with_axis, self.outcomes)], object)
+
+    @property
+    def interpolated(self) -> NDArray[np.bool_]:
+        """Where the numbers stand."""
+        return self.outcomes == INTERPOLATED
+
+    def outcome_counts(self) -> dict[str, int]:
+        """How many pulses had each outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth": 1}."""
+        at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0)).reshape(-1)
+        pairs = self.outcomes.reshape(-1) * np.uint16(8) + at_fault  # Fewer than 8 axes.
+        words = [OUTCOMES[OUT_OF_DOMAIN] + f":{axis}" for axis in AXES]
+        return {words[pair % 8 - 1] if pair % 8 else OUTCOMES[pair // 8]: int(count)
+                for pair, count in enumerate(np.bincount(pairs)) if count}
+
+    @property
+    def best_s44_order(self) -> NDArray[np.object_] | None:
+        """Names: "exclusive", "special", "1a", "1b", "2", "" for none; None if not asked for."""
+        if self.best_s44_orders is None:
+            return None
+        return np.asarray(np.array(S44_ORDERS, object)[self.best_s44_orders], object)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of what `to_dict` has, by name: "m" or "degree", of outcomes and orders ""."""
+        return {name: _units(name) for name in self.to_dict()}
+
+    def to_dict(self) -> dict[str, NDArray[Any]]:
+        """All arrays by name: quantities, `thu_standard_error` and its like, outcomes, S-44."""
+        arrays: dict[str, NDArray[Any]] = dict(self.values)
+        arrays.update((name + STANDARD_ERROR, errors) for name, errors in self.standard_errors.items())
+        arrays.update(outcomes=self.outcomes, outcome_axes=self.outcome_axes)
+        s44 = dict(best_s44_orders=self.best_s44_orders, remaining_thu=self.remaining_thu,
+                   remaining_tvu=self.remaining_tvu)
+        return arrays | {name: array for name, array in s44.items() if array is not None}
+
+    def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
+        """The same as an xarray.Dataset with CF attributes, the pulses as coordinates, needs xarray.
+
+        `dims` names the dimensions; left out, one dimension is "pulse", several are "dim_0", "dim_1", ...
+        An axis that gives its name to a dimension is its index, and must vary along it alone.
+        """
+        import xarray
+
+        shape = self.outcomes.shape
+        if dims is None:
+            dims = ("pulse",) if len(shape) == 1 else tuple(f"dim_{i}" for i in range(len(shape)))
+        if len(dims) != len(shape):
+            raise ArgumentError(f"{len(dims)} dimensions are named: the answer has {len(shape)}")
+        coordinates = {axis: _coordinate(axis, array, dims) for axis, array in self.pulses.items()}
+        variables = {name: (dims, array, self._attributes(name)) for name, array in self.to_dict().items()}
+        return xarray.Dataset(variables, coordinates, {
+            "table": self.table.id, "table_version": self.table.version, "table_digest": self.table.digest,
+            "coverage": self.coverage, "azimuth_absent": int(self.azimuth_absent)})
+
+    def _attributes(self, name: str) -> dict[str, Any]:
+        flags = {"outcomes": OUTCOMES, "outcome_axes": ("none", *AXES),
+                 "best_s44_orders": ("none", *S44_ORDERS[1:])}
+        if name in flags:
+            return {"flag_values": np.arange(len(flags[name]), dtype=np.uint8),
+                    "flag_meanings": " ".join(flags[name])}
+        attributes: dict[str, Any] = {"units": _units(name)}
+        if name in QUANTITIES:
+            suffix = "" if name in BIASES else f", {self.coverage}"
+            attributes["long_name"] = QUANTITIES[name].long_name + suffix
+            if name in self.standard_errors:
+                attributes["ancillary_variables"] = name + STANDARD_ERROR
+        elif name.endswith(STANDARD_ERROR):
+            attributes["long_name"] = f"standard error of {name[:-len(STANDARD_ERROR)]}"
+        else:
+            total = name[-3:].upper()
+            attributes["long_name"] = f"{total} that the sea surface leaves to all other sources, 95 %"
+        return attributes
+
+
+def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[Any, ...]:
+    """The pulses' `axis` over those dimensions along which it was not repeated to fit the others."""
+    varies = [stride != 0 or array.size == 0 for stride in array.strides]
+    over = tuple(dim for dim, along in zip(dims, varies) if along)
+    if axis in dims and over != (axis,):
+        raise ArgumentError(f"{axis} varies along {', '.join(over) or 'nothing'}: it is no index of a "
+                            f"dimension '{axis}'")
+    index: tuple[Any, ...] = tuple(slice(None) if along else 0 for along in varies)
+    return over, array[index], AXES[axis]._asdict()
+
+
+def _units(name: str) -> str:
+    quantity = name[:-len(STANDARD_ERROR)] if name.endswith(STANDARD_ERROR) else name
+    if quantity in QUANTITIES:
+        return QUANTITIES[quantity].units
+    return "m" if name.startswith("remaining") else ""

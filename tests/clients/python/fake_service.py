@@ -1,0 +1,84 @@
+"""A service in Python that answers from a table file, and can be told to do what a good one would not."""
+
+from concurrent import futures
+
+import grpc
+import numpy as np
+
+import albtpu
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from albtpu.v1 import uncertainty_service_pb2_grpc
+
+COVERAGES = {0: "2sigma", 1: "2sigma", 2: "p95"}
+S44_ORDERS = (None, "exclusive", "special", "1a", "1b", "2")
+
+
+class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
+    """`before_answer(service, request, context)` is called for each batch; `requests` has all of them."""
+
+    def __init__(self, path, before_answer=None):
+        self.source = albtpu.open_table(path)
+        self.digest = self.source.table().reference.digest
+        self.before_answer = before_answer or (lambda *_: None)
+        self.requests = []
+        self.metadata = {}
+
+    def StreamColumns(self, requests, context):
+        for request in requests:
+            self.requests.append(request.query)
+            self.before_answer(self, request.query, context)
+            yield pb.StreamColumnsResponse(answer=self.answer(request.query))
+
+    def ListTables(self, request, context):
+        self.metadata = dict(context.invocation_metadata())
+        self.before_answer(self, request, context)
+        only = dict(reference=self.reference(), title="Fake")
+        return pb.ListTablesResponse(tables=[only], default_table="fake")
+
+    def reference(self):
+        mine = self.source.table().reference
+        return dict(name="fake", id=mine.id, version=mine.version, digest=self.digest)
+
+    def answer(self, query):
+        pulses = {axis.name: np.frombuffer(column, "<f4") for axis, column in query.pulses.ListFields()}
+        quantities = [list(albtpu.QUANTITIES)[number - 1] for number in query.quantities]
+        options = query.options
+        answer = self.source.query(
+            **pulses, coverage=COVERAGES[options.coverage], quantities=quantities or None,
+            standard_errors=options.standard_errors, s44_order=S44_ORDERS[options.s44_order],
+            best_s44_order=options.best_s44_order)
+        message = pb.QueryColumnsResponse(
+            table=self.reference(), coverage=options.coverage or 1, pulse_count=answer.outcomes.size,
+            outcomes=answer.outcomes.tobytes(), outcome_axes=answer.outcome_axes.tobytes())
+        for name, values in answer.values.items():
+            setattr(message.sea_surface, name, values.tobytes())
+        for name, values in answer.standard_errors.items():
+            setattr(message.sea_surface_standard_error, name, values.tobytes())
+        if answer.best_s44_orders is not None:
+            message.s44.best_orders = answer.best_s44_orders.tobytes()
+        if answer.remaining_thu is not None:
+            message.s44.remaining_thu = answer.remaining_thu.tobytes()
+            message.s44.remaining_tvu = answer.remaining_tvu.tobytes()
+        return message
+
+
+class Running:
+    """Runs `service` on `address`, a free port of the loopback unless it says which."""
+
+    def __init__(self, service, address="127.0.0.1:0", credentials=None):
+        self.server = grpc.server(futures.ThreadPoolExecutor(4), options=[("grpc.so_reuseport", 0)])
+        uncertainty_service_pb2_grpc.add_UncertaintyServiceServicer_to_server(service, self.server)
+        host = address.rpartition(":")[0]
+        port = (self.server.add_secure_port(address, credentials) if credentials
+                else self.server.add_insecure_port(address))
+        self.address = f"{host}:{port}"
+        self.server.start()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def stop(self):
+        self.server.stop(grace=None).wait()

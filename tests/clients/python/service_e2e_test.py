@@ -1,0 +1,167 @@
+"""The package asks albtpu-serve, and gets what it reads from the table file itself.
+
+Usage: service_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE SHIPPED_TABLES...
+"""
+
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import albtpu
+from albtpu.s44 import limits
+from albtpu.stream import ColumnStream
+from random_pulses import pulses_of_all_kinds
+from serving import Server
+
+SERVE, SYNTHETIC_TABLE, *SHIPPED_TABLES = sys.argv[1:]
+PULSES = 5_000
+# What single precision may make of a sum, relative; of a bias, in which terms cancel, by its greatest value.
+RELATIVE, CANCELLED = 1e-5, 1e-6
+ORDER = "special"
+# Some batches more than are under way at a time.
+LINE = dict(wind_speed=5, incidence=np.linspace(0, 20, 600_000), footprint=0.5,
+            depth=np.linspace(20, 0, 600_000))
+
+
+class Service(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        subprocess.run([SYNTHETIC_TABLE, cls.folder / "synthetic.h5"], check=True)
+        subprocess.run([SYNTHETIC_TABLE, cls.folder / "angles.h5", "--published"], check=True)
+        for table in SHIPPED_TABLES:
+            shutil.copy(table, cls.folder)
+        cls.files = {path.stem: albtpu.open_table(path) for path in sorted(cls.folder.glob("*.h5"))}
+        cls.server = Server(SERVE, "--tables", cls.folder, "--default-table", "synthetic")
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.service = albtpu.connect(cls.server.address)
+        cls.addClassCleanup(cls.service.close)
+
+    def assert_alike(self, ours, theirs, what, ties=None):
+        """`ties` has, by quantity, the pulses whose standard error may be that at either azimuth."""
+        self.assertEqual(ours.table, theirs.table)
+        arrays = theirs.to_dict()
+        self.assertEqual(list(ours.to_dict()), list(arrays))
+        for name, array in ours.to_dict().items():
+            message = f"{what}: {name}"
+            expected = arrays[name]
+            if name == "best_s44_orders":  # Where a limit is met to the last digit, either order is right.
+                self.assertLess(np.mean(array != expected), 1e-4, message)
+            elif array.dtype == np.uint8:
+                np.testing.assert_array_equal(array, expected, message)
+            elif name.startswith("remaining"):  # Of limit^2 - ours^2, where ours may be all but the limit.
+                limit = limits(ORDER, np.where(theirs.interpolated, theirs.pulses["depth"], 0))
+                off = np.abs(array**2 - expected**2) > 2 * RELATIVE * limit[name.endswith("tvu")] ** 2
+                self.assertFalse(off.any(), f"{message}: {array[off]} is not {expected[off]}")
+                np.testing.assert_array_equal(np.isnan(array), np.isnan(expected), message)
+            else:
+                cancelled = CANCELLED * np.nan_to_num(np.abs(expected)).max() if "bias" in name else 0
+                alike = np.isclose(array, expected, rtol=RELATIVE, atol=cancelled, equal_nan=True)
+                if ties and name.endswith("_standard_error"):
+                    alike |= ties[name.removesuffix("_standard_error")]
+                self.assertTrue(alike.all(), f"{message}: {array[~alike]} is not {expected[~alike]}")
+
+    def test_agrees_with_the_file(self):
+        options = dict(standard_errors=True, best_s44_order=True, s44_order=ORDER)
+        for name, file in self.files.items():
+            pulses = pulses_of_all_kinds(file.table(), PULSES)
+            for left_out in ((), ("azimuth",), ("fetch", "azimuth")):
+                asked = {axis: column for axis, column in pulses.items() if axis not in left_out}
+                ties = None if "azimuth" not in left_out else {
+                    quantity: np.isclose(np.abs(along), np.abs(across), rtol=RELATIVE)
+                    for quantity, along, across in zip(albtpu.QUANTITIES, *(
+                        file.query(**asked, azimuth=azimuth).values.values() for azimuth in (0, 90)))}
+                for coverage in ("2sigma", "p95"):
+                    asks = dict(**asked, **options, coverage=coverage)
+                    self.assert_alike(self.service.query(**asks, table=name), file.query(**asks),
+                                      f"{name} at {coverage} without {left_out}", ties)
+
+    def test_agrees_with_the_file_where_columns_are_constant(self):
+        file = self.files["synthetic"]
+        pulses = pulses_of_all_kinds(file.table(), 3000, seed=5)
+        for axis, number in (("wind_speed", 5), ("fetch", np.inf), ("depth", 21), ("footprint", np.nan)):
+            asks = {**pulses, axis: number}
+            self.assert_alike(self.service.query(**asks), file.query(**asks), f"{axis} {number}")
+
+    def test_lists_and_describes_tables_as_the_files_do(self):
+        listed = self.service.tables()
+        self.assertEqual([table.reference for table in listed],
+                         [file.table().reference for file in self.files.values()])
+        self.assertEqual([table.reference.name for table in listed if table.is_default], ["synthetic"])
+        for name, file in self.files.items():
+            theirs, ours = self.service.table(name), file.table()
+            for axis in albtpu.AXES:
+                np.testing.assert_array_equal(theirs.axes[axis].nodes, ours.axes[axis].nodes)
+                self.assertEqual(theirs.axes[axis][1:], ours.axes[axis][1:])
+            self.assertEqual(list(theirs.quantities), list(ours.quantities))
+            self.assertEqual([quantity[2:] for quantity in theirs.quantities.values()],
+                             [quantity[2:] for quantity in ours.quantities.values()])
+            self.assertEqual((theirs.title, theirs.campaign), (ours.title, ours.campaign))
+            self.assertEqual(theirs.attributes, ours.attributes)
+
+    def test_says_which_tables_there_are(self):
+        pulse = dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)
+        for ask in (lambda: self.service.query(**pulse, table="nowhere"),
+                    lambda: self.service.table("nowhere"),
+                    lambda: self.service.query(**{**pulse, "depth": []}, table="nowhere")):
+            with self.assertRaisesRegex(albtpu.TableNotFoundError, "synthetic"):
+                ask()
+
+    def test_answers_no_pulse_with_nothing(self):
+        answer = self.service.query(wind_speed=5, incidence=10, footprint=0.5, depth=np.empty((0, 3)))
+        self.assertEqual(answer.thu.shape, (0, 3))
+        self.assertEqual(answer.table, self.files["synthetic"].table().reference)
+
+    def test_waits_for_a_server_that_comes_back(self):
+        with Server(SERVE, "--tables", self.folder) as server:
+            client = albtpu.connect(server.address, patience=60)
+            self.addCleanup(client.close)
+            self.assertEqual(len(client.tables()), len(self.files))
+            server.stop(signal.SIGTERM)
+        with Server(SERVE, "--tables", self.folder, listen=server.address):
+            self.assertEqual(len(client.tables()), len(self.files))
+
+    def ask_while_the_server_is_replaced(self, *flags):
+        """An answer of several batches, half of them by a server with the table that `flags` make."""
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        table = pathlib.Path(folder, "synthetic.h5")
+        subprocess.run([SYNTHETIC_TABLE, table], check=True)
+        servers = [Server(SERVE, "--tables", folder)]
+        take, taken = ColumnStream._take, []
+
+        def take_and_replace(stream, *answer):
+            take(stream, *answer)
+            taken.append(answer)
+            if len(taken) == 2:
+                servers[0].stop(signal.SIGKILL)
+                subprocess.run([SYNTHETIC_TABLE, table, *flags], check=True)
+                servers.append(Server(SERVE, "--tables", folder, listen=servers[0].address))
+
+        try:
+            with albtpu.connect(servers[0].address, patience=60) as client:
+                with mock.patch.object(ColumnStream, "_take", take_and_replace):
+                    return client.query(**LINE)
+        finally:
+            for server in servers:
+                server.__exit__()
+
+    def test_goes_on_when_a_server_is_killed_and_comes_back(self):
+        answer = self.ask_while_the_server_is_replaced()
+        np.testing.assert_array_equal(answer.thu, self.service.query(**LINE).thu)
+
+    def test_never_mixes_two_tables(self):
+        with self.assertRaisesRegex(albtpu.TableChangedError, "changed from digest"):
+            self.ask_while_the_server_is_replaced("--factor", "2")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

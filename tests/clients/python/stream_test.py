@@ -1,0 +1,179 @@
+"""Large queries in batches, and servers that fail while they are asked.
+
+Usage: stream_test.py TABLE.h5
+"""
+
+import io
+import sys
+import threading
+import unittest
+from contextlib import redirect_stderr
+from unittest import mock
+
+import grpc
+import numpy as np
+
+import albtpu
+from albtpu.query import Query
+from albtpu.uncertainties import AnswerColumns
+from fake_service import FakeService, Running
+
+TABLE = sys.argv[1]
+BATCH = 32768
+PULSES = 3 * BATCH + 100
+DEPTHS = np.linspace(0, 25, PULSES)  # The deepest are out of domain.
+PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5)
+
+
+class Stream(unittest.TestCase):
+    def run_service(self, before_answer=None, **flags):
+        service = FakeService(TABLE, before_answer)
+        running = Running(service, **flags)
+        self.addCleanup(running.stop)
+        return service, running
+
+    def connect(self, running, **options):
+        client = albtpu.connect(running.address, **{"patience": 0.3, **options})
+        self.addCleanup(client.close)
+        return client
+
+    def assert_right(self, answer, **options):
+        with albtpu.open_table(TABLE) as table:
+            expected = table.query(**PULSE, depth=DEPTHS, **options)
+        for name, array in expected.to_dict().items():
+            np.testing.assert_array_equal(answer.to_dict()[name], array, name)
+
+    def test_puts_the_answers_of_all_batches_into_their_places(self):
+        service, running = self.run_service()
+        options = dict(coverage="p95", standard_errors=True, s44_order="1b", best_s44_order=True)
+        self.assert_right(self.connect(running).query(**PULSE, depth=DEPTHS, **options), **options)
+        lengths = [len(request.pulses.depth) // 4 for request in service.requests]
+        self.assertEqual(lengths, [BATCH] * 3 + [100])
+
+    def test_sends_what_is_constant_once_and_asks_for_what_is_wanted(self):
+        service, running = self.run_service()
+        wind = np.repeat([5.0, 6.0], BATCH)  # Constant in each batch.
+        answer = self.connect(running).query(wind_speed=wind, incidence=10, azimuth=30, footprint=0.5,
+                                             depth=np.linspace(0, 9, 2 * BATCH), quantities=["tvu", "thu"])
+        for request in service.requests:
+            self.assertEqual(list(request.quantities), [3, 4])
+            self.assertEqual(len(request.pulses.depth), 4 * BATCH)
+            for axis in ("wind_speed", "incidence", "azimuth", "footprint"):
+                self.assertEqual(len(getattr(request.pulses, axis)), 4, axis)
+            self.assertEqual(request.pulses.fetch, b"")
+        self.assertEqual(list(answer.values), ["thu", "tvu"])
+        with self.assertRaisesRegex(AttributeError, "bias_vertical.*name it in 'quantities'"):
+            answer.bias_vertical
+
+    def test_repeats_one_answer_where_all_pulses_are_alike(self):
+        service, running = self.run_service()
+        answer = self.connect(running).query(**PULSE, depth=np.full((3, 4), 5.0))
+        self.assertEqual(len(service.requests[0].pulses.depth), 4)
+        self.assertEqual(answer.thu.shape, (3, 4))
+        self.assertEqual(len(np.unique(answer.thu)), 1)
+
+    def test_stays_a_few_batches_ahead_of_the_answers_and_no_more(self):
+        eighth_is_sent = threading.Event()
+        leads, answered = [], []
+
+        class Watched(Query):
+            def batch(self, begin, end):
+                leads.append(begin // BATCH - len(answered))
+                if begin == 7 * BATCH:
+                    eighth_is_sent.set()
+                return super().batch(begin, end)
+
+        _, running = self.run_service(lambda *_: eighth_is_sent.wait())
+        pulses = {axis: np.float64([number]) for axis, number in PULSE.items()}
+        query = Watched((12 * BATCH,), pulses, {**pulses, "depth": np.zeros(12 * BATCH)}, ("thu",), "2sigma",
+                        False, None, False, None)
+        client = self.connect(running)
+        client._answer(query, AnswerColumns.for_query(query), answered.append)
+        self.assertEqual(len(leads), 12)
+        self.assertEqual(max(leads), 7)
+
+    def test_goes_on_where_a_server_left_off(self):
+        def abort_once(service, request, context):
+            if len(service.requests) == 3:
+                context.abort(grpc.StatusCode["UNAVAILABLE"], "restarting")
+
+        service, running = self.run_service(abort_once)
+        self.assert_right(self.connect(running).query(**PULSE, depth=DEPTHS))
+        first = [np.frombuffer(request.pulses.depth, "<f4")[0] for request in service.requests]
+        self.assertEqual(first[2], np.float32(DEPTHS[2 * BATCH]))
+        self.assertEqual(first.count(first[0]), 1)  # What was answered is not asked again.
+
+    def test_gives_up_on_a_server_that_is_not_there(self):
+        _, running = self.run_service()
+        running.stop()
+        with self.assertRaisesRegex(albtpu.UnreachableError, f"{running.address}.*start albtpu-serve there"):
+            self.connect(running).query(**PULSE, depth=DEPTHS)
+        with self.assertRaises(ConnectionError):
+            self.connect(running).tables()
+
+    def test_gives_up_on_a_server_that_falls_silent(self):
+        released = threading.Event()
+        self.addCleanup(released.set)
+        _, running = self.run_service(lambda service, *_: len(service.requests) == 2 and released.wait())
+        with self.assertRaisesRegex(albtpu.UnreachableError, "no answer in 0.2 s"):
+            self.connect(running, timeout=0.2).query(**PULSE, depth=DEPTHS)
+
+    def test_never_mixes_two_tables(self):
+        def reload(service, request, context):
+            if len(service.requests) == 2:
+                service.digest = "0" * 64
+
+        _, running = self.run_service(reload)
+        problem = "table fake changed from digest .* to 0000.* after 32768 of"
+        with self.assertRaisesRegex(albtpu.TableChangedError, problem):
+            self.connect(running).query(**PULSE, depth=DEPTHS)
+
+    def test_says_what_the_server_said(self):
+        for code, kind in (("NOT_FOUND", albtpu.TableNotFoundError),
+                           ("INVALID_ARGUMENT", albtpu.ServiceError),
+                           ("FAILED_PRECONDITION", albtpu.TableNotFoundError),
+                           ("RESOURCE_EXHAUSTED", albtpu.ServiceError)):
+            _, running = self.run_service(lambda *call: call[-1].abort(grpc.StatusCode[code], "so it is"))
+            with self.assertRaisesRegex(kind, "so it is") as failure:
+                self.connect(running).query(**PULSE, depth=DEPTHS, table="nowhere")
+            self.assertEqual(failure.exception.code, code)
+
+    def test_refuses_an_answer_of_another_length(self):
+        service, running = self.run_service()
+        whole = service.answer
+
+        def shortened(query):
+            message = whole(query)
+            message.sea_surface.tvu = message.sea_surface.tvu[:-4]
+            return message
+
+        service.answer = shortened
+        with self.assertRaisesRegex(albtpu.ServiceError, "32768 pulses with a column of 131068 bytes"):
+            self.connect(running).query(**PULSE, depth=DEPTHS)
+
+    def test_refuses_a_stream_that_ends_early(self):
+        service, running = self.run_service()
+        service.StreamColumns = lambda requests, context: iter(())
+        with Running(service) as running:
+            with self.assertRaisesRegex(albtpu.ServiceError, "ended the stream after 0 of"):
+                self.connect(running).query(**PULSE, depth=DEPTHS)
+
+    def test_shows_progress_on_standard_error(self):
+        _, running = self.run_service()
+        shown = io.StringIO()
+        with redirect_stderr(shown), mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
+            self.connect(running).query(**PULSE, depth=DEPTHS, progress=True)
+        self.assertIn(f"{PULSES} of {PULSES} pulses", shown.getvalue())
+
+    def test_shows_a_bar_where_tqdm_is_installed(self):
+        bar = mock.MagicMock()
+        tqdm = mock.MagicMock(auto=mock.MagicMock(tqdm=mock.MagicMock(return_value=bar)))
+        _, running = self.run_service()
+        with mock.patch.dict(sys.modules, {"tqdm": tqdm, "tqdm.auto": tqdm.auto}):
+            self.connect(running).query(**PULSE, depth=DEPTHS, progress=True)
+        updates = [call.args[0] for call in bar.__enter__.return_value.update.call_args_list]
+        self.assertEqual(updates, [BATCH] * 3 + [100])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
