@@ -21,8 +21,10 @@ struct Query {
 // A table laid out for speed. Immutable; used by any number of threads at a time.
 //
 // Answers are those of `Interpolate` (interpolation.h), its slow double precision twin: the same outcomes and
-// axes, at nodes the same bits, between them the same numbers but for rounding, 1e-5 relative. What a pulse
-// is answered depends on this pulse alone: not on its neighbours, its place or the number of pulses.
+// axes, at nodes the same bits, between them the same numbers within 1e-5, relative, and where corners cancel
+// within 4e-7 of the largest. What a pulse is answered depends on this pulse and the instruction set alone: not
+// on its neighbours, its place or the number of pulses. Along a flight line, where neighbours share a cell of
+// the table, answers come some ten times as fast as in random order.
 //
 // Example, a flight line in a wind of 5 m/s:
 //   const absl::StatusOr<UncertaintyTable> table = ReadTable("survey.h5");
@@ -50,7 +52,7 @@ class ColumnInterpolator {
               const AnswerColumns& answers) const;
 
  private:
-  class Layout;
+  struct Layout;
   std::unique_ptr<const Layout> layout_;
 };
 
