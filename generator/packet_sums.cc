@@ -39,16 +39,10 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   traced.beam.slope = {mean[kSlopeX], mean[kSlopeY]};
   traced.beam.slope_squares = {mean[kSlopeXX], mean[kSlopeYY], mean[kSlopeXY]};
   traced.height = mean[kHeight];
-  const Eigen::Vector2d height_slope(mean[kUndisturbedHeightX], mean[kUndisturbedHeightY]);
-  if (rays.vertical()) {
-    traced.undisturbed_slope = traced.beam.slope;
-    traced.undisturbed_slope_squares = traced.beam.slope_squares;
-    traced.undisturbed_height_slope = height_slope - mean[kHeight] * traced.undisturbed_slope;
-  } else {
-    traced.undisturbed_slope = {mean[kUndisturbedX], mean[kUndisturbedY]};
-    traced.undisturbed_slope_squares = {mean[kUndisturbedXX], mean[kUndisturbedYY], mean[kUndisturbedXY]};
-    traced.undisturbed_height_slope = height_slope - mean[kUndisturbedHeight] * traced.undisturbed_slope;
-  }
+  traced.undisturbed_slope = {mean[kUndisturbedX], mean[kUndisturbedY]};
+  traced.undisturbed_slope_squares = {mean[kUndisturbedXX], mean[kUndisturbedYY], mean[kUndisturbedXY]};
+  traced.undisturbed_height_slope = Eigen::Vector2d(mean[kUndisturbedHeightX], mean[kUndisturbedHeightY]) -
+                                    mean[kUndisturbedHeight] * traced.undisturbed_slope;
   traced.met_alone = sums.met_alone;
   return traced;
 }

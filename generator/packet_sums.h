@@ -9,8 +9,7 @@ namespace albtpu {
 
 // What is summed over the rays: the height [m] where they met the water, tangent and secant less those of
 // still water, the product of the height and these, slopes of the facets that they met, and their squares; of
-// what is undisturbed the product of height and slope, the height, the slopes and their squares. For vertical
-// rays, which nothing disturbs, the rest is not summed again after the first of these.
+// what is undisturbed the slopes, their squares, the height and its product with the slopes.
 enum PacketSum {
   kHeight,
   kTangentX,
@@ -24,16 +23,19 @@ enum PacketSum {
   kSlopeXX,
   kSlopeYY,
   kSlopeXY,
-  kUndisturbedHeightX,
-  kUndisturbedHeightY,
-  kUndisturbedHeight,
   kUndisturbedX,
   kUndisturbedY,
   kUndisturbedXX,
   kUndisturbedYY,
   kUndisturbedXY,
+  kUndisturbedHeight,
+  kUndisturbedHeightX,
+  kUndisturbedHeightY,
   kPacketSums
 };
+
+// Which of them; a beam needs none of the undisturbed.
+enum class Wanted { kBeam, kBeamAndUndisturbed };
 
 struct PacketSums {
   double sum[kPacketSums] = {};

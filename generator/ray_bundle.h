@@ -14,7 +14,7 @@ namespace albtpu {
 // the water side by side.
 class RayBundle {
  public:
-  static constexpr int kStrips = 16;
+  static constexpr int kStrips = 32;
 
   // `beam` is collimated.
   RayBundle(const Beam& beam, double refractive_index) : RayBundle(beam.Rays(0), refractive_index) {}
