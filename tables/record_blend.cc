@@ -145,9 +145,11 @@ class Cell {
   HWY_INLINE void Prefetch(std::size_t i) const {
     if (i >= pulses_.count || pulses_.rows[i] == pulses_.rows[i - kAhead]) return;
     const float* at = records_ + static_cast<std::ptrdiff_t>(pulses_.rows[i]) * kRecordSize;
+    const float azimuth = pulses_.fractions[BlendedPulses::kAzimuth][i];
+    const std::size_t first = azimuth == 1 ? kPairs : 0, last = azimuth == 0 ? kPairs : 2 * kPairs;
     const std::ptrdiff_t fetch = steps_[BlendedPulses::kFetch],
                          wind_speed = steps_[BlendedPulses::kWindSpeed];
-    for (std::size_t p = 0; p < 2 * kPairs; ++p) {
+    for (std::size_t p = first; p < last; ++p) {
       for (const float* end : {at + offsets_[p], at + offsets_[p] + kPair - 1}) {
         ToSecondCache(end);
         ToSecondCache(end + fetch);
