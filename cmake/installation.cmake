@@ -5,9 +5,14 @@ install(FILES ${shipped_tables} DESTINATION ${data}/tables)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(FILES service/client/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
+install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Python package as it is: for pip, or for PYTHONPATH.
 install(DIRECTORY clients/python DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients PATTERN "__pycache__" EXCLUDE
         PATTERN "*.egg-info" EXCLUDE PATTERN "build" EXCLUDE PATTERN ".mypy_cache" EXCLUDE)
 install(DIRECTORY generator/validation/paper generator/validation/plots DESTINATION ${data}/validation
         PATTERN "__pycache__" EXCLUDE)
+
+# What C++ programs of others link.
+albtpu_package_component(tables)
+albtpu_package_component(client)

@@ -28,7 +28,8 @@ ColumnInterpolator& ColumnInterpolator::operator=(ColumnInterpolator&&) noexcept
 
 void ColumnInterpolator::Answer(const Query& query, const PulseColumns& pulses, std::size_t begin,
                                 std::size_t end, const AnswerColumns& answers) const {
-  assert(IsValid(pulses) && begin <= end && end <= pulses.size);
+  assert(CheckLengths(pulses).ok() && begin <= end && end <= pulses.size);
+  if (begin == end) return;
   const AnswerWriter writer(query, layout_->records, answers);
   PulseBlock block(layout_->grid, pulses, std::min(kBlock, end - begin));
   BlockNumbers numbers(layout_->records, writer.needs());

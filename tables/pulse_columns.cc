@@ -1,6 +1,8 @@
 #include "tables/pulse_columns.h"
 
-#include <algorithm>
+#include <string>
+
+#include "absl/strings/str_cat.h"
 
 namespace albtpu {
 namespace {
@@ -9,12 +11,16 @@ float NumberAt(std::span<const float> column, std::size_t i) { return column[col
 
 }  // namespace
 
-bool IsValid(const PulseColumns& pulses) {
-  return std::all_of(kAxes.begin(), kAxes.end(), [&](AxisId axis) {
+absl::Status CheckLengths(const PulseColumns& pulses) {
+  for (const AxisId axis : kAxes) {
     const std::size_t length = pulses[axis].size();
-    if (length == 0) return axis == AxisId::kFetch || axis == AxisId::kAzimuth;
-    return length == 1 || length == pulses.size;
-  });
+    const bool optional = axis == AxisId::kFetch || axis == AxisId::kAzimuth;
+    if (length == pulses.size || length == 1 || (length == 0 && optional)) continue;
+    return absl::InvalidArgumentError(absl::StrCat(
+        "column '", std::string(Describe(axis).name), "' has ", length, " numbers for ", pulses.size,
+        " pulses: one for each", optional ? ", one for all or none" : " or one for all", " would be right"));
+  }
+  return absl::OkStatus();
 }
 
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "absl/status/status.h"
 #include "tables/interpolation.h"
 #include "tables/schema.h"
 
@@ -16,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "columns go to and fro
 
 // Pulses, a column an axis, in the units of the axes. A column has `size` numbers, or one for all pulses, or
 // none: of the fetch that is the fully developed sea, of the azimuth the worse of 0 and 90 degrees. The other
-// columns must not be empty.
+// columns must not be empty where there are pulses.
 struct PulseColumns {
   std::size_t size = 0;
   std::array<std::span<const float>, kAxisCount> axis;
@@ -24,8 +25,8 @@ struct PulseColumns {
   std::span<const float> operator[](AxisId id) const { return axis[Index(id)]; }
 };
 
-// Whether every column has a length that `PulseColumns` allows.
-bool IsValid(const PulseColumns& pulses);
+// InvalidArgument, naming the first column whose length is not one that `PulseColumns` allows.
+absl::Status CheckLengths(const PulseColumns& pulses);
 
 // The pulse at `i`.
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i);

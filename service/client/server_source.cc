@@ -1,5 +1,6 @@
 #include "service/client/server_source.h"
 
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
@@ -65,23 +66,25 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   return FromWire(response.table());
 }
 
-}  // namespace
+class ServerSource : public UncertaintySource {
+ public:
+  ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel, TableSummary summary,
+               const Patience& patience)
+      : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
 
-ServerSource::ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel,
-                           TableSummary summary, Patience patience)
-    : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
+  const TableSummary& table() const override { return summary_; }
+  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
-absl::StatusOr<std::unique_ptr<ServerSource>> ServerSource::Open(const std::string& address,
-                                                                 const std::string& table,
-                                                                 const Patience& patience) {
-  const std::shared_ptr<grpc::Channel> channel = Connect(address);
-  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
-  if (!summary.ok()) return summary.status();
-  return std::unique_ptr<ServerSource>(new ServerSource(address, channel, *std::move(summary), patience));
-}
+ private:
+  const std::string address_;
+  grpc::GenericStub stub_;
+  const TableSummary summary_;
+  const Patience patience_;
+};
 
 absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses,
                                   const AnswerColumns& answers) {
+  if (absl::Status status = CheckLengths(pulses); !status.ok()) return status;
   const ColumnTask task{summary_.name, summary_.digest, query, pulses, answers};
   std::size_t answered = 0;
   int retries = 0;
@@ -100,6 +103,17 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
     std::this_thread::sleep_for(patience_.first_pause * (1 << retries++));
   }
   return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
+                                                              const std::string& table,
+                                                              const Patience& patience) {
+  const std::shared_ptr<grpc::Channel> channel = Connect(address);
+  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
+  if (!summary.ok()) return summary.status();
+  return std::make_unique<ServerSource>(address, channel, *std::move(summary), patience);
 }
 
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address) {

@@ -1,8 +1,6 @@
 // Answers from a service.
 #pragma once
 
-#include <grpcpp/generic/generic_stub.h>
-
 #include <chrono>
 #include <memory>
 #include <string>
@@ -22,26 +20,18 @@ struct Patience {
 
 // Asks in columns, so many pulses at a time as a message may hold, several messages ahead of the answers. The
 // table is fixed when the source is opened: every answer must come from its content.
-class ServerSource : public UncertaintySource {
- public:
-  // `address` is HOST:PORT, `table` what to ask for, empty for the server's default. A server that is not
-  // there from the beginning is not waited for.
-  static absl::StatusOr<std::unique_ptr<ServerSource>> Open(const std::string& address,
-                                                            const std::string& table,
-                                                            const Patience& patience = {});
-
-  const TableSummary& table() const override { return summary_; }
-  absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
-
- private:
-  ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel, TableSummary summary,
-               Patience patience);
-
-  std::string address_;
-  grpc::GenericStub stub_;
-  TableSummary summary_;
-  Patience patience_;
-};
+//
+// `address` is HOST:PORT, `table` what to ask for, empty for the server's default. A server that is not there
+// from the beginning is not waited for.
+//
+// Example:
+//   const auto server = OpenServer("127.0.0.1:50051", "");
+//   if (!server.ok()) return server.status();
+//   absl::Status status = (*server)->Answer({.coverage = Coverage::kP95}, pulses, answers);
+// with the columns of the example in column_query.h.
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
+                                                              const std::string& table,
+                                                              const Patience& patience = {});
 
 // All tables of a server.
 absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address);

@@ -73,11 +73,7 @@ bool HasName(const TableSummary& table, const std::string& name) {
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options) {
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   if (!options.file.empty()) return OpenFile("", options.file);
-  if (!options.server.empty()) {
-    absl::StatusOr<std::unique_ptr<ServerSource>> source = ServerSource::Open(options.server, options.name);
-    if (!source.ok()) return source.status();
-    return std::unique_ptr<UncertaintySource>(*std::move(source));
-  }
+  if (!options.server.empty()) return OpenServer(options.server, options.name);
   const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
   if (!tables.ok()) return tables.status();
   const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);

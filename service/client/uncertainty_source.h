@@ -37,8 +37,9 @@ class UncertaintySource {
   virtual const TableSummary& table() const = 0;
 
   // Answers all pulses, of any number, none too, into the columns of `answers` that are not null. Any number
-  // of threads may ask at a time. Fails only as a whole, and then the columns may hold anything: the server
-  // cannot be reached (Unavailable), or gave its table another content (Aborted).
+  // of threads may ask at a time. Fails only as a whole, and then the columns may hold anything: columns of
+  // pulses have lengths that they may not have (InvalidArgument), the server cannot be reached (Unavailable),
+  // or gave its table another content (Aborted).
   virtual absl::Status Answer(const Query& query, const PulseColumns& pulses,
                               const AnswerColumns& answers) = 0;
 };

@@ -114,7 +114,7 @@ class Load {
 
   // All pulses of the line at a time, 65 536 a message.
   void Stream(Record& record) {
-    auto source = client::ServerSource::Open(options_.address, "");
+    auto source = client::OpenServer(options_.address, "");
     Check(source.ok(), source.status().ToString());
     AskInTurn(record, line_, answers_, line_.size(),
               [&](const PulseColumns& pulses, const AnswerColumns& answers) {

@@ -85,7 +85,7 @@ TEST(BeamGeometry, SaysOnceWhatIsAlikeForAllPoints) {
   const std::vector<double> z = {-1, -2, -3}, scan_angles = {-5, 0, 5};
   PulseBatch pulses;
   line.MakePulses(z, scan_angles, pulses);
-  EXPECT_TRUE(IsValid(pulses.columns()));
+  EXPECT_TRUE(CheckLengths(pulses.columns()).ok());
   EXPECT_EQ(pulses.size, 3u);
   EXPECT_EQ(pulses[AxisId::kWindSpeed], std::vector<float>{6});
   EXPECT_EQ(pulses[AxisId::kFootprint], std::vector<float>{0.5});

@@ -96,7 +96,7 @@ struct TenMessages {
     AnswerColumns answers;
     thu.resize(count);
     answers.values[Index(Quantity::kThu)] = thu.data();
-    const auto source = ServerSource::Open(server.address(), "", {retries, std::chrono::milliseconds(1)});
+    const auto source = OpenServer(server.address(), "", {retries, std::chrono::milliseconds(1)});
     status = source.ok() ? (*source)->Answer({}, pulses, answers) : source.status();
   }
 

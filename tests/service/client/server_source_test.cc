@@ -62,7 +62,7 @@ const Query kP95Of1b = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b};
 
 TEST(ServerSource, GivesTheBitsThatATableInThisProcessGives) {
   const RunningServer server;
-  const auto remote = ServerSource::Open(server.address(), "").value();
+  const auto remote = OpenServer(server.address(), "").value();
   LocalSource local("", SyntheticTable());
   PulseMemory pulses = MixedPulses(150000);  // More than one message.
   for (const bool with_azimuth : {true, false}) {
@@ -76,7 +76,7 @@ TEST(ServerSource, GivesTheBitsThatATableInThisProcessGives) {
 
 TEST(ServerSource, AnswersManyThreadsAtATime) {
   const RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "").value();
+  const auto source = OpenServer(server.address(), "").value();
   const PulseMemory pulses = MixedPulses(70000);
   AnswerMemory expected(pulses.size());
   ASSERT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
@@ -93,7 +93,7 @@ TEST(ServerSource, AnswersManyThreadsAtATime) {
 
 TEST(ServerSource, AsksForTheColumnsThatAreWantedAlone) {
   const RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "").value();
+  const auto source = OpenServer(server.address(), "").value();
   const PulseMemory pulses = MixedPulses(1000);
   AnswerMemory all(pulses.size()), some(pulses.size());
   ASSERT_TRUE(source->Answer({}, pulses.columns(), all.columns()).ok());
@@ -108,7 +108,7 @@ TEST(ServerSource, AsksForTheColumnsThatAreWantedAlone) {
 
 TEST(ServerSource, TakesPulsesThatAreAllAlike) {
   const RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "quick").value();
+  const auto source = OpenServer(server.address(), "quick").value();
   PulseMemory pulse;
   pulse.Add({5, 5000, 12, 30, 1, 3});
   PulseColumns pulses = pulse.columns();
@@ -123,14 +123,26 @@ TEST(ServerSource, TakesPulsesThatAreAllAlike) {
 
 TEST(ServerSource, AsksNothingForNoPulses) {
   RunningServer server;
-  const auto source = ServerSource::Open(server.address(), "").value();
+  const auto source = OpenServer(server.address(), "").value();
   server.Stop();
   EXPECT_TRUE(source->Answer({}, {}, {}).ok());
 }
 
+TEST(ServerSource, RefusesColumnsOfOtherLengthsAsATableDoes) {
+  RunningServer server;
+  const auto remote = OpenServer(server.address(), "").value();
+  server.Stop();
+  PulseMemory memory = MixedPulses(3);
+  memory.axis(AxisId::kDepth).pop_back();
+  const PulseColumns pulses = memory.columns();
+  const absl::Status status = remote->Answer({}, pulses, {});
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+  EXPECT_EQ(LocalSource("", SyntheticTable()).Answer({}, pulses, {}), status);
+}
+
 TEST(ServerSource, KnowsItsTableAsAFileDoes) {
   const RunningServer server;
-  const TableSummary remote = ServerSource::Open(server.address(), "").value()->table();
+  const TableSummary remote = OpenServer(server.address(), "").value()->table();
   const TableSummary local = Summarize("quick", SyntheticTable());
   EXPECT_EQ(remote.name, local.name);
   EXPECT_EQ(remote.id, local.id);
@@ -150,13 +162,13 @@ TEST(ServerSource, KnowsItsTableAsAFileDoes) {
 
 TEST(ServerSource, SaysWhatIsWrongWithTheServer) {
   RunningServer server;
-  const absl::Status unknown = ServerSource::Open(server.address(), "no").status();
+  const absl::Status unknown = OpenServer(server.address(), "no").status();
   EXPECT_EQ(unknown.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(unknown.message()), HasSubstr("'no'"));
   EXPECT_THAT(std::string(unknown.message()), HasSubstr("quick"));
   const std::string address = server.address();
   server.Stop();
-  const absl::Status gone = ServerSource::Open(address, "").status();
+  const absl::Status gone = OpenServer(address, "").status();
   EXPECT_EQ(gone.code(), absl::StatusCode::kUnavailable);
   EXPECT_THAT(std::string(gone.message()), HasSubstr("start albtpu-serve"));
 }
@@ -164,7 +176,7 @@ TEST(ServerSource, SaysWhatIsWrongWithTheServer) {
 TEST(ServerSource, GoesOnWhenItsServerComesBack) {
   auto server = std::make_unique<RunningServer>();
   const std::string address = server->address();
-  const auto source = ServerSource::Open(address, "").value();
+  const auto source = OpenServer(address, "").value();
   server->Stop();
   server.reset();
   const PulseMemory pulses = MixedPulses(1000);
@@ -181,7 +193,7 @@ TEST(ServerSource, GoesOnWhenItsServerComesBack) {
 TEST(ServerSource, NoticesThatItsTableBecameAnother) {
   auto first = std::make_unique<RunningServer>();
   const std::string address = first->address();
-  const auto source = ServerSource::Open(address, "").value();
+  const auto source = OpenServer(address, "").value();
   first->Stop();
   first.reset();
   const RunningServer second({.factor = 2}, address);
@@ -195,8 +207,7 @@ TEST(ServerSource, NoticesThatItsTableBecameAnother) {
 TEST(ServerSource, GivesUpAServerThatStaysAway) {
   RunningServer server;
   const auto source =
-      ServerSource::Open(server.address(), "", {.retries = 2, .first_pause = std::chrono::milliseconds(1)})
-          .value();
+      OpenServer(server.address(), "", {.retries = 2, .first_pause = std::chrono::milliseconds(1)}).value();
   server.Stop();
   const PulseMemory pulses = MixedPulses(10);
   AnswerMemory answers(pulses.size());
