@@ -42,8 +42,8 @@ void ColumnInterpolator::Answer(const Query& query, const PulseColumns& pulses, 
 
 void AnswerOnAllCores(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
                       const AnswerColumns& answers) {
-  constexpr std::size_t kGrain = 4096;  // pulses of one piece of work: some 50 us and more
-  if (pulses.size < 2 * kGrain) return interpolator.Answer(query, pulses, 0, pulses.size, answers);
+  constexpr std::size_t kGrain = 8192;  // pulses of one piece of work: some 100 us and more
+  if (pulses.size < 4 * kGrain) return interpolator.Answer(query, pulses, 0, pulses.size, answers);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pulses.size, kGrain), [&](const auto& range) {
     interpolator.Answer(query, pulses, range.begin(), range.end(), answers);
   });

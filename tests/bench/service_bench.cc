@@ -68,6 +68,7 @@ class Load {
     if (peer == "stream") return Stream(record);
     if (peer == "rows") return Rows(record);
     if (peer == "single") return Single(record);
+    if (peer == "stream-single") return StreamSingle(record);
     Check(false, "no peer '" + peer + "'");
   }
 
@@ -217,6 +218,56 @@ class Load {
     record.Add(latencies.size(), latencies);
   }
 
+  // One pulse a message of one stream, so many in flight.
+  void StreamSingle(Record& record) {
+    enum Event : std::uintptr_t { kStarted = 1, kWritten, kClosed, kRead, kFinished };
+    const auto tag = [](Event event) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(event)); };
+    const PulseColumns pulse = line_.pulses(0, 1);
+    AnswerMemory answer(1);
+    v1::StreamColumnsRequest wanted;
+    client::ToWire({}, answer.columns(), *wanted.mutable_query());
+    ColumnMessage message;
+    message.Add(wanted.query());
+    client::AddPulses(pulse, message);
+    message.Nest(v1::StreamColumnsRequest::kQueryFieldNumber, 0);
+    const grpc::ByteBuffer request = message.Finish();
+
+    grpc::GenericStub stub(grpc::CreateChannel(options_.address, grpc::InsecureChannelCredentials()));
+    grpc::ClientContext context;
+    grpc::CompletionQueue events;
+    const auto stream = stub.PrepareCall(&context, "/albtpu.v1.UncertaintyService/StreamColumns", &events);
+    stream->StartCall(tag(kStarted));
+    std::vector<Clock::time_point> begin(static_cast<std::size_t>(options_.in_flight));
+    std::vector<double> latencies;
+    std::size_t sent = 0;
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    bool writing = true, closed = false;
+    for (void* event = nullptr; event != tag(kFinished);) {
+      bool ok = false;
+      events.Next(&event, &ok);
+      if (event == tag(kRead) && !ok) stream->Finish(&status, tag(kFinished));
+      if (event == tag(kRead) && ok) {
+        const auto read = client::ReadStreamedAnswer(response, {}, 1, answer.columns());
+        Check(read.ok(), read.status().ToString());
+        latencies.push_back(Seconds(Clock::now() - begin[latencies.size() % begin.size()]));
+      }
+      if (event == tag(kStarted) || (event == tag(kRead) && ok)) stream->Read(&response, tag(kRead));
+      if (event == tag(kStarted) || event == tag(kWritten)) writing = false;
+      if (writing || closed) continue;
+      if (record.going_on() && sent - latencies.size() < begin.size()) {
+        begin[sent++ % begin.size()] = Clock::now();
+        stream->Write(request, tag(kWritten));
+        writing = true;
+      } else if (!record.going_on()) {
+        stream->WritesDone(tag(kClosed));
+        closed = true;
+      }
+    }
+    Check(status.ok() && latencies.size() == sent, status.error_message());
+    record.Add(latencies.size(), latencies);
+  }
+
   const Options& options_;
   const FlightLine& line_;
   AnswerMemory& answers_;
@@ -262,7 +313,8 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
 int Main(int argc, char** argv) {
   Options options;
   CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
-  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, stream, rows or single")
+  app.add_option("peer", options.peer,
+                 "serve-raw, raw, raw-single, columns, stream, rows, single or stream-single")
       ->required();
   app.add_option("--table", options.table, "The table that answers")->required();
   app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");

@@ -63,7 +63,8 @@ def measure(peers, repetitions):
     cases = {(peer, batch, callers): dict(batch=batch, callers=callers)
              for peer, batch in BULK for callers in (1, 2, 4)}
     cases |= {("rows", 10000, callers): dict(batch=10000, callers=callers) for callers in (1, 2, 4)}
-    cases |= {(peer, 1, "64 in flight"): {"in-flight": 64} for peer in ("raw-single", "single")}
+    cases |= {(peer, 1, "64 in flight"): {"in-flight": 64}
+              for peer in ("raw-single", "single", "stream-single")}
     cases |= {("single", 1, "alone"): {"in-flight": 1},
               ("single", 1, "under bulk"): {"in-flight": 1, "beside": 2}}
     runs = {case: [] for case in cases}
@@ -92,8 +93,9 @@ def rows_of(runs):
         yield row(f"`{name}`, {batch} a message, against raw TCP", best(runs, peer, batch), best(runs, "raw", batch))
     yield row("`QueryColumns` against `QueryPulses`, 10000 a message", best(runs, "columns", 10000),
               best(runs, "rows", 10000))
-    yield row("single pulses, 64 in flight, against raw TCP messages", runs["single", 1, "64 in flight"],
-              runs["raw-single", 1, "64 in flight"])
+    for peer, kind in (("stream-single", "messages of a stream"), ("single", "calls")):
+        yield row(f"single pulses as {kind}, 64 in flight, against raw TCP messages", runs[peer, 1, "64 in flight"],
+                  runs["raw-single", 1, "64 in flight"])
 
 
 def main():
