@@ -14,9 +14,10 @@ namespace fs = std::filesystem;
 
 constexpr double kWorthTiming = 2;  // s
 
-// Whether later files can fare better than this one did.
+// Whether later files can fare better than this one did: not where the source has failed, or the disk is full.
 bool IsOfOneFile(const absl::Status& status) {
-  return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status);
+  return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status) &&
+         !absl::IsResourceExhausted(status);
 }
 
 std::uint64_t SizeOf(const fs::path& path) {
@@ -59,8 +60,9 @@ class Run {
                            RateText(progress_.records(), progress_.seconds(), run_.records)));
     }
     if (failed_ == 0) return absl::OkStatus();
-    return absl::FailedPreconditionError(
-        absl::StrCat(failed_, " of ", jobs_.size(), " files failed: see above; the others are written"));
+    return absl::FailedPreconditionError(absl::StrCat(failed_, " of ", jobs_.size(),
+                                                      " files failed: see above",
+                                                      done_ > 0 ? "; the others are written" : ""));
   }
 
  private:
@@ -77,7 +79,9 @@ class Run {
                             absl::StrCat(made.message(), ": --overwrite it, or choose another name"));
       }
     }
-    if (absl::Status status = CheckSummaryCanBeWritten(job, run_.existing); !status.ok()) return status;
+    absl::Status possible = CheckNotTheSameFile(job.input, SummaryPath(job.output));
+    if (possible.ok()) possible = CheckSummaryCanBeWritten(job, run_.existing);
+    if (!possible.ok()) return possible;
     std::error_code error;  // Creating the output says what is wrong.
     if (job.in_subfolder) fs::create_directories(job.output.parent_path(), error);
     absl::StatusOr<AnnotatedFile> annotated = run_.annotate(job, progress_);

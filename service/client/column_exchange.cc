@@ -105,7 +105,7 @@ class Call {
         return;
       case kRead:
         if (!ok) return Finish();
-        if (absl::Status status = Take(); !status.ok()) Fail(status);
+        if (absl::Status status = failure_.ok() ? Take() : absl::OkStatus(); !status.ok()) Fail(status);
         stream_->Read(&response_, Tag(kRead));
         return Write();
       case kFinished:

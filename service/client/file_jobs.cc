@@ -34,11 +34,12 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std:
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (entry->is_directory()) {
+    std::error_code gone;  // Such entries are no files to annotate.
+    if (entry->is_directory(gone)) {
       if (!options.recursive || IsSame(entry->path(), options.output_folder)) {
         entry.disable_recursion_pending();
       }
-    } else if (HasExtension(entry->path(), extension)) {
+    } else if (entry->is_regular_file(gone) && HasExtension(entry->path(), extension)) {
       files.push_back(entry->path());
     }
   }

@@ -89,7 +89,8 @@ absl::Status RunLas(const LasOptions& options) {
        .existing = options.shared.existing,
        .annotate = [&](const Job& job, Progress& progress) { return files.Annotate(job, progress); }},
       (*source)->table());
-  if (status.ok() && files.found_no_bathymetry()) {
+  // With --resume the files that were left out may have some.
+  if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
     return absl::FailedPreconditionError(absl::StrCat("no file has a point of class ",
                                                       absl::StrJoin(options.classes, " or "),
                                                       ": name the bathymetric ones by --classes"));

@@ -70,13 +70,26 @@ class ServerSource : public UncertaintySource {
  public:
   ServerSource(std::string address, const std::shared_ptr<grpc::Channel>& channel, TableSummary summary,
                const Patience& patience)
-      : address_(std::move(address)), stub_(channel), summary_(std::move(summary)), patience_(patience) {}
+      : address_(std::move(address)),
+        channel_(channel),
+        stub_(channel),
+        summary_(std::move(summary)),
+        patience_(patience) {}
 
   const TableSummary& table() const override { return summary_; }
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
+  // The channel sees that its server is back only while somebody waits for it.
+  void Pause(std::chrono::milliseconds pause) {
+    const auto until = std::chrono::system_clock::now() + pause;
+    channel_->GetState(true);
+    channel_->WaitForConnected(until);
+    std::this_thread::sleep_until(until);
+  }
+
   const std::string address_;
+  const std::shared_ptr<grpc::Channel> channel_;
   grpc::GenericStub stub_;
   const TableSummary summary_;
   const Patience patience_;
@@ -100,7 +113,7 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
                                  absl::StrCat(status.message(), " (asked again ", retries, " times, after ",
                                               answered, " of ", pulses.size, " pulses)")));
     }
-    std::this_thread::sleep_for(patience_.first_pause * (1 << retries++));
+    Pause(patience_.first_pause * (1 << retries++));
   }
   return absl::OkStatus();
 }

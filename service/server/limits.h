@@ -21,14 +21,15 @@ inline constexpr std::size_t kMaxPulsesWithStandardErrors = 32768;
 static_assert(kMaxPulses * 52 < kMaxMessageBytes);
 static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
 
-// Requests up to this length are answered at once, on the thread that received them: some 12 000 pulses in
-// columns, half a millisecond, of which handing them over to a worker and back would add a third. Longer ones
-// wait for a worker, so that they never stand in the way of short ones.
+// Requests up to this length are answered at once, on the thread that received them: some 12 000 pulses of four
+// columns, half a millisecond, to which handing them over to a worker and back would add a third; 49 000 of
+// one column at the most. Longer ones wait for a worker, so that they never stand in the way of short ones.
 inline constexpr std::size_t kMaxInlineBytes = std::size_t{192} << 10;
 
 // Calls under way that may wait for a worker, all connections together: beyond them calls fail with
-// RESOURCE_EXHAUSTED. A call holds up to 12 MiB (a stream: the request that is answered, the one after it and
-// an answer), all of them 1.5 GiB; a worker holds 8 MiB more.
+// RESOURCE_EXHAUSTED. A stream counts as long as it is open; calls that are answered at once do not. A call
+// holds up to 12 MiB (a stream: the request that is answered, the one after it and an answer), all of them
+// 1.5 GiB; a worker holds 8 MiB more.
 inline constexpr int kMaxBulkCalls = 128;
 
 // Calls under way on one connection; further ones wait in the client.

@@ -190,6 +190,23 @@ TEST(ServerSource, GoesOnWhenItsServerComesBack) {
   EXPECT_TRUE(answers == expected);
 }
 
+// A channel that nobody polls looks for its server every five seconds alone: later than this one waits.
+TEST(ServerSource, SeesWhileItWaitsThatItsServerIsBack) {
+  auto server = std::make_unique<RunningServer>();
+  const std::string address = server->address();
+  const auto source =
+      OpenServer(address, "", {.retries = 2, .first_pause = std::chrono::milliseconds(1500)}).value();
+  server->Stop();
+  server.reset();
+  const PulseMemory pulses = MixedPulses(1000);
+  AnswerMemory answers(pulses.size());
+  absl::Status status;
+  std::thread asker([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
+  server = std::make_unique<RunningServer>(SyntheticOptions(), address);
+  asker.join();
+  EXPECT_TRUE(status.ok()) << status;
+}
+
 TEST(ServerSource, NoticesThatItsTableBecameAnother) {
   auto first = std::make_unique<RunningServer>();
   const std::string address = first->address();
