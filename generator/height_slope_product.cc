@@ -39,6 +39,7 @@ Eigen::ArrayXXd Centred(const std::vector<double>& grid, int size, int reach) {
 }
 
 // The share of the beam's power that falls on each point's cell, by an even sample of the cell.
+// With radii in diameters: even within 1/2, or exp(-8 r^2), which is 1/e^2 there (BeamProfile).
 Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
   constexpr int kSamples = 5;  // a side
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
