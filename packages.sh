@@ -1,15 +1,12 @@
 # Sourced by quickstart.sh and test.sh: the Debian packages of packages.txt.
 
-# Prints the names in packages.txt: those above its line "# tests only"; with `tests` those down to its line
-# "# aarch64 only" too; with `aarch64` those below that.
+# Prints the names in packages.txt: those that building takes, and with a word such as `tests` those of the section
+# below its line "# tests only".
 package_names() {
-  if [[ ${1:-} == aarch64 ]]; then
-    sed '1,/^# aarch64 only$/d; /^#/d; /^$/d' packages.txt
-  elif [[ ${1:-} == tests ]]; then
-    sed '/^# aarch64 only$/,$d; /^#/d; /^$/d' packages.txt
-  else
-    sed '/^# tests only$/,$d; /^#/d; /^$/d' packages.txt
-  fi
+  {
+    sed '/ only$/,$d' packages.txt
+    [[ $# == 0 ]] || sed -n "/^# $1 only\$/,/ only\$/p" packages.txt
+  } | sed '/^#/d; /^$/d'
 }
 
 # Installs those that are missing, as root or through sudo; nothing is touched when none is.
@@ -20,6 +17,7 @@ install_packages() {
   fi
   local installed missing
   installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')
+  ! command -v kubectl >/dev/null || installed+=$'\nkubernetes-client'  # Another than Debian's does as well.
   missing=$(comm -13 <(sort -u <<<"$installed") <(package_names "$@" | sort -u))
   [[ -n $missing ]] || return 0
   local names as_root=()

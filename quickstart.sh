@@ -8,7 +8,7 @@ source ./packages.sh
 
 campaign=generator/campaigns/quick.toml
 table=out/tables/quick.h5
-sample=../shared/data/florida_topobathy_snippet.las  # Real; not part of this repository.
+sample=../shared/data/florida_topobathy_snippet.las  # Real; not part of this repository, and need not be there.
 simulated=out/simulated_flight.las
 annotated=out/annotated.las
 

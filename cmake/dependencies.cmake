@@ -2,6 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(OpenSSL REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(absl REQUIRED CONFIG)
 find_package(spdlog REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
@@ -18,6 +19,9 @@ find_package(HDF5 REQUIRED COMPONENTS C HL)
 
 # FFTW has no CMake configuration file in Debian.
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
+
+# The configuration file of prometheus-cpp wants CURL for a part that is not used here.
+pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
 
 # gRPC's configuration file finds Protobuf by module mode, Protobuf's own does not work.
 find_package(Protobuf REQUIRED MODULE)

@@ -1,11 +1,29 @@
+# With ALBTPU_SANITIZE, what all that we compile is compiled with, generated code too: of an inline function that two
+# files have, the linker keeps either.
+function(albtpu_sanitize target)
+  if(NOT ALBTPU_SANITIZE)
+    return()
+  endif()
+  target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)  # Indices of views, which no sanitizer sees.
+  target_compile_options(${target} PRIVATE -fsanitize=${ALBTPU_SANITIZE} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
+  target_link_options(${target} PUBLIC -fsanitize=${ALBTPU_SANITIZE})
+  if(ALBTPU_SANITIZE STREQUAL "thread")
+    # Headers of protobuf and Abseil lay out classes otherwise where this is defined, and their libraries are compiled
+    # without. libstdc++ derives the second from it, and takes a short cut past atomic numbers without.
+    target_compile_options(${target} PRIVATE -U__SANITIZE_THREAD__ -D_GLIBCXX_TSAN=1)
+  endif()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    target_link_libraries(${target} PRIVATE albtpu_seen_libraries)
+  endif()
+endfunction()
+
 # What all of our own code is compiled with: albtpu_target(NAME) is called once for each target.
 function(albtpu_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-  if(ALBTPU_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${ALBTPU_SANITIZE} -fno-omit-frame-pointer)
-    target_link_options(${target} PUBLIC -fsanitize=${ALBTPU_SANITIZE})
-  endif()
+  albtpu_sanitize(${target})
 endfunction()
 
 # Kernels that are compiled once for each of Highway's instruction sets but AVX-512 and those without a fixed

@@ -2,7 +2,7 @@
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
 file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(FILES service/client/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)

@@ -19,6 +19,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// A campaign of hundreds of nodes has a tenth of it. Longer texts could hold keys that nest so deep ("a.a.a
+// ...") that the reader of TOML, which calls itself for each level, would run out of stack.
+constexpr std::size_t kMostBytes = 32768;
+
 // Nodes are kept in single precision, as tables are: 0.1 in the file is the float nearest to it.
 std::vector<double> InSinglePrecision(std::vector<double> nodes) {
   for (double& node : nodes) node = static_cast<float>(node);
@@ -137,10 +141,11 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(SpectrumKind spectrum, Nodes nod
 
 // What the table would refuse after the work is refused before it.
 absl::Status CheckTable(const Campaign& campaign) {
-  if (ValueCount(campaign.axes, Quantity::kThu) > format::kMaxValueCount) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("the axes make ", ValueCount(campaign.axes, Quantity::kThu),
-                     " cells, more than a table holds (", format::kMaxValueCount, "): give fewer nodes"));
+  std::size_t most_nodes = format::kMaxValueCount;  // Of all axes together: their product could overflow.
+  for (const Axis& axis : campaign.axes) most_nodes /= axis.size();
+  if (most_nodes == 0) {
+    return absl::InvalidArgumentError(absl::StrCat("the axes make more cells than a table holds (",
+                                                   format::kMaxValueCount, "): give fewer nodes"));
   }
   Provenance provenance;
   provenance.id = campaign.id;
@@ -164,6 +169,10 @@ std::optional<BeamProfile> FindBeamProfile(std::string_view name) {
 }
 
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
+  if (text.size() > kMostBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("has ", text.size(), " bytes: a campaign has ", kMostBytes, " at most"));
+  }
   absl::StatusOr<TomlReader> parsed = TomlReader::Parse(text);
   if (!parsed.ok()) return parsed.status();
   TomlReader& toml = *parsed;

@@ -73,8 +73,7 @@ absl::Status RunPlan(const PlanOptions& options) {
                         SecondsOf([&] { AnswerDirectly(*campaign, CheckedPulse(*campaign, 0)); });
   const double least = cost.Of(effort.realizations) + checks;
   const double most = cost.Of(effort.most_realizations) + checks;
-  const std::size_t threads =
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 
   const auto line = [](const char* what, const std::string& value) {
     std::cout << absl::StrFormat("%-24s%s\n", what, value);
@@ -95,7 +94,8 @@ absl::Status RunPlan(const PlanOptions& options) {
   line("time of one core", clock(1));
   line("on this machine", absl::StrFormat("%s, if its %d threads are as good as cores",
                                           clock(static_cast<double>(threads)), threads));
-  if (options.cores > 0) line("on so many cores", absl::StrFormat("%d: %s", options.cores, clock(options.cores)));
+  if (options.cores > 0)
+    line("on so many cores", absl::StrFormat("%d: %s", options.cores, clock(options.cores)));
   return absl::OkStatus();
 }
 

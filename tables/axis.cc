@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "tables/format.h"
 
 namespace albtpu {
 namespace {
@@ -34,6 +35,9 @@ std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, st
                            std::string(schema.units), static_cast<float>(node));
   }
   if (node < 0) return absl::StrCat(WithUnits(node, schema), ": nodes must not be negative");
+  if (node > format::kGreatestNode) {
+    return absl::StrFormat("%s: nodes must not be above %g", WithUnits(node, schema), format::kGreatestNode);
+  }
   if (scale == Scale::kLog && node == 0) {
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
@@ -43,6 +47,10 @@ std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, st
   if (index > 0 && !(node > nodes[index - 1])) {
     return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
                            index - 1, WithUnits(nodes[index - 1], schema));
+  }
+  if (index > 0 && node - nodes[index - 1] < format::kLeastNodeDistance) {
+    return absl::StrFormat("%s, too close to node %d (%s): nodes must be %g apart", WithUnits(node, schema),
+                           index - 1, WithUnits(nodes[index - 1], schema), format::kLeastNodeDistance);
   }
   return "";
 }

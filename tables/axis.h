@@ -23,7 +23,7 @@ class Axis {
  public:
   // Fails with InvalidArgument, naming the axis and the node, when there is no node, when a node is not
   // finite, is not representable in float32, is negative, does not increase, or is not positive on a log
-  // scale; or when an azimuth is above 90 degrees.
+  // scale; when it breaks the limits of format.h; or when an azimuth is above 90 degrees.
   static absl::StatusOr<Axis> Create(AxisId id, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(AxisId id, std::vector<double> nodes, Scale scale);
 

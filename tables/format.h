@@ -34,6 +34,15 @@ inline constexpr std::string_view kFillValue = "_FillValue";
 inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
 inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
 
+// The greatest node, the least distance between two, and the greatest magnitude of a value, in the units of
+// each: far beyond any sea, and so that single precision can interpolate between them.
+inline constexpr double kGreatestNode = 1e9;
+inline constexpr double kLeastNodeDistance = 1e-6;
+inline constexpr float kGreatestValue = 1e6f;
+
+// The most bytes of an attribute. The longest, the campaign, has some thousand.
+inline constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
+
 // A chunk holds at most this many values (256 KiB).
 inline constexpr std::size_t kMaxChunkValues = std::size_t{1} << 16;
 

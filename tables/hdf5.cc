@@ -1,11 +1,13 @@
 #include "tables/hdf5.h"
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_format.h"
+#include "tables/format.h"
 
 namespace albtpu::hdf5 {
 namespace {
@@ -59,8 +61,18 @@ absl::Status Unreadable(const std::string& name) {
   return absl::InvalidArgumentError(absl::StrFormat("attribute '%s' cannot be read", name));
 }
 
+// Before anything of the size that an attribute claims is allocated.
+absl::Status CheckSize(std::size_t count, std::size_t size, const std::string& name) {
+  if (count <= format::kMaxAttributeBytes / size) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrFormat("attribute '%s' is longer than %d bytes, the most that one may have", name,
+                      format::kMaxAttributeBytes));
+}
+
 absl::StatusOr<AttributeValue> ReadFixedText(hid_t attribute, hid_t type, const std::string& name) {
-  std::string text(H5Tget_size(type), '\0');
+  const std::size_t size = H5Tget_size(type);
+  if (const absl::Status status = CheckSize(size, 1, name); !status.ok()) return status;
+  std::string text(size, '\0');
   const Handle memory_type(H5Tcopy(type), H5Tclose);
   if (H5Aread(attribute, memory_type, text.data()) < 0) return Unreadable(name);
   return text.substr(0, text.find('\0'));
@@ -83,6 +95,7 @@ absl::StatusOr<AttributeValue> ReadNumber(hid_t attribute, hid_t memory_type, co
 }
 
 absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const std::string& name) {
+  if (const absl::Status status = CheckSize(count, sizeof(double), name); !status.ok()) return status;
   std::vector<double> numbers(count);
   if (H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0) return Unreadable(name);
   return numbers;
@@ -90,12 +103,21 @@ absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const
 
 }  // namespace
 
+// All that we open we close, so that nothing is left for HDF5's exit handler but what HDF5 1.10 lost on files
+// that proved damaged: parts of object headers that it never frees, of which it prints "infinite loop closing
+// library", and files whose closing failed, which it freed, keeps the identifiers of, and would close again.
 Session::Session() : lock_(ProcessLock()) {
+  [[maybe_unused]] static const herr_t without_exit_handler = H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 Session::~Session() { H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_); }
+
+std::string NameInMemory() {
+  static std::atomic<std::uint64_t> count = 0;
+  return absl::StrFormat("/dev/null/table-%d", ++count);
+}
 
 // The in-memory driver wants to own its image. These callbacks lend it ours: what it allocates, copies and
 // frees is the one buffer, which is their user data.
@@ -115,7 +137,8 @@ Handle OpenImage(absl::string_view bytes) {
   H5Pset_fapl_core(access, kIncrement, kOnDisk);
   H5Pset_file_image_callbacks(access, &callbacks);
   H5Pset_file_image(access, buffer, bytes.size());
-  return Handle(H5Fopen("table", H5F_ACC_RDONLY, access), H5Fclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);  // An object that HDF5 lost does not keep our bytes in use.
+  return Handle(H5Fopen(NameInMemory().c_str(), H5F_ACC_RDONLY, access), H5Fclose);
 }
 
 bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value) {

@@ -5,7 +5,9 @@
 #include <hdf5.h>
 
 #include <mutex>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/string_view.h"
 #include "tables/uncertainty_table.h"
@@ -13,7 +15,7 @@
 namespace albtpu::hdf5 {
 
 // While one lives, no other thread of the process is in HDF5 through us, and HDF5 prints nothing to standard
-// error.
+// error. Nor does it at the end of the program, where it would go through what damaged files made it lose.
 class Session {
  public:
   Session();
@@ -45,6 +47,12 @@ class Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
+
+// What HDF5 calls a file in memory: another name each time, since of two files of one name it takes the
+// second to be the first, whatever their bytes, for as long as it has that open; and damage may keep it open.
+// It looks for the name on disk, too, and if there is such a file it refuses the bytes; behind a device there
+// is none.
+std::string NameInMemory();
 
 // Opens the bytes of a file in memory, without a copy, to be read only. They must outlive what is returned.
 Handle OpenImage(absl::string_view bytes);

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "tables/dataset_storage.h"
 #include "tables/format.h"
 #include "tables/hdf5.h"
 #include "tables/seal.h"
@@ -36,9 +37,16 @@ struct FloatDataset {
   std::vector<hsize_t> shape;
 };
 
+// Links to elsewhere would be followed out of the file.
+bool IsOfThisFile(hid_t file, const std::string& name) {
+  H5L_info_t link;
+  return H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
+}
+
 absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std::string_view name_view) {
   const std::string name(name_view);
   if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) return About(kind, name, "is missing");
+  if (!IsOfThisFile(file, name)) return About(kind, name, "is a link: it should be a dataset of this file");
   Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset) return About(kind, name, "is not a dataset");
   const Handle type(H5Dget_type(dataset), H5Tclose);
@@ -55,6 +63,9 @@ absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std:
 
 // Requires that the shape has been checked.
 absl::StatusOr<std::vector<float>> ReadFloats(const FloatDataset& from, std::string_view kind) {
+  if (const absl::Status status = hdf5::CheckStorage(from.dataset, from.shape); !status.ok()) {
+    return About(kind, from.name, std::string(status.message()));
+  }
   std::size_t count = 1;
   for (hsize_t size : from.shape) count *= size;
   std::vector<float> values(count);

@@ -66,7 +66,7 @@ class Encoder {
     H5Pset_fapl_core(access, kIncrement, kOnDisk);
     // The oldest superblock: of a newer one, HDF5 1.10 hands out an image that fails its own checksum.
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18);
-    return Handle(H5Fcreate("table", H5F_ACC_TRUNC, creation, access), H5Fclose);
+    return Handle(H5Fcreate(hdf5::NameInMemory().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   }
 
   static Handle DatasetCreation() {

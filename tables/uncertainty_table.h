@@ -18,8 +18,8 @@ namespace albtpu {
 // A quantity at every node, row-major in the order of kAxes (depth fastest; without depth where the quantity
 // has none).
 struct Variable {
-  std::vector<float> values;           // Finite; not negative unless a bias.
-  std::vector<float> standard_errors;  // The same shape; finite, not negative. Empty: not known.
+  std::vector<float> values;           // Finite, 1e6 at most; not negative unless a bias.
+  std::vector<float> standard_errors;  // The same shape; so too, not negative. Empty: not known.
   Scale scale =
       Scale::kLinear;  // kLog only where all values are positive. Standard errors are always linear.
 };

@@ -14,10 +14,11 @@ namespace fs = std::filesystem;
 
 constexpr double kWorthTiming = 2;  // s
 
-// Whether later files can fare better than this one did: not where the source has failed, or the disk is full.
+// Whether later files can fare better than this one did: not where the source has failed, or takes the token no
+// more, or the disk is full.
 bool IsOfOneFile(const absl::Status& status) {
   return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status) &&
-         !absl::IsResourceExhausted(status);
+         !absl::IsResourceExhausted(status) && !absl::IsUnauthenticated(status);
 }
 
 std::uint64_t SizeOf(const fs::path& path) {

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/client/answer_reader.h"
+#include "service/client/grpc_error.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
@@ -78,9 +79,7 @@ class Call {
       }
     }
     if (!failure_.ok()) return failure_;
-    // Both have the canonical numbers.
-    const auto code = static_cast<absl::StatusCode>(status_.error_code());
-    if (!status_.ok()) return absl::Status(code, status_.error_message());
+    if (!status_.ok()) return FromGrpc(status_);
     if (answered_ < task_.pulses.size) return absl::UnavailableError("it ended the call early");
     return absl::OkStatus();
   }

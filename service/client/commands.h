@@ -15,5 +15,6 @@ void AddPulseCommand(CLI::App& program, Run& run);
 void AddCsvCommand(CLI::App& program, Run& run);
 void AddLasCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
+void AddHealthCommand(CLI::App& program, Run& run);
 
 }  // namespace albtpu::client

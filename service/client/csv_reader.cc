@@ -23,13 +23,14 @@ struct RecordEnd {
   std::size_t size = 0;       // With it.
   bool open = false;          // The text ends first; `open_quote` tells whether within a quoted cell.
   bool open_quote = false;
+  bool open_return = false;        // The text ends behind a closing quote and a carriage return.
   bool text_behind_quote = false;  // At `size`: an error.
 };
 
 // Calls `cell_begins(offset)` for each cell but the first.
 template <typename CellBegins>
 RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cell_begins) {
-  enum class State { kCellStart, kPlain, kQuoted, kQuoteInQuoted };
+  enum class State { kCellStart, kPlain, kQuoted, kQuoteInQuoted, kReturnBehindQuote };
   State state = State::kCellStart;
   for (std::size_t i = begin; i < text.size(); ++i) {
     const char character = text[i];
@@ -41,17 +42,22 @@ RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cel
       const bool carriage_return = i > begin && text[i - 1] == '\r';
       return {.text_size = i - carriage_return, .size = i + 1};
     }
+    if (state == State::kReturnBehindQuote) return {.size = i, .text_behind_quote = true};
     if (character == ',') {
       state = State::kCellStart;
       cell_begins(i + 1);
     } else if (state == State::kQuoteInQuoted) {
       if (character != '"' && character != '\r') return {.size = i, .text_behind_quote = true};
-      state = character == '"' ? State::kQuoted : State::kPlain;
+      state = character == '"' ? State::kQuoted : State::kReturnBehindQuote;
     } else {
       state = state == State::kCellStart && character == '"' ? State::kQuoted : State::kPlain;
     }
   }
-  return {.text_size = text.size(), .size = text.size(), .open = true, .open_quote = state == State::kQuoted};
+  return {.text_size = text.size(),
+          .size = text.size(),
+          .open = true,
+          .open_quote = state == State::kQuoted,
+          .open_return = state == State::kReturnBehindQuote};
 }
 
 std::size_t AfterByteOrderMark(std::string_view text, std::size_t line) {
@@ -100,7 +106,7 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   record.cell_begins.assign(1, begin);
   const RecordEnd end =
       FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
-  if (end.text_behind_quote) {
+  if (end.text_behind_quote || end.open_return) {
     return absl::InvalidArgumentError(absl::StrCat(
         std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
         record.cell_count(), ": text follows a closing quote: double the quotes inside a quoted cell"));

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "absl/strings/cord.h"
+#include "service/client/error_details.h"
+#include "service/printable_text.h"
 
 namespace albtpu::client {
 namespace {
@@ -23,7 +25,7 @@ bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsageP
 
 int Report(const absl::Status& status) {
   if (status.ok()) return 0;
-  Note(std::string(status.message()));
+  Note(MessageWithDetails(status));
   return IsUsageError(status) ? kExitUsage : kExitFailure;
 }
 
@@ -33,7 +35,7 @@ absl::Status FlushAnswers() {
 }
 
 void Note(std::string_view message) {
-  std::fprintf(stderr, "albtpu-query: %.*s\n", static_cast<int>(message.size()), message.data());
+  std::fprintf(stderr, "albtpu-query: %s\n", PrintableText(message).c_str());  // Some of it a server's.
 }
 
 }  // namespace albtpu::client

@@ -42,8 +42,10 @@ std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
   for (std::size_t at = upper.find("UNIT"); at != std::string::npos; at = upper.find("UNIT", at + 1)) {
     const std::size_t open = upper.find_first_not_of(" \t\r\n", at + 4);
     if (open == std::string::npos || (upper[open] != '[' && upper[open] != '(')) continue;
-    const std::size_t name_begin = upper.find('"', open);
+    // Its name follows at once: looking further would take the square of a long text's length.
+    const std::size_t name_begin = upper.find_first_not_of(" \t\r\n", open + 1);
     if (name_begin == std::string::npos) break;
+    if (upper[name_begin] != '"') continue;
     const std::size_t name_end = upper.find('"', name_begin + 1);
     if (name_end == std::string::npos) break;
     const std::string name = upper.substr(name_begin + 1, name_end - name_begin - 1);

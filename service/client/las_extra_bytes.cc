@@ -80,12 +80,24 @@ std::string UncertaintyEntry(std::string_view name, Coverage coverage) {
   return entry;
 }
 
-// "undocumented", with a number behind it if the name is taken.
-std::string FreeName(const std::set<std::string, std::less<>>& taken) {
-  std::string name = "undocumented";
-  for (int i = 2; taken.count(name) > 0; ++i) name = absl::StrCat("undocumented_", i);
-  return name;
-}
+// Names that are not taken: "undocumented", then with a number behind it, each but once.
+class FreeNames {
+ public:
+  explicit FreeNames(const std::set<std::string, std::less<>>& taken) : taken_(taken) {}
+
+  std::string Next() {
+    std::string name;
+    do {
+      ++count_;
+      name = count_ == 1 ? "undocumented" : absl::StrCat("undocumented_", count_);
+    } while (taken_.count(name) > 0);
+    return name;
+  }
+
+ private:
+  const std::set<std::string, std::less<>>& taken_;
+  int count_ = 0;
+};
 
 }  // namespace
 
@@ -104,11 +116,10 @@ absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::st
                                   ": as many as there are is right"));
   }
   std::string record(described);
+  FreeNames free_names(known->names);
   for (std::size_t left = extra_bytes - known->bytes; left > 0;) {
     const std::size_t bytes = std::min(left, kMostUndocumented);
-    const std::string free_name = FreeName(known->names);
-    known->names.insert(free_name);
-    record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_name, "");
+    record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }
   record += UncertaintyEntry(kThuName, coverage);

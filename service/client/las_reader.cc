@@ -21,7 +21,9 @@ constexpr std::string_view kLaszipUser = "laszip encoded";
 LasReader::LasReader(std::string name, std::FILE* file) : name_(std::move(name)), file_(file) {}
 
 absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
+  // A pipe that nobody writes to is opened, and refused, at once.
+  const int descriptor = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "rb");
   if (file == nullptr) {
     const int error = errno;
     return absl::Status(

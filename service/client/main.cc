@@ -1,11 +1,13 @@
 // albtpu-query: asks for the uncertainty of pulses, of CSV files and of LAS files. Flags, then a command.
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/mutex.h"
 #include "service/client/commands.h"
 #include "service/client/exit_status.h"
 #include "tables/version.h"
@@ -28,6 +30,7 @@ int Main(int argc, char** argv) {
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
   AddTablesCommand(program, run);
+  AddHealthCommand(program, run);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -44,8 +47,13 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file grown past its limit is an error of write(), not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  // Debian's Abseil looks for cycles of locks at every lock that gRPC takes.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   // Work does not end because nobody reads its messages; answers that nobody reads are an error of writing.
   std::signal(SIGPIPE, SIG_IGN);
+  setenv("GRPC_VERBOSITY", "NONE", 0);  // What gRPC logs is in its errors too; who wants both says so.
   try {
     return Main(argc, argv);
   } catch (const std::exception& error) {

@@ -55,10 +55,24 @@ const char* DescribeFlag(AxisId axis) {
   return "";
 }
 
-void AddSourceOptions(CLI::App& command, SourceOptions& options) {
-  CLI::Option* server = command.add_option("--server", options.server, "Ask the service at HOST:PORT")
-                            ->type_name("HOST:PORT")
-                            ->check(CheckHostAndPort);
+// Each of them means TLS.
+void AddCredentialOptions(CLI::App& command, CLI::Option* server, Credentials& credentials) {
+  const auto add = [&](const char* flag, std::string& path, const char* description) {
+    return command.add_option(flag, path, description)
+        ->type_name("FILE")
+        ->check(CheckNotEmpty)
+        ->needs(server);
+  };
+  add("--tls-ca", credentials.ca, "Talk TLS; these authorities vouch for the server (PEM)");
+  CLI::Option* certificate =
+      add("--tls-cert", credentials.certificate, "Talk TLS; show this certificate (PEM)");
+  CLI::Option* key = add("--tls-key", credentials.key, "Its key (PEM)");
+  certificate->needs(key);
+  key->needs(certificate);
+  add("--token-file", credentials.token, "Talk TLS; send the token in this file with every call");
+}
+
+void AddTableOptions(CLI::App& command, CLI::Option* server, SourceOptions& options) {
   command.add_option("--table", options.file, "Answer from this table file, without a server")
       ->type_name("FILE.h5")
       ->check(CheckNotEmpty)
@@ -102,8 +116,19 @@ void AddOverwrite(CLI::App& command, Existing& existing) {
 
 }  // namespace
 
+CLI::Option* AddServerOptions(CLI::App& command, SourceOptions& options) {
+  CLI::Option* server =
+      command
+          .add_option("--server", options.server,
+                      "Ask the service at HOST:PORT, or at dns:///NAME:PORT all servers of a name in turn")
+          ->type_name("HOST:PORT")
+          ->check(CheckHostAndPort);
+  AddCredentialOptions(command, server, options.credentials);
+  return server;
+}
+
 void AddSharedOptions(CLI::App& command, SharedOptions& options) {
-  AddSourceOptions(command, options.source);
+  AddTableOptions(command, AddServerOptions(command, options.source), options.source);
   AddStyleOptions(command, options.style);
   command.add_flag_callback(
       "--standard-errors", [&options] { options.style.standard_errors = true; },

@@ -18,11 +18,14 @@ namespace albtpu::client {
 // What every command takes. Those that write no file ignore --overwrite; `tables` ignores how answers are
 // given.
 struct SharedOptions {
-  SourceOptions source;                 // --server, --table, --table-name
+  SourceOptions source;                 // --server, --table, --table-name, --tls-ca and the like
   AnswerStyle style;                    // --coverage, --s44-order, --standard-errors
   Existing existing = Existing::kKeep;  // --overwrite
 };
 void AddSharedOptions(CLI::App& command, SharedOptions& options);
+
+// --server, which is given back, --tls-ca and the like alone.
+CLI::Option* AddServerOptions(CLI::App& command, SourceOptions& options);
 
 // Input and output files of an `extension`, such as ".las".
 void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options);

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -52,6 +53,30 @@ int RenameToFreeName(const char* from, const char* to) {
   return std::rename(from, to);
 }
 
+std::string InProc(int descriptor) { return absl::StrCat("/proc/self/fd/", descriptor); }
+
+// A file in `folder` that has no name, and is gone when the program is, whatever ends it. Negative where the
+// file system has none such (NFS) or they could not get a name.
+int OpenNameless(const std::filesystem::path& folder) {
+  const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0 || access(InProc(descriptor).c_str(), F_OK) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+// Calls `make` with names of temporary files in `folder` until it makes one that did not exist, or fails for
+// another reason; returns its result.
+template <typename Make>
+int MakeTemporary(const std::filesystem::path& folder, std::string& name, Make make) {
+  int result = -1;
+  for (int attempt = 0; result < 0; ++attempt) {
+    name = folder / absl::StrCat(".albtpu-", getpid(), "-", attempt, ".part");
+    result = make(name.c_str());
+    if (result < 0 && errno != EEXIST) break;
+  }
+  return result;
+}
+
 std::filesystem::path FolderOf(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
@@ -60,11 +85,11 @@ std::filesystem::path FolderOf(const std::filesystem::path& path) {
 
 struct OutputFile::Temporary {
   std::filesystem::path path;  // Where the whole file will be.
-  std::string temporary_path;  // Empty once there is nothing to remove.
   Existing existing;
-  int descriptor;  // Negative once it is closed.
+  int descriptor;                   // Negative once it is closed.
+  std::string temporary_path = {};  // Empty while there is nothing to remove.
   std::uint64_t size = 0, handed_to_disk = 0;
-  RemovedOnSignal removed_on_signal;
+  std::optional<RemovedOnSignal> removed_on_signal = {};
 };
 
 void OutputFile::Discard::operator()(Temporary* temporary) const {
@@ -77,17 +102,14 @@ OutputFile::OutputFile(std::unique_ptr<Temporary> temporary) : temporary_(tempor
 
 absl::StatusOr<OutputFile> OutputFile::Create(const std::filesystem::path& path, Existing existing) {
   if (absl::Status status = CheckTarget(path, existing); !status.ok()) return status;
-  std::string temporary_path;
-  int descriptor = -1;
-  for (int attempt = 0; descriptor < 0; ++attempt) {
-    temporary_path = FolderOf(path) / absl::StrCat(".albtpu-", getpid(), "-", attempt, ".part");
-    descriptor = open(temporary_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0 && errno != EEXIST) {
-      return SystemError(path, "name a folder that exists and can be written");
-    }
-  }
-  return OutputFile(std::unique_ptr<Temporary>(
-      new Temporary{path, temporary_path, existing, descriptor, 0, 0, RemovedOnSignal(temporary_path)}));
+  std::unique_ptr<Temporary> temporary(new Temporary{path, existing, OpenNameless(FolderOf(path))});
+  if (temporary->descriptor >= 0) return OutputFile(std::move(temporary));
+  temporary->descriptor = MakeTemporary(FolderOf(path), temporary->temporary_path, [](const char* name) {
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  });
+  if (temporary->descriptor < 0) return SystemError(path, "name a folder that exists and can be written");
+  temporary->removed_on_signal.emplace(temporary->temporary_path);
+  return OutputFile(std::move(temporary));
 }
 
 absl::Status OutputFile::Write(std::string_view bytes) {
@@ -119,6 +141,16 @@ absl::Status OutputFile::Sync() {
 absl::Status OutputFile::Commit() {
   Temporary& temporary = *temporary_;
   if (absl::Status status = Sync(); !status.ok()) return status;
+  if (temporary.temporary_path.empty()) {
+    std::string name;
+    const std::string nameless = InProc(temporary.descriptor);
+    const int linked = MakeTemporary(FolderOf(temporary.path), name, [&nameless](const char* new_name) {
+      return linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, new_name, AT_SYMLINK_FOLLOW);
+    });
+    if (linked != 0) return SystemError(temporary.path, kWritingFailed);
+    temporary.removed_on_signal.emplace(name);
+    temporary.temporary_path = name;
+  }
   if (close(std::exchange(temporary.descriptor, -1)) != 0) return SystemError(temporary.path, kWritingFailed);
   // Again: somebody may have put a file there while we worked.
   if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;

@@ -12,8 +12,9 @@
 
 namespace albtpu::client {
 
-// Writes to a temporary name in the same folder. Commit() syncs and renames; without it the temporary file is
-// removed, by the destructor or when a signal (HUP, INT, TERM) ends the program.
+// Writes to a file without a name in the same folder, which goes when the program does. Commit() syncs and
+// gives it its name. Where the file system has no such files (NFS), it has a temporary name, and without
+// Commit() is removed by the destructor or when a signal (HUP, INT, TERM) ends the program.
 class OutputFile {
  public:
   // AlreadyExists when `path` exists and is to be kept. FailedPrecondition when it is something other than a

@@ -51,7 +51,7 @@ class Progress {
   std::uint64_t total_bytes_;
   bool terminal_;
   Clock::time_point start_, last_shown_;
-  std::size_t file_ = 0;  // From 1.
+  std::size_t file_ = 0;                                 // From 1.
   std::uint64_t bytes_before_ = 0, records_before_ = 0;  // Of the files that ended.
   bool drawn_ = false;
 };

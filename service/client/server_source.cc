@@ -3,13 +3,16 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/client/channel.h"
 #include "service/client/column_exchange.h"
+#include "service/client/grpc_error.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
@@ -20,23 +23,11 @@ using albtpu::v1::UncertaintyService;
 // For what a healthy server answers at once.
 constexpr std::chrono::seconds kDeadline{60};
 
+// Who names a server that is not there learns it within a second.
+constexpr int kMostRetriesOfTheFirst = 3;
+
 void SetDeadline(grpc::ClientContext& context) {
   context.set_deadline(std::chrono::system_clock::now() + kDeadline);
-}
-
-absl::Status FromServer(const std::string& address, const absl::Status& status) {
-  if (status.ok()) return status;
-  std::string message = absl::StrCat("server ", address, ": ", status.message());
-  if (absl::IsUnavailable(status)) {
-    absl::StrAppend(&message, ": start albtpu-serve there, or name the HOST:PORT where it listens");
-  }
-  return absl::Status(status.code(), message);
-}
-
-absl::Status FromServer(const std::string& address, const grpc::Status& status) {
-  // Both have the canonical numbers.
-  const auto code = static_cast<absl::StatusCode>(status.error_code());
-  return FromServer(address, absl::Status(code, status.error_message()));
 }
 
 // Whether the server may answer if asked again: it has gone, or is at its limit.
@@ -44,25 +35,37 @@ bool MayPass(const absl::Status& status) {
   return absl::IsUnavailable(status) || absl::IsResourceExhausted(status);
 }
 
-std::shared_ptr<grpc::Channel> Connect(const std::string& address) {
-  grpc::ChannelArguments arguments;
-  // Else gRPC waits a second and more before it looks again whether a server has come back.
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+// The channel sees that its server is back only while somebody waits for it.
+void Pause(grpc::Channel& channel, std::chrono::milliseconds pause) {
+  const auto until = std::chrono::system_clock::now() + pause;
+  channel.GetState(true);
+  channel.WaitForConnected(until);
+  std::this_thread::sleep_until(until);
+}
+
+// A call before the first pulse. One of several servers may just have gone: then another answers.
+template <typename Ask>
+absl::Status AskOnce(grpc::Channel& channel, const Patience& patience, Ask ask) {
+  for (int retries = 0;; ++retries) {
+    grpc::ClientContext context;
+    SetDeadline(context);
+    const absl::Status status = FromGrpc(ask(context));
+    if (!MayPass(status) || retries == std::min(patience.retries, kMostRetriesOfTheFirst)) return status;
+    Pause(channel, patience.first_pause * (1 << retries));
+  }
 }
 
 absl::StatusOr<TableSummary> GetTable(const std::string& address,
-                                      const std::shared_ptr<grpc::Channel>& channel,
+                                      const std::shared_ptr<grpc::Channel>& channel, const Patience& patience,
                                       const std::string& table) {
-  grpc::ClientContext context;
-  SetDeadline(context);
+  const auto stub = UncertaintyService::NewStub(channel);
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  absl::Status status =
-      FromServer(address, UncertaintyService::NewStub(channel)->GetTable(&context, request, &response));
-  if (!status.ok()) return status;
+  const absl::Status status = AskOnce(*channel, patience, [&](grpc::ClientContext& context) {
+    return stub->GetTable(&context, request, &response);
+  });
+  if (!status.ok()) return FromServer(address, status);
   return FromWire(response.table());
 }
 
@@ -80,14 +83,6 @@ class ServerSource : public UncertaintySource {
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
 
  private:
-  // The channel sees that its server is back only while somebody waits for it.
-  void Pause(std::chrono::milliseconds pause) {
-    const auto until = std::chrono::system_clock::now() + pause;
-    channel_->GetState(true);
-    channel_->WaitForConnected(until);
-    std::this_thread::sleep_until(until);
-  }
-
   const std::string address_;
   const std::shared_ptr<grpc::Channel> channel_;
   grpc::GenericStub stub_;
@@ -108,12 +103,11 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
     if (answered > before) retries = 0;
     if (!MayPass(status)) return FromServer(address_, status);
     if (retries == patience_.retries) {
-      return FromServer(
-          address_, absl::Status(status.code(),
-                                 absl::StrCat(status.message(), " (asked again ", retries, " times, after ",
-                                              answered, " of ", pulses.size, " pulses)")));
+      return FromServer(address_, WithMessage(status, absl::StrCat(status.message(), " (asked again ",
+                                                                   retries, " times, after ", answered,
+                                                                   " of ", pulses.size, " pulses)")));
     }
-    Pause(patience_.first_pause * (1 << retries++));
+    Pause(*channel_, patience_.first_pause * (1 << retries++));
   }
   return absl::OkStatus();
 }
@@ -122,24 +116,27 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
                                                               const std::string& table,
-                                                              const Patience& patience) {
-  const std::shared_ptr<grpc::Channel> channel = Connect(address);
-  absl::StatusOr<TableSummary> summary = GetTable(address, channel, table);
+                                                              const Patience& patience,
+                                                              const Credentials& credentials) {
+  const absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = OpenChannel(address, credentials);
+  if (!channel.ok()) return channel.status();
+  absl::StatusOr<TableSummary> summary = GetTable(address, *channel, patience, table);
   if (!summary.ok()) return summary.status();
-  return std::make_unique<ServerSource>(address, channel, *std::move(summary), patience);
+  return std::make_unique<ServerSource>(address, *channel, *std::move(summary), patience);
 }
 
-absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address) {
-  const std::shared_ptr<grpc::Channel> channel = Connect(address);
-  grpc::ClientContext context;
-  SetDeadline(context);
+absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address,
+                                                           const Credentials& credentials) {
+  const absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = OpenChannel(address, credentials);
+  if (!channel.ok()) return channel.status();
+  const auto stub = UncertaintyService::NewStub(*channel);
   albtpu::v1::ListTablesResponse response;
-  absl::Status status =
-      FromServer(address, UncertaintyService::NewStub(channel)->ListTables(&context, {}, &response));
-  if (!status.ok()) return status;
+  const absl::Status status = AskOnce(
+      **channel, {}, [&](grpc::ClientContext& context) { return stub->ListTables(&context, {}, &response); });
+  if (!status.ok()) return FromServer(address, status);
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {
-    absl::StatusOr<TableSummary> table = GetTable(address, channel, listed.reference().name());
+    absl::StatusOr<TableSummary> table = GetTable(address, *channel, {}, listed.reference().name());
     if (!table.ok()) return table.status();
     table->is_default = listed.reference().name() == response.default_table();
     tables.push_back(*std::move(table));

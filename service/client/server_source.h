@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "service/client/credentials.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
@@ -21,8 +22,9 @@ struct Patience {
 // Asks in columns, so many pulses at a time as a message may hold, several messages ahead of the answers. The
 // table is fixed when the source is opened: every answer must come from its content.
 //
-// `address` is HOST:PORT, `table` what to ask for, empty for the server's default. A server that is not there
-// from the beginning is not waited for.
+// `address` is HOST:PORT, or `dns:///NAME:PORT` where a name has several servers: calls of Answer take turns
+// with them, and what one leaves unanswered when it goes is asked of another. `table` is what to ask for, empty
+// for the server's default. A server that is not there from the beginning is asked for less than a second.
 //
 // Example:
 //   const auto server = OpenServer("127.0.0.1:50051", "");
@@ -31,9 +33,11 @@ struct Patience {
 // with the columns of the example in column_query.h.
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenServer(const std::string& address,
                                                               const std::string& table,
-                                                              const Patience& patience = {});
+                                                              const Patience& patience = {},
+                                                              const Credentials& credentials = {});
 
 // All tables of a server.
-absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address);
+absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& address,
+                                                           const Credentials& credentials = {});
 
 }  // namespace albtpu::client

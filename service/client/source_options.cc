@@ -73,7 +73,9 @@ bool HasName(const TableSummary& table, const std::string& name) {
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options) {
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   if (!options.file.empty()) return OpenFile("", options.file);
-  if (!options.server.empty()) return OpenServer(options.server, options.name);
+  if (!options.server.empty()) {
+    return OpenServer(options.server, options.name, {}, options.credentials);
+  }
   const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
   if (!tables.ok()) return tables.status();
   const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);
@@ -85,7 +87,7 @@ absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& option
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   std::vector<TableSummary> tables;
   if (!options.server.empty()) {
-    absl::StatusOr<std::vector<TableSummary>> listed = ListServerTables(options.server);
+    absl::StatusOr<std::vector<TableSummary>> listed = ListServerTables(options.server, options.credentials);
     if (!listed.ok()) return listed.status();
     tables = *std::move(listed);
   } else if (!options.file.empty()) {

@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "service/client/credentials.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
 
 // At most one of `server` and `file` is set. Neither: the installed tables, in this process.
 struct SourceOptions {
-  std::string server = {};  // HOST:PORT
-  std::string file = {};    // FILE.h5
-  std::string name = {};    // NAME or NAME/VERSION among several; empty: the default.
+  std::string server = {};       // HOST:PORT
+  Credentials credentials = {};  // For it.
+  std::string file = {};         // FILE.h5
+  std::string name = {};         // NAME or NAME/VERSION among several; empty: the default.
 };
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options);

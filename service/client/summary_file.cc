@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr char kProgram[] = "albtpu-query";
+constexpr std::uint64_t kLargestSummary = 1 << 20;  // Bytes; ours have some thousand.
+constexpr int kDeepestSummary = 8;                  // Levels; ours have 4.
 
 Json TableJson(const TableSummary& table) {
   return {{"id", table.id}, {"version", table.version}, {"digest", table.digest}};
@@ -26,11 +28,14 @@ std::uint64_t SizeOf(const fs::path& path) {
   return ignored ? 0 : size;
 }
 
-// An empty object where there is no summary that can be read.
+// An empty object where there is no summary that can be read. What is nested deeper than any summary is left out.
 Json ReadSummary(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  Json json = Json::parse(text, nullptr, false);
+  const auto is_shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepestSummary; };
+  Json json = Json::parse(text, is_shallow, false);
   return json.is_object() ? json : Json::object();
 }
 
@@ -98,8 +103,9 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
   if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram) {
     return absl::OkStatus();
   }
+  const fs::path& there = fs::exists(job.output, error) ? job.output : summary;
   return absl::AlreadyExistsError(
-      absl::StrCat(summary.string(), ": exists already: choose another name, or --overwrite it"));
+      absl::StrCat(there.string(), ": exists already: choose another name, or --overwrite it"));
 }
 
 absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,

@@ -37,8 +37,6 @@ void InstallHandlers() {
     action.sa_handler = RemoveTemporariesAndEnd;
     sigaction(signal, &action, nullptr);
   }
-  // A file grown past its limit is an error of write(), not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace

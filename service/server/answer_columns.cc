@@ -80,7 +80,7 @@ AnswerColumns AddColumns(const Question& question, const QuantitySelection& sele
 }  // namespace
 
 absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
-                             ColumnMessage& response) {
+                             ColumnMessage& response, OutcomeTally& tally) {
   const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
   if (!question.ok()) return question.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
@@ -93,8 +93,9 @@ absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumns
   head.set_pulse_count(static_cast<int>(pulses->size));
   head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
   response.Add(head);
-  AnswerOnAllCores(question->source->interpolator, question->query, *pulses,
-                   AddColumns(*question, *selection, pulses->size, response));
+  const AnswerColumns answers = AddColumns(*question, *selection, pulses->size, response);
+  AnswerOnAllCores(question->source->interpolator, question->query, *pulses, answers);
+  tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
   return absl::OkStatus();
 }
 

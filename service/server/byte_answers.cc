@@ -9,6 +9,7 @@
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/column_message.h"
 #include "service/server/answer_columns.h"
+#include "service/server/field_violations.h"
 #include "service/server/pulse_rows.h"
 #include "service/server/status.h"
 
@@ -42,30 +43,30 @@ grpc::ByteBuffer Serialized(const google::protobuf::Message& message) {
 }  // namespace
 
 grpc::Status AnswerQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response) {
+                               grpc::ByteBuffer& response, OutcomeTally& tally) {
   return ToRequest<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
     v1::QueryPulsesResponse answers;
-    const absl::Status status = AnswerInRows(catalog, rows, answers);
+    const absl::Status status = AnswerInRows(catalog, rows, answers, tally);
     if (status.ok()) response = Serialized(answers);
     return status;
   });
 }
 
 grpc::Status AnswerQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                                grpc::ByteBuffer& response) {
+                                grpc::ByteBuffer& response, OutcomeTally& tally) {
   return ToRequest<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
     ColumnMessage answers;
-    const absl::Status status = AnswerInColumns(catalog, columns, answers);
+    const absl::Status status = AnswerInColumns(catalog, columns, answers, tally);
     if (status.ok()) response = answers.Finish();
     return status;
   });
 }
 
 grpc::Status AnswerStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                                 grpc::ByteBuffer& response) {
+                                 grpc::ByteBuffer& response, OutcomeTally& tally) {
   return ToRequest<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
     ColumnMessage answers;
-    const absl::Status status = AnswerInColumns(catalog, exchange.query(), answers);
+    const absl::Status status = Within("query", AnswerInColumns(catalog, exchange.query(), answers, tally));
     answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
     if (status.ok()) response = answers.Finish();
     return status;

@@ -5,19 +5,21 @@
 #include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/status.h>
 
+#include "service/server/outcome_tally.h"
 #include "service/server/table_catalog.h"
 
 namespace albtpu::server {
 
-// Writes `response` if the status is OK. Bytes that are no message of the method are INVALID_ARGUMENT.
+// Writes `response` and counts its pulses in `tally` if the status is OK. Bytes that are no message of the
+// method are INVALID_ARGUMENT.
 using ByteAnswer = grpc::Status (*)(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                                    grpc::ByteBuffer& response);
+                                    grpc::ByteBuffer& response, OutcomeTally& tally);
 
 grpc::Status AnswerQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                               grpc::ByteBuffer& response);
+                               grpc::ByteBuffer& response, OutcomeTally& tally);
 grpc::Status AnswerQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                                grpc::ByteBuffer& response);
+                                grpc::ByteBuffer& response, OutcomeTally& tally);
 grpc::Status AnswerStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
-                                 grpc::ByteBuffer& response);  // One exchange.
+                                 grpc::ByteBuffer& response, OutcomeTally& tally);  // One exchange.
 
 }  // namespace albtpu::server

@@ -1,17 +1,27 @@
 #include "service/server/column_stream.h"
 
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
 #include "service/server/byte_answers.h"
 #include "service/server/limits.h"
+#include "service/server/status.h"
 
 namespace albtpu::server {
 
-ColumnStream::ColumnStream(const TableCatalog& catalog, Workers& workers,
-                           const grpc::CallbackServerContext& context)
-    : catalog_(catalog), workers_(workers), context_(context) {
+ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers& workers,
+                           const CallRecord& record, grpc::CallbackServerContext& context)
+    : catalog_(std::move(catalog)),
+      workers_(workers),
+      record_(record),
+      context_(context),
+      idle_watch_(kMaxStreamIdle, [this] { EndIdle(); }) {
   StartRead(&next_);
 }
 
 void ColumnStream::OnReadDone(bool ok) {
+  idle_watch_.Moved();
   {
     const std::lock_guard lock(mutex_);
     (ok ? waiting_ : read_all_) = true;
@@ -20,6 +30,7 @@ void ColumnStream::OnReadDone(bool ok) {
 }
 
 void ColumnStream::OnWriteDone(bool ok) {
+  idle_watch_.Moved();
   answer_.Clear();
   {
     const std::lock_guard lock(mutex_);
@@ -45,22 +56,46 @@ void ColumnStream::Proceed() {
     if (answer) current_.Swap(&next_);
   }
   // The lock is open: once the call is finished it may be gone.
-  if (!answer) return Finish(grpc::Status::OK);
+  if (!answer) return End(context_.IsCancelled() ? grpc::Status::CANCELLED : grpc::Status::OK);
+  asked_ = CallRecord::Clock::now();
   StartRead(&next_);
   if (current_.Length() <= kMaxInlineBytes) return Answer();
   workers_.Run([this] { Answer(); });
 }
 
+grpc::Status ColumnStream::MakeAnswer() {
+  const RequestScope scope(record_.request_id());
+  OutcomeTally tally;
+  const grpc::Status status = AnswerStreamColumns(*catalog_, current_, answer_, tally);
+  if (status.ok()) record_.CountAnswer(tally, asked_);
+  return status;
+}
+
 void ColumnStream::Answer() {
-  const grpc::Status status =
-      context_.IsCancelled() ? grpc::Status::CANCELLED : AnswerStreamColumns(catalog_, current_, answer_);
+  const grpc::Status status = context_.IsCancelled() ? grpc::Status::CANCELLED : MakeAnswer();
   current_.Clear();
   if (status.ok()) return StartWrite(&answer_);
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
   }
+  End(status);
+}
+
+void ColumnStream::End(const grpc::Status& status) {
+  record_.End(status);
   Finish(status);
+}
+
+void ColumnStream::EndIdle() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (ended_) return;
+    if (busy_) return context_.TryCancel();
+    ended_ = true;
+  }
+  End(ToGrpcStatus(absl::DeadlineExceededError(absl::StrCat(
+      "no request for ", kMaxStreamIdle.count(), " s: end a stream when all is asked, and begin another"))));
 }
 
 }  // namespace albtpu::server

@@ -3,8 +3,11 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <memory>
 #include <mutex>
 
+#include "service/server/call_record.h"
+#include "service/server/idle_watch.h"
 #include "service/server/table_catalog.h"
 #include "service/server/workers.h"
 
@@ -13,10 +16,15 @@ namespace albtpu::server {
 // One answer after the other. While one is made and sent, the request after it is received and waits: a
 // stream holds two requests and an answer at most, however slowly its caller reads.
 //
+// Where nothing moves for kMaxStreamIdle the call ends: with DEADLINE_EXCEEDED if it is the next request that
+// does not come, else, its caller reads no more, as if cancelled.
+//
 // Lives until the call is done. Has been admitted to `workers`, and leaves them then.
 class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  ColumnStream(const TableCatalog& catalog, Workers& workers, const grpc::CallbackServerContext& context);
+  // All answers come from `catalog`.
+  ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers& workers, const CallRecord& record,
+               grpc::CallbackServerContext& context);
 
  private:
   void OnReadDone(bool ok) override;
@@ -26,10 +34,14 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   // What can be done now: answer the request that waits, end the call, or nothing yet.
   void Proceed();
   void Answer();
+  grpc::Status MakeAnswer();
+  void End(const grpc::Status& status);
+  void EndIdle();
 
-  const TableCatalog& catalog_;
+  const std::shared_ptr<const TableCatalog> catalog_;
   Workers& workers_;
-  const grpc::CallbackServerContext& context_;
+  CallRecord record_;  // For one thread at a time: that which answers, or that which ends the call.
+  grpc::CallbackServerContext& context_;
 
   std::mutex mutex_;       // Guards those before the blank line.
   bool waiting_ = false;   // `next_` holds a request.
@@ -38,6 +50,8 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   bool ended_ = false;
 
   grpc::ByteBuffer next_, current_, answer_;
+  CallRecord::Clock::time_point asked_;  // When `current_` had its turn.
+  IdleWatch idle_watch_;                 // Goes first, and calls nothing from then on.
 };
 
 }  // namespace albtpu::server

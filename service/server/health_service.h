@@ -12,10 +12,10 @@
 
 namespace albtpu::server {
 
-// The server as a whole and the service `service_name` serve, until they stop.
+// The server as a whole and each of the services serve, until they stop.
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
-  explicit HealthService(std::string service_name) : service_name_(std::move(service_name)) {}
+  explicit HealthService(std::set<std::string> services) : services_(std::move(services)) {}
 
   // From now on NOT_SERVING is the answer; those that watch are told, and their streams end.
   void StopServing();
@@ -29,9 +29,9 @@ class HealthService final : public grpc::health::v1::Health::CallbackService {
  private:
   class Watcher;
 
-  bool Knows(const std::string& name) const { return name.empty() || name == service_name_; }
+  bool Knows(const std::string& name) const { return name.empty() || services_.count(name) > 0; }
 
-  const std::string service_name_;
+  const std::set<std::string> services_;
   std::mutex mutex_;
   bool serving_ = true;          // Guarded by mutex_.
   std::set<Watcher*> watchers_;  // Guarded by mutex_.

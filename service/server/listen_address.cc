@@ -1,12 +1,7 @@
 #include "service/server/listen_address.h"
 
 #include <arpa/inet.h>
-#include <netdb.h>
 #include <sys/socket.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <memory>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -50,25 +45,6 @@ bool ListenAddress::IsLoopback() const {
 std::string ListenAddress::WithPort(int port) const {
   const bool is_v6 = host_.find(':') != std::string::npos;
   return is_v6 ? absl::StrCat("[", host_, "]:", port) : absl::StrCat(host_, ":", port);
-}
-
-absl::Status ListenAddress::Probe() const {
-  addrinfo hints{};
-  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  const int error = getaddrinfo(host_.c_str(), std::to_string(port_).c_str(), &hints, &found);
-  if (error != 0) return absl::UnavailableError(absl::StrCat(ToString(), ": ", gai_strerror(error)));
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
-
-  const int descriptor = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int on = 1;  // As gRPC does: a port whose last user has gone is free.
-  const bool listens = descriptor >= 0 &&
-                       setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
-                       bind(descriptor, found->ai_addr, found->ai_addrlen) == 0 && listen(descriptor, 1) == 0;
-  const absl::Status status = listens ? absl::OkStatus() : absl::ErrnoToStatus(errno, ToString());
-  if (descriptor >= 0) close(descriptor);
-  return status;
 }
 
 }  // namespace albtpu::server

@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
 namespace albtpu::server {
@@ -18,11 +17,11 @@ class ListenAddress {
   // Whether only this machine can reach it: 127.0.0.0/8, ::1 or localhost.
   bool IsLoopback() const;
 
+  const std::string& host() const { return host_; }
+  int port() const { return port_; }
+
   std::string ToString() const { return WithPort(port_); }
   std::string WithPort(int port) const;
-
-  // Tries to listen there for a moment, and says why it cannot.
-  absl::Status Probe() const;
 
  private:
   ListenAddress(std::string_view host, int port) : host_(host), port_(port) {}

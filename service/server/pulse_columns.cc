@@ -6,6 +6,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "service/server/field_violations.h"
 #include "service/server/limits.h"
 
 namespace albtpu::server {
@@ -24,33 +25,45 @@ AxisId Longest(const ColumnBytes& columns) {
   });
 }
 
-absl::Status Check(const ColumnBytes& columns, AxisId longest) {
-  const std::size_t count = columns[Index(longest)]->size() / sizeof(float);
+std::string Path(AxisId axis) { return absl::StrCat("pulses.", std::string(Describe(axis).name)); }
+
+absl::Status CheckBytes(const ColumnBytes& columns) {
+  FieldViolations violations;
   for (AxisId axis : kAxes) {
     const std::size_t bytes = columns[Index(axis)]->size();
-    if (bytes % sizeof(float) != 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(Quoted(axis), " has ", bytes, " bytes: single precision numbers have 4 bytes each"));
-    }
+    if (bytes % sizeof(float) == 0) continue;
+    violations.Add(Path(axis), absl::StrCat(Quoted(axis), " has ", bytes,
+                                            " bytes: single precision numbers have 4 bytes each"));
   }
-  if (count == 0) return absl::InvalidArgumentError("there is no pulse: send at least one");
-  if (count > kMaxPulses) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        Quoted(longest), " has ", count, " numbers: a message takes ", kMaxPulses, " pulses, send several"));
+  return violations.ToStatus();
+}
+
+// What is wrong with the column of `axis`, of whole numbers, where the longest has `count`; empty: nothing.
+std::string Problem(const ColumnBytes& columns, AxisId axis, AxisId longest, std::size_t count) {
+  const std::size_t length = columns[Index(axis)]->size() / sizeof(float);
+  if (length > kMaxPulses) {
+    return absl::StrCat(Quoted(axis), " has ", length, " numbers: a message takes ", kMaxPulses,
+                        " pulses, send several");
   }
+  if (length == 0 && !MayBeAbsent(axis)) {
+    return absl::StrCat(Quoted(axis), " is empty: send one number for each pulse, or one number for all");
+  }
+  if (length > 1 && length != count) {
+    return absl::StrCat(Quoted(axis), " has ", length, " numbers, ", Quoted(longest), " has ", count,
+                        ": send one number for each pulse, or one number for all");
+  }
+  return "";
+}
+
+absl::Status CheckLengths(const ColumnBytes& columns, AxisId longest) {
+  const std::size_t count = columns[Index(longest)]->size() / sizeof(float);
+  if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
+  FieldViolations violations;
   for (AxisId axis : kAxes) {
-    const std::size_t length = columns[Index(axis)]->size() / sizeof(float);
-    if (length == 0 && !MayBeAbsent(axis)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(Quoted(axis), " is empty: send one number for each pulse, or one number for all"));
-    }
-    if (length > 1 && length != count) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(Quoted(axis), " has ", length, " numbers, ", Quoted(longest), " has ", count,
-                       ": send one number for each pulse, or one number for all"));
-    }
+    const std::string problem = Problem(columns, axis, longest, count);
+    if (!problem.empty()) violations.Add(Path(axis), problem);
   }
-  return absl::OkStatus();
+  return violations.ToStatus();
 }
 
 }  // namespace
@@ -59,7 +72,8 @@ absl::StatusOr<PulseColumns> ReadColumns(const v1::PulseColumns& columns) {
   const ColumnBytes bytes = {&columns.wind_speed(), &columns.fetch(),     &columns.incidence(),
                              &columns.azimuth(),    &columns.footprint(), &columns.depth()};
   const AxisId longest = Longest(bytes);
-  const absl::Status status = Check(bytes, longest);
+  absl::Status status = CheckBytes(bytes);
+  if (status.ok()) status = CheckLengths(bytes, longest);
   if (!status.ok()) return status;
   PulseColumns pulses;
   pulses.size = bytes[Index(longest)]->size() / sizeof(float);

@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
+#include "service/server/field_violations.h"
 #include "service/server/limits.h"
 #include "service/server/question.h"
 #include "service/server/table_messages.h"
@@ -23,12 +24,13 @@ using Values = std::array<float, kQuantityCount>;
 
 absl::Status CheckCount(const Question& question, const Rows& rows) {
   const auto count = static_cast<std::size_t>(rows.size());
-  if (count == 0) return absl::InvalidArgumentError("there is no pulse: send at least one");
+  if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
   const std::size_t limit = question.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
   if (count <= limit) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "there are ", count, " pulses: a message takes ", limit,
-      question.standard_errors ? " with standard errors, or use QueryColumns" : ", send several"));
+  return FieldViolation("pulses",
+                        absl::StrCat("there are ", count, " pulses: a message takes ", limit,
+                                     question.standard_errors ? " with standard errors, or use QueryColumns"
+                                                              : ", send several"));
 }
 
 v1::SeaSurface WriteSeaSurface(const Values& values) {
@@ -56,11 +58,12 @@ class RowColumns {
   }
 
   // Writes each answer to the place of its row.
-  void Answer(v1::QueryPulsesResponse& response) {
+  void Answer(v1::QueryPulsesResponse& response, OutcomeTally& tally) {
     if (places_.empty()) return;
     PulseColumns pulses{.size = places_.size(), .axis = {}};
     for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
     AnswerOnAllCores(question_.source->interpolator, question_.query, pulses, MakeAnswers());
+    tally.Add(outcomes_, outcome_axes_);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Write(i, *response.mutable_uncertainties(places_[i]));
     }
@@ -137,7 +140,7 @@ class RowColumns {
 }  // namespace
 
 absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
-                          v1::QueryPulsesResponse& response) {
+                          v1::QueryPulsesResponse& response, OutcomeTally& tally) {
   const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
   if (!question.ok()) return question.status();
   const absl::Status status = CheckCount(*question, request.pulses());
@@ -147,7 +150,7 @@ absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequ
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
   for (bool with_azimuth : {true, false}) {
-    RowColumns(*question, request.pulses(), with_azimuth).Answer(response);
+    RowColumns(*question, request.pulses(), with_azimuth).Answer(response, tally);
   }
   return absl::OkStatus();
 }

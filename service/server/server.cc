@@ -5,58 +5,101 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "service/server/call_log.h"
 #include "service/server/limits.h"
+#include "service/server/listening_sockets.h"
 
 namespace albtpu::server {
 namespace {
 
-// What gRPC says while it tries to listen is said better, and once, by the error of Start.
-void Discard(gpr_log_func_args* /*message*/) {}
-
+// Anyone who reaches the port can cause lines: no more of them are written than of those about calls.
 void LogAsOurs(gpr_log_func_args* message) {
-  const bool is_error = message->severity == GPR_LOG_SEVERITY_ERROR;
-  spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "gRPC: {}", message->message);
+  static CallLog log;
+  if (message->severity != GPR_LOG_SEVERITY_ERROR) return;
+  log.Write(spdlog::level::warn, absl::StrCat("gRPC: ", message->message), LogFields::object());
+}
+
+int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.count()); }
+
+void LimitConnections(grpc::ServerBuilder& builder) {
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxCallsPerConnection);
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 1);  // Counts the calls of connections.
+  builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxMetadataBytes);
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, Milliseconds(kMaxHandshake));
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, Milliseconds(kMaxConnectionIdle));
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, Milliseconds(kMaxConnectionAge));
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, Milliseconds(kMaxCallTime));
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(kKeepaliveTime));
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, Milliseconds(kKeepaliveTimeout));
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                             Milliseconds(kMinPingInterval));
+  builder.AddChannelArgument(GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, kMaxReadBytes);
+  grpc::ResourceQuota quota("connections");
+  quota.Resize(kMaxConnectionBytes);
+  quota.SetMaxThreads(kReflectionThreads);
+  builder.SetResourceQuota(quota);
 }
 
 void Configure(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   builder.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
-  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxCallsPerConnection);
-  // Else two servers share a port and nobody notices.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  LimitConnections(builder);
+  // gRPC unpacks a message before it measures it: some kilobytes could become gigabytes.
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);
 }
 
 }  // namespace
 
-Server::Server(const TableCatalog& catalog)
-    : service_(catalog), health_(v1::UncertaintyService::service_full_name()) {}
+Server::Server(LiveTables& tables, const CallRecords& records, Access access)
+    : credentials_(std::move(access.credentials)),
+      records_(records),
+      service_(tables, records_),
+      admin_(tables, records_, access.admin),
+      health_({v1::UncertaintyService::service_full_name(), v1::AdminService::service_full_name()}) {}
 
-absl::StatusOr<std::unique_ptr<Server>> Server::Start(const TableCatalog& catalog,
-                                                      const ListenAddress& address) {
+absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const CallRecords& records,
+                                                      const ListenAddress& address, Access access) {
+  absl::StatusOr<std::vector<ListeningSocket>> sockets = Listen(address);
+  if (!sockets.ok()) {
+    return absl::UnavailableError(absl::StrCat("cannot listen on ", sockets.status().message()));
+  }
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  std::unique_ptr<Server> server(new Server(catalog));
+  std::unique_ptr<Server> server(new Server(tables, records, std::move(access)));
   grpc::ServerBuilder builder;
   Configure(builder);
   builder.RegisterService(&server->service_);
+  builder.RegisterService(&server->admin_);
   builder.RegisterService(&server->health_);
-  int port = 0;
-  builder.AddListeningPort(address.ToString(), grpc::InsecureServerCredentials(), &port);
-  gpr_set_log_function(Discard);
-  server->server_ = builder.BuildAndStart();
+  auto acceptor = builder.experimental().AddExternalConnectionAcceptor(
+      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server->credentials_);
   gpr_set_log_function(LogAsOurs);
-  if (server->server_ == nullptr || port == 0) {
-    const absl::Status reason = address.Probe();
-    return absl::UnavailableError(absl::StrCat(
-        "cannot listen on ", reason.ok() ? absl::string_view(address.ToString()) : reason.message()));
-  }
-  server->address_ = address.WithPort(port);
+  server->server_ = builder.BuildAndStart();
+  if (server->server_ == nullptr) return absl::InternalError("gRPC cannot start");
+  server->address_ = address.WithPort(sockets->front().port());
+  server->gate_ = std::make_unique<ConnectionGate>(*std::move(sockets), std::move(acceptor), records.access);
+  server->watch_ = std::make_unique<ConnectionWatch>(
+      [gate = server->gate_.get(), records](const std::vector<Caller>& callers) {
+        for (const Caller& caller : gate->End(callers)) {
+          records.access.CountEndedConnection();
+          records.log.Write(spdlog::level::warn, "connection ended: it had more calls in memory than it may",
+                            {{"peer", ToText(caller)}});
+        }
+      });
   return server;
 }
 
 void Server::Drain() {
   health_.StopServing();
+  watch_.reset();
+  gate_.reset();
   server_->Shutdown(std::chrono::system_clock::now() + kDrainTime);
   server_->Wait();
 }

@@ -1,25 +1,36 @@
-// A listening server: the uncertainty service with health (grpc.health.v1) and reflection.
+// A listening server: the services of albtpu.v1 with health (grpc.health.v1) and reflection.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <grpcpp/security/server_credentials.h>
 
 #include <memory>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "service/server/admin_service.h"
+#include "service/server/call_record.h"
+#include "service/server/connection_gate.h"
+#include "service/server/connection_watch.h"
 #include "service/server/health_service.h"
 #include "service/server/listen_address.h"
-#include "service/server/table_catalog.h"
+#include "service/server/live_tables.h"
 #include "service/server/uncertainty_service.h"
 
 namespace albtpu::server {
 
+// Who may call, and how.
+struct Access {
+  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();  // credentials.h
+  AdminCallers admin = AdminCallers::kOfThisMachine;
+};
+
 class Server {
  public:
-  // Listens in plain text and answers from `catalog`, which must outlive the server. Unavailable, with the
-  // reason, when it cannot listen.
-  static absl::StatusOr<std::unique_ptr<Server>> Start(const TableCatalog& catalog,
-                                                       const ListenAddress& address);
+  // Listens and answers from `tables`. These and what `records` refers to must outlive the server.
+  // Unavailable, with the reason, when it cannot listen.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const CallRecords& records,
+                                                       const ListenAddress& address, Access access = {});
 
   // HOST:PORT with the port that is listened on.
   const std::string& address() const { return address_; }
@@ -29,12 +40,17 @@ class Server {
   void Drain();
 
  private:
-  explicit Server(const TableCatalog& catalog);
+  Server(LiveTables& tables, const CallRecords& records, Access access);
 
+  std::shared_ptr<grpc::ServerCredentials> credentials_;  // Outlive the listener.
+  const CallRecords records_;
   UncertaintyService service_;
+  AdminService admin_;
   HealthService health_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;
+  std::unique_ptr<ConnectionGate> gate_;
+  std::unique_ptr<ConnectionWatch> watch_;
 };
 
 }  // namespace albtpu::server

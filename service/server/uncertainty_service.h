@@ -5,7 +5,9 @@
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/server/byte_answers.h"
-#include "service/server/table_catalog.h"
+#include "service/server/call_record.h"
+#include "service/server/live_tables.h"
+#include "service/server/unread_answers.h"
 #include "service/server/workers.h"
 
 namespace albtpu::server {
@@ -19,8 +21,9 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // `catalog` must outlive the service.
-  explicit UncertaintyService(const TableCatalog& catalog) : catalog_(catalog) {}
+  // Both must outlive the service.
+  UncertaintyService(const LiveTables& tables, const CallRecords& records)
+      : tables_(tables), records_(records), unread_(records.metrics) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
@@ -37,11 +40,13 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
 
  private:
   // Short requests at once, long ones on a worker.
-  grpc::ServerUnaryReactor* Answer(ByteAnswer answer, grpc::CallbackServerContext& context,
+  grpc::ServerUnaryReactor* Answer(Method method, ByteAnswer answer, grpc::CallbackServerContext& context,
                                    const grpc::ByteBuffer& request, grpc::ByteBuffer& response);
 
-  const TableCatalog& catalog_;
+  const LiveTables& tables_;
+  const CallRecords& records_;
   Workers workers_;
+  UnreadAnswers unread_;
 };
 
 }  // namespace albtpu::server

@@ -1,7 +1,11 @@
 #include "service/server/wire_enums.h"
 
+#include <string>
+#include <string_view>
+
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "service/server/field_violations.h"
 
 namespace albtpu::server {
 namespace {
@@ -38,9 +42,9 @@ static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1a) == v1::S44_ORDER_1A)
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1b) == v1::S44_ORDER_1B);
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k2) == v1::S44_ORDER_2);
 
-absl::Status NoSuchNumber(absl::string_view field, int number, absl::string_view enum_name) {
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", number, ": no value of ", enum_name, " has this number"));
+absl::Status NoSuchNumber(std::string_view field, int number, std::string_view enum_name) {
+  return FieldViolation(field, absl::StrCat(std::string(field), " is ", number, ": no value of ",
+                                            std::string(enum_name), " has this number"));
 }
 
 }  // namespace
@@ -79,7 +83,8 @@ absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order) {
 absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
   if (!v1::Quantity_IsValid(quantity)) return NoSuchNumber("quantities", quantity, "Quantity");
   if (quantity == v1::QUANTITY_UNSPECIFIED) {
-    return absl::InvalidArgumentError("quantities holds QUANTITY_UNSPECIFIED: leave it empty to ask for all");
+    return FieldViolation("quantities",
+                          "quantities holds QUANTITY_UNSPECIFIED: leave it empty to ask for all");
   }
   return static_cast<Quantity>(quantity - 1);
 }

@@ -3,6 +3,7 @@
 Usage: serve_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 """
 
+import fcntl
 import os
 import shutil
 import signal
@@ -17,7 +18,7 @@ import grpc
 import numpy as np
 from google.protobuf import descriptor_pb2
 
-from serving import PATIENCE, Server, connect, make_stubs
+from serving import PATIENCE, READY, Server, connect, make_stubs
 
 SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
 STUBS = make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
@@ -162,6 +163,46 @@ class Signals(ServeTest):
             # Cancelled: a call that reached the server in the very moment of the signal.
             self.assertIn(client.failure.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED))
 
+    def test_let_streams_end_whole(self):
+        server = self.serve()
+        request = uncertainty_service_pb2.StreamColumnsRequest(query=BusyClient.request())
+        signalled = threading.Event()
+
+        def requests():
+            for i in range(8):
+                yield request
+                if i == 0:
+                    signalled.wait(PATIENCE)
+
+        with connect(server.address) as channel:
+            stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+            answers = stub.StreamColumns(requests(), timeout=PATIENCE, wait_for_ready=True)
+            next(answers)
+            server.process.send_signal(signal.SIGTERM)
+            server.wait_for("draining")
+            signalled.set()
+            self.assertEqual(len(list(answers)), 7)
+        self.assertEqual(server.process.wait(PATIENCE), 0)
+
+    def test_wait_for_no_stream_that_does_not_end(self):
+        server = self.serve()
+        request = uncertainty_service_pb2.StreamColumnsRequest(query=BusyClient.request())
+        never = threading.Event()
+        self.addCleanup(never.set)
+
+        def requests():
+            yield request
+            never.wait(2 * PATIENCE)
+
+        with connect(server.address) as channel:
+            stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+            answers = stub.StreamColumns(requests(), timeout=2 * PATIENCE, wait_for_ready=True)
+            next(answers)
+            self.assertEqual(server.stop(signal.SIGTERM), 0)
+            with self.assertRaises(grpc.RpcError) as failure:
+                next(answers)
+            self.assertIn(failure.exception.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED))
+
     def test_are_heeded_when_nobody_reads_the_log(self):
         reader, writer = os.pipe()
         process = subprocess.Popen([SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0"], stderr=writer)
@@ -170,6 +211,23 @@ class Signals(ServeTest):
             self.assertIn("ready on", log.readline())
         process.terminate()
         self.assertEqual(process.wait(PATIENCE), 0)
+
+    def test_and_calls_are_heeded_when_the_log_is_full(self):
+        reader, writer = os.pipe()
+        process = subprocess.Popen([SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0"], stderr=writer)
+        os.close(writer)
+        address = READY.search(os.read(reader, 4096).decode())[1]
+        lines = fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096) // 50  # No line is shorter.
+        with connect(address) as channel:
+            stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+            for _ in range(lines):
+                self.assertEqual(list(stub.StreamColumns(iter([]), timeout=PATIENCE)), [])
+            os.read(reader, 4096)
+            list(stub.StreamColumns(iter([]), timeout=PATIENCE))
+        process.terminate()
+        self.assertEqual(process.wait(PATIENCE), 0)
+        with os.fdopen(reader) as log:
+            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out: nobody read the log\n")
 
     def test_are_told_to_those_that_watch_its_health(self):
         server = self.serve()
@@ -187,21 +245,25 @@ class BusyClient:
     PULSES = 65536
 
     def __init__(self, address):
-        column = np.full(self.PULSES, 5, "<f4").tobytes()
-        self.request = uncertainty_service_pb2.QueryColumnsRequest(pulses={
-            "wind_speed": column, "incidence": column, "depth": column,
-            "footprint": np.float32(1).tobytes()})
         self.address = address
         self.answered = threading.Event()
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
+    @classmethod
+    def request(cls):
+        column = np.full(cls.PULSES, 5, "<f4").tobytes()
+        return uncertainty_service_pb2.QueryColumnsRequest(pulses={
+            "wind_speed": column, "incidence": column, "depth": column,
+            "footprint": np.float32(1).tobytes()})
+
     def run(self):
+        request = self.request()
         with connect(self.address) as channel:
             stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
             try:
                 while True:
-                    answer = stub.QueryColumns(self.request, timeout=PATIENCE, wait_for_ready=False)
+                    answer = stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=False)
                     assert answer.pulse_count == self.PULSES
                     self.answered.set()
             except grpc.RpcError as failure:

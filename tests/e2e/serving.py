@@ -1,6 +1,7 @@
 """Runs albtpu-serve for a test, and makes clients of it from the .proto files alone."""
 
 import atexit
+import json
 import os
 import queue
 import re
@@ -12,8 +13,9 @@ import threading
 
 import grpc
 
-READY = re.compile(r"albtpu-serve: ready on (\S+), \d+ tables?, (default '.+'|no default)")
-PATIENCE = 60  # Seconds that a loaded machine may need for what takes milliseconds.
+READY = re.compile(r"ready on (\S+), \d+ tables?, (default '.+'|no default)")
+ALLOWANCE = int(os.environ.get("ALBTPU_ALLOWANCE", "1"))  # So many times the time and memory, under sanitizers.
+PATIENCE = 60 * ALLOWANCE  # Seconds that a loaded machine may need for what takes milliseconds.
 
 
 def make_stubs(*protos):
@@ -35,17 +37,25 @@ def connect(address):
     return grpc.insecure_channel(address, options=[("grpc.enable_http_proxy", 0)])
 
 
-class Server:
-    """A running albtpu-serve on a free port."""
+def message_of(line):
+    """Of a line of the log, in either style."""
+    if line.startswith("{"):
+        return json.loads(line)["message"]
+    return line.removeprefix("albtpu-serve: ")
 
-    def __init__(self, program, *flags, listen="127.0.0.1:0", environment=None):
-        self.process = subprocess.Popen([program, "--listen", listen, *flags], stderr=subprocess.PIPE,
+
+class Server:
+    """A running albtpu-serve on a free port; `prefix` is a command that becomes it."""
+
+    def __init__(self, program, *flags, listen="127.0.0.1:0", environment=None, prefix=()):
+        self.process = subprocess.Popen([*prefix, program, "--listen", listen, *flags], stderr=subprocess.PIPE,
                                         text=True, env={**os.environ, **(environment or {})})
         self.lines = []
+        self.logged = threading.Condition()
         first_line = queue.Queue()
         threading.Thread(target=self._read, args=(first_line,), daemon=True).start()
         line = first_line.get(timeout=PATIENCE)
-        ready = READY.fullmatch(line)
+        ready = READY.fullmatch(message_of(line))
         if not ready:
             self.process.wait(PATIENCE)
             raise RuntimeError(line)
@@ -53,10 +63,21 @@ class Server:
 
     def _read(self, first_line):
         for line in self.process.stderr:
-            self.lines.append(line.rstrip("\n"))
+            with self.logged:
+                self.lines.append(line.rstrip("\n"))
+                self.logged.notify_all()
             if len(self.lines) == 1:
                 first_line.put(self.lines[0])
         first_line.put("albtpu-serve said nothing")
+
+    def wait_for(self, text, times=1):
+        """Returns the first line of the log that holds `text`, once there are so many."""
+        def found():
+            return [line for line in self.lines if text in line]
+        with self.logged:
+            if not self.logged.wait_for(lambda: len(found()) >= times, PATIENCE):
+                raise RuntimeError(f"no '{text}' in the log: {self.lines}")
+            return found()[0]
 
     def stop(self, signal):
         """Sends `signal`; returns the exit code."""

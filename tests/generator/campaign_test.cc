@@ -10,7 +10,7 @@
 #include "generator/angle.h"
 #include "generator/apel_spectrum.h"
 #include "generator/elfouhaily_spectrum.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
@@ -157,8 +157,25 @@ TEST(Campaign, AsksForTheFullyDevelopedSeaAsTheLastFetch) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1e7, inf]")), HasSubstr("beyond full development"));
 }
 
+TEST(Campaign, RefusesMoreCellsThanATableHolds) {
+  std::string nodes = "1";
+  for (int i = 2; i <= 512; ++i) nodes += ", " + std::to_string(i);
+  std::string text = kSmall;
+  for (const char* list : {"0, 10", "3, 6", "0.1, 1"}) text = Replaced(text, list, nodes);
+  text = Replaced(text, "1000, inf", nodes + ", inf");
+  EXPECT_THAT(ErrorOf(text), HasSubstr("more cells than a table holds"));
+}
+
+TEST(Campaign, RefusesATextThatNestsAsDeepAsItIsLong) {
+  std::string key = "a";
+  while (key.size() < 32000) key += ".a";
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("'id' is missing"));
+  for (int i = 0; i < 500; ++i) key += std::string(1000, 'a');
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("a campaign has 32768 at most"));
+}
+
 TEST(Campaign, BeginsMessagesOfAFileWithItsPath) {
-  const testing::TemporaryDirectory folder;
+  const testing::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "bad.toml";
   std::ofstream(path) << "id = 3\n";
   EXPECT_THAT(std::string(ReadCampaign(path).status().message()),

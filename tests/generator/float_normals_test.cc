@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/generator/simd_targets.h"
+#include "tests/instruction_sets.h"
 
 namespace albtpu {
 namespace {
@@ -26,33 +26,32 @@ std::vector<double> DoubleNormals(NormalStream stream, int count) {
   return normals;
 }
 
-TEST(FloatNormals, AreThoseOfTheDoubleStream) {
+class EachFloatNormal : public testing::OnInstructionSet {};
+ALBTPU_ON_EACH_INSTRUCTION_SET(EachFloatNormal);
+
+TEST_P(EachFloatNormal, IsThatOfTheDoubleStream) {
   constexpr int kCount = 4000000;
   const NormalStream stream(0x123456789abcdef, 2, 3, 5);
   const std::vector<double> exact = DoubleNormals(stream, kCount);
-  OnEachInstructionSet([&] {
-    const std::vector<float> normals = Normals(stream, kCount);
-    double worst = 0;
-    for (int i = 0; i < kCount; ++i) {
-      const double radius = std::hypot(exact[i], exact[i ^ 1]);
-      const double bound = 6 * radius + (radius > 1 ? 2 / radius : 0);  // as normal_lanes-inl.h derives it
-      worst = std::max(worst, std::abs(normals[i] - exact[i]) / (bound * kUnit));
-    }
-    EXPECT_LT(worst, 1);
-  });
+  const std::vector<float> normals = Normals(stream, kCount);
+  double worst = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double radius = std::hypot(exact[i], exact[i ^ 1]);
+    const double bound = 6 * radius + (radius > 1 ? 2 / radius : 0);  // as normal_lanes-inl.h derives it
+    worst = std::max(worst, std::abs(normals[i] - exact[i]) / (bound * kUnit));
+  }
+  EXPECT_LT(worst, 1);
 }
 
-TEST(FloatNormals, EndWhereTheyAreAskedTo) {
+TEST_P(EachFloatNormal, ComesOnlyIfItIsAskedFor) {
   const NormalStream stream(1, 2, 3);
-  OnEachInstructionSet([&] {
-    const std::vector<float> all = Normals(stream, 100);
-    for (int count = 0; count < 100; ++count) {
-      std::vector<float> normals(100, -1);
-      FillInSinglePrecision(stream, std::span(normals).first(count));
-      EXPECT_TRUE(std::equal(normals.begin(), normals.begin() + count, all.begin()));
-      EXPECT_TRUE(std::all_of(normals.begin() + count, normals.end(), [](float x) { return x == -1; }));
-    }
-  });
+  const std::vector<float> all = Normals(stream, 100);
+  for (int count = 0; count < 100; ++count) {
+    std::vector<float> normals(100, -1);
+    FillInSinglePrecision(stream, std::span(normals).first(count));
+    EXPECT_TRUE(std::equal(normals.begin(), normals.begin() + count, all.begin()));
+    EXPECT_TRUE(std::all_of(normals.begin() + count, normals.end(), [](float x) { return x == -1; }));
+  }
 }
 
 TEST(FloatNormals, HaveTheMomentsOfTheNormalDistribution) {

@@ -1,7 +1,6 @@
 #include "generator/packet_tracer.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "generator/random_stream.h"
 #include "generator/refraction.h"
 #include "generator/sea_surface.h"
+#include "tests/instruction_sets.h"
 
 namespace albtpu {
 namespace {
@@ -113,14 +113,8 @@ void ExpectEqual(const TracedBundle& fast, const Twin& slow, int rays, double sl
   EXPECT_NEAR(fast.beam.height_secant, slow.beam.height_secant, product);
 }
 
-// Every test runs on every instruction set that this machine has.
-class PacketTracer : public testing::TestWithParam<std::int64_t> {
- protected:
-  PacketTracer() { hwy::SetSupportedTargetsForTest(GetParam()); }
-  ~PacketTracer() override { hwy::SetSupportedTargetsForTest(0); }
-};
-INSTANTIATE_TEST_SUITE_P(On, PacketTracer, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
-                         [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
+class PacketTracer : public testing::OnInstructionSet {};
+ALBTPU_ON_EACH_INSTRUCTION_SET(PacketTracer);
 
 TEST_P(PacketTracer, EqualsTheDoubleTwinOnRoughWater) {
   constexpr double kSlope = 0.15;

@@ -20,21 +20,7 @@ import unittest
 GENERATE = sys.argv[1]
 MPIRUN = shutil.which(sys.argv[2]) if sys.argv[2:] else None
 
-CAMPAIGN = """id = "small"
-version = "1"
-title = "Six seas"
-[axes]
-wind_speed = [3, 5, 6]
-fetch = [5000, inf]
-incidence = [0, 20]
-azimuth = [0, 90]
-footprint = [0.5, 1]
-depth = [0, 10]
-[interpolation]
-checked_pulses = 4
-[effort]
-realizations = 40
-"""
+CAMPAIGN = pathlib.Path(__file__).with_name("six_seas.toml").read_text()
 UNITS = 12 + 4  # encounters and pulses
 PATIENCE = 300  # Seconds that a loaded machine may need for what takes few.
 

@@ -7,13 +7,13 @@
 #include <iterator>
 
 #include "tests/generator/two_seas.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
-using ::albtpu::testing::TemporaryDirectory;
+using ::albtpu::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -26,7 +26,7 @@ WorkFolder Open(const fs::path& folder) {
 }
 
 TEST(WorkFolder, IsMadeWithItsCampaign) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   Open(folder / "work");
   const absl::StatusOr<WorkFolder> again = WorkFolder::OpenExisting(folder / "work");
   ASSERT_TRUE(again.ok()) << again.status();
@@ -36,7 +36,7 @@ TEST(WorkFolder, IsMadeWithItsCampaign) {
 }
 
 TEST(WorkFolder, IsForOneCampaign) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   Open(folder.path());
   Open(folder.path());
   Campaign other = TwoSeas();
@@ -47,20 +47,20 @@ TEST(WorkFolder, IsForOneCampaign) {
 }
 
 TEST(WorkFolder, IsNotAFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "file") << "precious";
   const absl::Status status = WorkFolder::Open(folder / "file", TwoSeas()).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("file'"));
 }
 
 TEST(WorkFolder, MustBeThereToBeMerged) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(WorkFolder::OpenExisting(folder.path()).status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(WorkFolder::OpenExisting(folder / "absent").status().code(), absl::StatusCode::kNotFound);
 }
 
 TEST(WorkFolder, KnowsWhatIsFinished) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   EXPECT_THAT(work.Finished(UnitsOf(TwoSeas())).value(), ElementsAre());
   ASSERT_TRUE(work.Store(kSixth, "six").ok());
@@ -77,7 +77,7 @@ TEST(WorkFolder, KnowsWhatIsFinished) {
 }
 
 TEST(WorkFolder, NamesTheFileThatIsNotTaken) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
   const absl::Status status =
@@ -87,7 +87,7 @@ TEST(WorkFolder, NamesTheFileThatIsNotTaken) {
 }
 
 TEST(WorkFolder, KeepsAUnitThatIsThere) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
   EXPECT_TRUE(work.Store(kThird, "three").ok()) << "two that compute the same agree";
@@ -97,7 +97,7 @@ TEST(WorkFolder, KeepsAUnitThatIsThere) {
 }
 
 TEST(WorkFolder, LosesWhatKilledWritersLeftAndNothingElse) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
   std::ofstream(folder / ".albtpu-4711-3.tmp") << "half a";

@@ -14,7 +14,7 @@ ROOMS = {
     "generator": {"generator", "tables"},
     "service": {"service", "tables", "proto"},
 }
-WIRE = ("albtpu/", "grpc/health/")  # What protoc makes of proto/.
+WIRE = ("albtpu/", "google/rpc/", "grpc/health/")  # What protoc makes of proto/.
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 QUOTED = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 

@@ -14,13 +14,13 @@
 #include <thread>
 #include <vector>
 
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
-using ::albtpu::testing::TemporaryDirectory;
+using ::albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
 std::string Contents(const fs::path& path) {
@@ -28,27 +28,27 @@ std::string Contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::size_t FileCount(const TemporaryDirectory& folder) {
+std::size_t FileCount(const TemporaryFolder& folder) {
   const fs::directory_iterator begin(folder.path());
   return static_cast<std::size_t>(std::distance(begin, fs::directory_iterator()));
 }
 
 TEST(AtomicFile, WritesANewFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "new", "bytes", Existing::kKeep).ok());
   EXPECT_EQ(Contents(folder / "new"), "bytes");
   EXPECT_EQ(FileCount(folder), 1u);
 }
 
 TEST(AtomicFile, HasThePermissionsOfAnyNewFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "new", "", Existing::kKeep).ok());
   std::ofstream(folder / "other");
   EXPECT_EQ(fs::status(folder / "new").permissions(), fs::status(folder / "other").permissions());
 }
 
 TEST(AtomicFile, KeepsWhatIsThere) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "old") << "precious";
   const absl::Status status = WriteFileAtomically(folder / "old", "bytes", Existing::kKeep);
   EXPECT_EQ(status.code(), absl::StatusCode::kAlreadyExists);
@@ -58,14 +58,14 @@ TEST(AtomicFile, KeepsWhatIsThere) {
 }
 
 TEST(AtomicFile, ReplacesWhatIsThereIfAskedTo) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "old") << "stale";
   ASSERT_TRUE(WriteFileAtomically(folder / "old", "bytes", Existing::kReplace).ok());
   EXPECT_EQ(Contents(folder / "old"), "bytes");
 }
 
 TEST(AtomicFile, LetsOneOfManyWritersWinANewName) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::vector<int> won(8);
   std::vector<std::thread> writers;
   for (std::size_t i = 0; i < won.size(); ++i) {
@@ -79,7 +79,7 @@ TEST(AtomicFile, LetsOneOfManyWritersWinANewName) {
 }
 
 TEST(AtomicFile, SaysThatTheFolderIsMissing) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const absl::Status status = WriteFileAtomically(folder / "no/file", "bytes", Existing::kKeep);
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
@@ -87,7 +87,7 @@ TEST(AtomicFile, SaysThatTheFolderIsMissing) {
 
 TEST(AtomicFile, SaysThatTheFolderIsNotWritable) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const absl::Status status = WriteFileAtomically(folder / "file", "bytes", Existing::kKeep);
   fs::permissions(folder.path(), fs::perms::owner_all);
@@ -95,13 +95,13 @@ TEST(AtomicFile, SaysThatTheFolderIsNotWritable) {
 }
 
 TEST(AtomicFile, SaysThatTheFolderIsAFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "file");
   EXPECT_FALSE(WriteFileAtomically(folder / "file/x", "bytes", Existing::kReplace).ok());
 }
 
 TEST(AtomicFile, LeavesFoldersAndDevicesAlone) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   for (const fs::path& path : {folder.path(), fs::path("/dev/null")}) {
     const absl::Status status = WriteFileAtomically(path, "bytes", Existing::kReplace);
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
@@ -113,7 +113,7 @@ TEST(AtomicFile, LeavesFoldersAndDevicesAlone) {
 
 // A limit on the size of files fails writes where a full disk does: in the middle.
 TEST(AtomicFile, LeavesNothingBehindWhenTheWriteFails) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "old") << "precious";
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/tables/instruction_sets.h"
+#include "tests/instruction_sets.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {

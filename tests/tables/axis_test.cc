@@ -35,6 +35,13 @@ TEST(Axis, RefusesNodesThatDoNotIncrease) {
   EXPECT_THAT(Problem(AxisId::kDepth, {0, 3, 3}), HasSubstr("nodes must increase"));
 }
 
+TEST(Axis, RefusesNodesThatSinglePrecisionCannotInterpolateBetween) {
+  EXPECT_THAT(Problem(AxisId::kDepth, {0, std::numeric_limits<float>::denorm_min()}),
+              HasSubstr("node 1 is 1.40129846e-45 m, too close to node 0 (0 m): nodes must be 1e-06 apart"));
+  EXPECT_THAT(Problem(AxisId::kDepth, {0, std::numeric_limits<float>::max()}),
+              HasSubstr("node 1 is 3.40282347e+38 m: nodes must not be above 1e+09"));
+}
+
 TEST(Axis, RefusesNoNodes) { EXPECT_THAT(Problem(AxisId::kFetch, {}), HasSubstr("'fetch' has no nodes")); }
 
 TEST(Axis, RefusesNodesThatAreNotFinite) {

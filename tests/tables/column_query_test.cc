@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/tables/instruction_sets.h"
+#include "tests/instruction_sets.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {

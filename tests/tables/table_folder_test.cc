@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
@@ -32,7 +32,7 @@ class TableFolder : public ::testing::Test {
     return names;
   }
 
-  testing::TemporaryDirectory folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(TableFolder, HoldsTablesByNameAndVersion) {

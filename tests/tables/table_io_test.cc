@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "tests/tables/synthetic_table.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
 using ::albtpu::testing::SyntheticTable;
-using ::albtpu::testing::TemporaryDirectory;
+using ::albtpu::testing::TemporaryFolder;
 using ::albtpu::testing::TinyTable;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -51,7 +51,7 @@ void ExpectSame(const UncertaintyTable& a, const UncertaintyTable& b) {
 }
 
 void ExpectRoundTrip(const UncertaintyTable& table) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(WriteTable(table, folder / "t.h5", Existing::kKeep).ok());
   const absl::StatusOr<UncertaintyTable> read = ReadTable(folder / "t.h5");
   ASSERT_TRUE(read.ok()) << read.status();
@@ -97,7 +97,7 @@ TEST(TableIo, KeepsALongCampaign) {
 }
 
 TEST(TableIo, WritesTheSameTableAsTheSameBytes) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(WriteTable(SyntheticTable(), folder / "a.h5", Existing::kKeep).ok());
   ASSERT_TRUE(WriteTable(TinyTable(), folder / "other.h5", Existing::kKeep).ok());
   ASSERT_TRUE(WriteTable(*ReadTable(folder / "a.h5"), folder / "b.h5", Existing::kKeep).ok());
@@ -105,13 +105,23 @@ TEST(TableIo, WritesTheSameTableAsTheSameBytes) {
 }
 
 TEST(TableIo, KeepsAnExistingFileUnlessAskedToReplaceIt) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   Save(folder / "t.h5", "precious");
   EXPECT_EQ(WriteTable(TinyTable(), folder / "t.h5", Existing::kKeep).code(),
             absl::StatusCode::kAlreadyExists);
   EXPECT_EQ(Contents(folder / "t.h5"), "precious");
   EXPECT_TRUE(WriteTable(TinyTable(), folder / "t.h5", Existing::kReplace).ok());
   EXPECT_TRUE(ReadTable(folder / "t.h5").ok());
+}
+
+// HDF5 looks for a file of the name that one in memory goes by.
+TEST(TableIo, DoesNotCareWhatElseIsInTheFolderWhereItRuns) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"table", "tables", "survey.h5"}) Save(folder / name, "something else");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  ExpectRoundTrip(TinyTable());
+  fs::current_path(before);
 }
 
 TEST(TableIo, NamesTheFileThatIsNotThere) {
@@ -121,7 +131,7 @@ TEST(TableIo, NamesTheFileThatIsNotThere) {
 }
 
 TEST(TableIo, DoesNotReadWhatIsNotAFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   for (const fs::path& path : {folder.path(), fs::path("/dev/zero")}) {
     const absl::Status status = ReadTable(path).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
@@ -130,7 +140,7 @@ TEST(TableIo, DoesNotReadWhatIsNotAFile) {
 }
 
 TEST(TableIo, SaysWhatIsWrongWithADamagedFile) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const fs::path path = folder / "t.h5";
   ASSERT_TRUE(WriteTable(TinyTable(), path, Existing::kKeep).ok());
   const std::string whole = Contents(path);
@@ -159,7 +169,7 @@ TEST(TableIo, SaysWhatIsWrongWithADamagedFile) {
 }
 
 TEST(TableIo, ReadsAndWritesFromManyThreads) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([&folder, i] {
@@ -175,7 +185,7 @@ TEST(TableIo, ReadsAndWritesFromManyThreads) {
 }
 
 TEST(TableIo, SaysThatTheFolderToWriteIntoIsMissing) {
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder;
   const absl::Status status = WriteTable(TinyTable(), folder / "no/t.h5", Existing::kKeep);
   EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
 }

@@ -3,49 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <limits>
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "tables/hdf5.h"
-#include "tables/seal.h"
-#include "tables/table_encoding.h"
-#include "tests/tables/synthetic_table.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/tables/forged_table.h"
 
 namespace albtpu {
 namespace {
 
 using hdf5::Handle;
+using testing::Forge;
 using ::testing::HasSubstr;
-
-// A valid table whose HDF5 part `change` has edited, sealed again.
-std::string Forge(const std::function<void(hid_t file)>& change) {
-  const testing::TemporaryDirectory folder;
-  const std::string path = (folder / "t.h5").string();
-  std::ofstream(path, std::ios::binary) << *EncodeTable(testing::TinyTable());
-  {
-    const hdf5::Session session;
-    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
-    EXPECT_TRUE(file);
-    change(file);
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  seal::Apply(bytes);
-  return bytes;
-}
-
-std::string Problem(std::string file) {
-  const absl::Status status = DecodeTable(file).status();
-  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
-  return std::string(status.message());
-}
-
-std::string ProblemAfter(const std::function<void(hid_t file)>& change) { return Problem(Forge(change)); }
+using testing::Problem;
+using testing::ProblemAfter;
 
 void SetNode(hid_t file, const char* axis, std::vector<float> nodes) {
   const Handle dataset(H5Dopen2(file, axis, H5P_DEFAULT), H5Dclose);
@@ -173,6 +144,8 @@ TEST(WrongSchema, IsFoundInNodesOutOfOrder) {
 TEST(WrongSchema, IsFoundInValues) {
   EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "thu", std::nanf("")); }),
               HasSubstr("must be finite"));
+  EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "bias_vertical", -2e6f); }),
+              HasSubstr("must not be above 1e6"));
   EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "tvu", -1); }),
               HasSubstr("must not be negative"));
   EXPECT_THAT(ProblemAfter([](hid_t file) { SetValues(file, "thu_standard_error", -1); }),

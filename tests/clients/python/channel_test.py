@@ -31,6 +31,15 @@ class PlainText(unittest.TestCase):
                     self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
                     self.assertTrue(client.tables()[0].is_default)
 
+    def test_says_that_it_is_closed(self):
+        with Running(FakeService(TABLE)) as running:
+            client = albtpu.connect(running.address)
+            client.close()
+            pulse = dict(wind_speed=5, incidence=5, footprint=1, depth=5)
+            for ask in (client.tables, client.table, lambda: client.query(**pulse)):
+                with self.assertRaisesRegex(albtpu.ArgumentError, "is closed: connect again"):
+                    ask()
+
     def test_refuses_what_is_no_address(self):
         for target in ("", "localhost", "two words:1", None, 50051):
             with self.assertRaisesRegex(albtpu.ArgumentError, "it should be HOST:PORT"):

@@ -5,6 +5,7 @@ Usage: query_test.py TABLE.h5
 
 import sys
 import unittest
+import warnings
 
 import numpy as np
 
@@ -46,6 +47,12 @@ class Queries(unittest.TestCase):
             self.assertEqual(list(answer.outcome), ["INTERPOLATED", "INVALID"])
             self.assertTrue(np.isnan(answer.tvu[1]))
 
+    def test_take_numbers_that_single_precision_does_not_hold(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for depth in (1e300, [1e300, 8]):
+                self.assertEqual(self.ask(depth=depth).outcome.flat[0], "INVALID")
+
     def test_are_refused_with_what_would_be_right(self):
         for changes, hint in (
                 ({"windspeed": 5}, "has no 'windspeed': did you mean 'wind_speed'?"),
@@ -59,6 +66,10 @@ class Queries(unittest.TestCase):
                 ({"coverage": "95"}, "coverage is '95': it should be '2sigma' or 'p95'"),
                 ({"s44_order": "1c"}, "s44_order is '1c': it should be 'exclusive' or"),
                 ({"quantities": ["thu", "bias"]}, "quantities is 'bias'"),
+                ({"quantities": 5}, "quantities is 5: it should be names"),
+                ({"quantities": [["thu"]]}, "it should be names"),
+                ({"coverage": ["p95"]}, "coverage is \\['p95'\\]"),
+                ({"table": 5}, "table is 5: it should be a name"),
                 ({"quantities": []}, "name at least one")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):
                 self.ask(**changes)

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
@@ -33,7 +33,7 @@ TEST(PublishedAngles, HoldThePapersTables) {
 }
 
 TEST(PublishedAngles, StandOnAFullGrid) {
-  const testing::TemporaryDirectory folder;
+  const testing::TemporaryFolder folder;
   std::ofstream(folder / "table4_empirical.csv")
       << "wind_speed_m_s,incidence_deg,along_wind_deg,cross_wind_deg\n2,0,3,3\n2,10,3,3\n3,0,3,3\n";
   const absl::Status status = ReadTable4(folder.path()).status();

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
@@ -20,7 +20,7 @@ class PublishedTableTest : public ::testing::Test {
     std::ofstream(file) << text;
     return file;
   }
-  testing::TemporaryDirectory folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(PublishedTableTest, GivesItsColumnsAsNumbersAndWords) {

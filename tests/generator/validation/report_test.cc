@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "generator/validation/csv.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu {
 namespace {
@@ -54,7 +54,7 @@ class ReportTest : public ::testing::Test {
   }
   std::string Page() { return Contents(folder_ / "report" / "report.html"); }
 
-  testing::TemporaryDirectory folder_;
+  testing::TemporaryFolder folder_;
 };
 
 constexpr const char* kDraws =

@@ -51,6 +51,7 @@ class Misbehaving : public v1::UncertaintyService::Service {
 
   grpc::Status GetTable(grpc::ServerContext*, const v1::GetTableRequest*,
                         v1::GetTableResponse* response) override {
+    if (++openings_ <= refused_openings) return {grpc::StatusCode::UNAVAILABLE, "going"};
     response->mutable_table()->mutable_reference()->set_name("quick");
     response->mutable_table()->mutable_reference()->set_digest(kDigest);
     return grpc::Status::OK;
@@ -74,9 +75,11 @@ class Misbehaving : public v1::UncertaintyService::Service {
   const std::string& address() const { return address_; }
   int answers() const { return answers_; }
 
+  int refused_openings = 0;  // So many calls of GetTable, the first ones.
+
  private:
   const Behaviour behaviour_;
-  std::atomic<int> requests_ = 0, answers_ = 0;
+  std::atomic<int> openings_ = 0, requests_ = 0, answers_ = 0;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;
 };
@@ -106,6 +109,18 @@ struct TenMessages {
   std::vector<float> depth, thu;
   absl::Status status;
 };
+
+TEST(ColumnExchange, BeginsWithAnotherServerWhereTheFirstIsGoing) {
+  Misbehaving server([](int, v1::StreamColumnsResponse&) { return grpc::Status::OK; });
+  server.refused_openings = 3;
+  EXPECT_TRUE(TenMessages(server).status.ok());
+}
+
+TEST(ColumnExchange, BeginsNothingWhereServersStayAway) {
+  Misbehaving server([](int, v1::StreamColumnsResponse&) { return grpc::Status::OK; });
+  server.refused_openings = 4;
+  EXPECT_THAT(std::string(TenMessages(server).status.message()), HasSubstr("going"));
+}
 
 TEST(ColumnExchange, BringsAnswersToTheirPulses) {
   const Misbehaving server([](int, auto&) { return grpc::Status::OK; });

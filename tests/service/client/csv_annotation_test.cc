@@ -8,8 +8,8 @@
 #include "service/client/local_source.h"
 #include "service/client/number_text.h"
 #include "tests/service/client/one_answer.h"
-#include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "tests/service/client/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {
@@ -116,6 +116,9 @@ TEST(CsvReader, NamesTheLineOfAnOpenQuote) {
 
 TEST(CsvReader, NamesTheCellWithTextBehindItsQuote) {
   EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"3\n").message()), HasSubstr("line 2, column 2"));
+  EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"\r3\n").message()), HasSubstr("line 2, column 2"));
+  EXPECT_THAT(std::string(ErrorOf("a,b\n\"1\"\r,2\n").message()), HasSubstr("line 2, column 1"));
+  EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"\r").message()), HasSubstr("line 2, column 2"));
 }
 
 TEST(CsvReader, SaysWhatCannotBeRead) {

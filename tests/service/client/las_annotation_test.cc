@@ -13,8 +13,8 @@
 #include "tests/service/client/las_builder.h"
 #include "tests/service/client/one_answer.h"
 #include "tests/service/client/simulated_flight.h"
-#include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "service/client/little_endian.h"
 #include "tests/service/client/las_builder.h"
-#include "tests/service/client/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {
@@ -34,6 +34,12 @@ TEST(LasCrs, FindsFeetInWellKnownText) {
        }) {
     EXPECT_TRUE(FindFeetInWkt(wkt).has_value()) << wkt;
   }
+}
+
+TEST(LasCrs, TakesAMomentForTheLongestText) {
+  std::string wkt;
+  while (wkt.size() < 1'000'000) wkt += "UNIT[";
+  EXPECT_FALSE(FindFeetInWkt(wkt + "\"metre\",1]").has_value());
 }
 
 TEST(LasCrs, FindsNoFeetInMetres) {

@@ -5,15 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 #include <thread>
 
 #include "service/client/local_source.h"
-#include "service/server/server.h"
-#include "tables/table_io.h"
 #include "tests/service/client/column_memory.h"
-#include "tests/service/client/temporary_folder.h"
+#include "tests/service/client/running_server.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu::client {
@@ -21,27 +20,7 @@ namespace {
 
 using albtpu::testing::SyntheticOptions;
 using albtpu::testing::SyntheticTable;
-using albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-// A server with one table, `quick`.
-class RunningServer {
- public:
-  explicit RunningServer(const SyntheticOptions& options = {}, const std::string& listen = "127.0.0.1:0") {
-    const absl::Status written =
-        WriteTable(SyntheticTable(options), folder_ / "quick.h5", Existing::kReplace);
-    EXPECT_TRUE(written.ok()) << written;
-    catalog_.emplace(server::TableCatalog::Load(folder_ / "", "").value());
-    server_ = server::Server::Start(*catalog_, server::ListenAddress::Parse(listen).value()).value();
-  }
-  const std::string& address() const { return server_->address(); }
-  void Stop() { server_->Drain(); }
-
- private:
-  TemporaryFolder folder_;
-  std::optional<server::TableCatalog> catalog_;
-  std::unique_ptr<server::Server> server_;
-};
 
 // Pulses within and without the table, now and then not a number.
 PulseMemory MixedPulses(std::size_t count) {
@@ -205,6 +184,53 @@ TEST(ServerSource, SeesWhileItWaitsThatItsServerIsBack) {
   server = std::make_unique<RunningServer>(SyntheticOptions(), address);
   asker.join();
   EXPECT_TRUE(status.ok()) << status;
+}
+
+// Asks message after message until `enough` says so or something fails; returns how many were answered rightly.
+int AskUntil(UncertaintySource& source, const std::function<bool(int answered)>& enough) {
+  const PulseMemory pulses = MixedPulses(1000);
+  AnswerMemory answers(pulses.size()), expected(pulses.size());
+  EXPECT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
+  for (int answered = 0;; ++answered) {
+    if (enough(answered)) return answered;
+    answers = AnswerMemory(pulses.size());
+    const absl::Status status = source.Answer({}, pulses.columns(), answers.columns());
+    EXPECT_TRUE(status.ok()) << status;
+    EXPECT_TRUE(answers == expected);
+    if (::testing::Test::HasFailure()) return answered;
+  }
+}
+
+TEST(ServerSource, TakesTurnsWithTheServersOfAnAddress) {
+  const RunningServer first, second;
+  const auto source = OpenServer(AllOf({first.address(), second.address()}), "").value();
+  AskUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
+  const int before = first.answers(), others_before = second.answers();
+  AskUntil(*source, [](int answered) { return answered == 10; });
+  EXPECT_EQ(first.answers() - before, 5);
+  EXPECT_EQ(second.answers() - others_before, 5);
+}
+
+TEST(ServerSource, AsksTheOtherServersWhenOneGoes) {
+  RunningServer first, second;
+  const auto source = OpenServer(AllOf({first.address(), second.address()}), "").value();
+  AskUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
+  first.Stop();
+  const int before = second.answers();
+  AskUntil(*source, [](int answered) { return answered == 10; });
+  EXPECT_EQ(second.answers() - before, 10);
+}
+
+TEST(ServerSource, AsksAServerAgainThatIsBack) {
+  auto first = std::make_unique<RunningServer>();
+  const RunningServer second;
+  const std::string address = first->address();
+  const auto source = OpenServer(AllOf({address, second.address()}), "").value();
+  first->Stop();
+  first.reset();
+  AskUntil(*source, [](int answered) { return answered == 2; });
+  first = std::make_unique<RunningServer>(SyntheticOptions(), address);
+  AskUntil(*source, [&](int) { return first->answers() > 0; });
 }
 
 TEST(ServerSource, NoticesThatItsTableBecameAnother) {

@@ -7,8 +7,8 @@
 
 #include "service/client/exit_status.h"
 #include "tables/table_io.h"
-#include "tests/service/client/temporary_folder.h"
 #include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "tests/service/client/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {
@@ -91,6 +91,23 @@ TEST_F(SummaryFile, TakesAnOutputWithoutSummaryForUnknown) {
     folder_.Write("out.las.json", text);
     EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_))) << text;
   }
+}
+
+TEST_F(SummaryFile, TakesADeepOrLongSummaryForUnknown) {
+  const auto nested = [](std::size_t depth) {
+    return "{\"parameters\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
+  };
+  folder_.Write("out.las", "output");
+  for (const std::string& text : {nested(200'000), nested(500'000), std::string(2 << 20, ' ')}) {
+    folder_.Write("out.las.json", text);
+    EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_)));
+  }
+}
+
+TEST_F(SummaryFile, NamesTheOutputBeforeItself) {
+  ASSERT_TRUE(Make().ok());
+  EXPECT_THAT(CheckSummaryCanBeWritten(job_, Existing::kKeep).message(),
+              HasSubstr("out.las: exists already"));
 }
 
 TEST_F(SummaryFile, KeepsWhatStandsInItsPlace) {

@@ -32,8 +32,8 @@ class Health : public ServedTables {
   std::unique_ptr<grpc::health::v1::Health::Stub> health_;
 };
 
-TEST_F(Health, IsThatOfTheServerAndOfTheService) {
-  for (const char* service : {"", "albtpu.v1.UncertaintyService"}) {
+TEST_F(Health, IsThatOfTheServerAndOfEachService) {
+  for (const char* service : {"", "albtpu.v1.UncertaintyService", "albtpu.v1.AdminService"}) {
     HealthCheckResponse response;
     ASSERT_TRUE(Check(service, response).ok());
     EXPECT_EQ(response.status(), HealthCheckResponse::SERVING);

@@ -12,11 +12,12 @@
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/server/server.h"
+#include "service/server/server_metrics.h"
 #include "service/server/table_catalog.h"
 #include "tables/interpolation.h"
 #include "tables/table_io.h"
 #include "tests/tables/synthetic_table.h"
-#include "tests/tables/temporary_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace albtpu::server {
 
@@ -55,10 +56,14 @@ class ServedTables : public ::testing::Test {
     WriteOrDie(testing::SyntheticTable({.version = "first", .factor = 2}), folder_.path() / "twice" / "1.h5");
     WriteOrDie(testing::SyntheticTable({.version = "second", .factor = 3}),
                folder_.path() / "twice" / "2.h5");
-    catalog_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
-    server_ = OrDie(Server::Start(*catalog_, OrDie(ListenAddress::Parse("127.0.0.1:0"))));
+    tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
+    server_ = OrDie(Start("127.0.0.1:0"));
     channel_ = ChannelTo(server_->address());
     stub_ = v1::UncertaintyService::NewStub(channel_);
+  }
+
+  absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
+    return Server::Start(*tables_, {metrics_.calls, metrics_.access, log_}, OrDie(ListenAddress::Parse(address)));
   }
 
   template <typename Method, typename Request, typename Response>
@@ -84,10 +89,12 @@ class ServedTables : public ::testing::Test {
     return Call(&v1::UncertaintyService::Stub::GetTable, request, response);
   }
 
-  testing::TemporaryDirectory folder_;
+  testing::TemporaryFolder folder_;
   UncertaintyTable survey_;
   UncertaintyTable published_;
-  std::optional<TableCatalog> catalog_;
+  ServerMetrics metrics_;
+  CallLog log_;
+  std::optional<LiveTables> tables_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::UncertaintyService::Stub> stub_;
@@ -111,13 +118,13 @@ inline Pulse TablesPulse() {
 
 inline std::string Column(const std::vector<float>& values) {
   std::string bytes(values.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), values.data(), bytes.size());
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
 }
 
 inline std::vector<float> Floats(const std::string& column) {
   std::vector<float> values(column.size() / sizeof(float));
-  std::memcpy(values.data(), column.data(), column.size());
+  if (!values.empty()) std::memcpy(values.data(), column.data(), column.size());
   return values;
 }
 

@@ -16,19 +16,17 @@ using ::testing::HasSubstr;
 using RunningServer = ServedTables;
 
 TEST_F(RunningServer, SaysWhyItCannotListen) {
-  const ListenAddress taken = OrDie(ListenAddress::Parse(server_->address()));
-  const absl::Status status = Server::Start(*catalog_, taken).status();
+  const absl::Status status = Start(server_->address()).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
   EXPECT_THAT(std::string(status.message()), HasSubstr("Address already in use"));
   // 192.0.2.0/24 is documentation's: no machine has it (RFC 5737).
-  const absl::Status foreign = Server::Start(*catalog_, OrDie(ListenAddress::Parse("192.0.2.1:0"))).status();
+  const absl::Status foreign = Start("192.0.2.1:0").status();
   EXPECT_THAT(std::string(foreign.message()), HasSubstr("192.0.2.1:0"));
 }
 
 TEST_F(RunningServer, LeavesItsPortWhenDrained) {
-  const ListenAddress address = OrDie(ListenAddress::Parse(server_->address()));
   server_->Drain();
-  EXPECT_TRUE(Server::Start(*catalog_, address).ok());
+  EXPECT_TRUE(Start(server_->address()).ok());
 }
 
 TEST_F(RunningServer, DrainsAtOnceWhenNoCallIsUnderWay) {

@@ -21,7 +21,7 @@ class Catalog : public ::testing::Test {
   }
 
   const UncertaintyTable table_ = testing::TinyTable();
-  testing::TemporaryDirectory folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(Catalog, FindsTablesByName) {

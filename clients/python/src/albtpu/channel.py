@@ -17,6 +17,10 @@ _OPTIONS = (
     ("grpc.service_config", json.dumps({"loadBalancingConfig": [{"round_robin": {}}]})),
     ("grpc.initial_reconnect_backoff_ms", 100),
     ("grpc.max_reconnect_backoff_ms", 2000),
+    ("grpc.min_reconnect_backoff_ms", 5000),  # How long one try to connect may take; else 20 s.
+    # A machine or network that has gone does not say so: a sign of life is asked for, and awaited so long.
+    ("grpc.keepalive_time_ms", 20_000),
+    ("grpc.keepalive_timeout_ms", 10_000),
 )
 File = Union[str, "os.PathLike[str]"]
 _LOOPBACK = re.compile(r"(localhost|127\.[\d.]+|\[::1\]):\d+|unix:.*")

@@ -60,6 +60,7 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
     # In single precision a copy for the sake of the shape takes least.
     flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
             else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()}
+    check_table(table)
     _check_name("coverage", coverage, COVERAGES)
     if s44_order is not None:
         _check_name("s44_order", s44_order, S44_ORDERS[1:])
@@ -67,6 +68,12 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
                  columns=flat, quantities=_read_quantities(quantities), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
                  best_s44_order=bool(best_s44_order), table=table)
+
+
+def check_table(name: str | None) -> None:
+    """Raises ArgumentError for what is no name of a table."""
+    if not isinstance(name, (str, type(None))):
+        raise ArgumentError(f"table is {name!r}: it should be a name, or left out")
 
 
 def refuse_unknown(names: Iterable[str], known: Iterable[str]) -> None:
@@ -100,7 +107,10 @@ def _common_shape(arrays: Mapping[str, NDArray[Any]]) -> tuple[int, ...]:
 def _read_quantities(names: Iterable[str] | None) -> tuple[str, ...]:
     if names is None:
         return tuple(QUANTITIES)
-    wanted = {names} if isinstance(names, str) else set(names)
+    try:
+        wanted = {names} if isinstance(names, str) else set(names)
+    except TypeError:
+        raise ArgumentError(f"quantities is {names!r}: it should be names of quantities") from None
     for name in wanted:
         _check_name("quantities", name, QUANTITIES)
     if not wanted:

@@ -6,6 +6,7 @@ import time
 
 import grpc
 
+from .error_details import added_by_details
 from .errors import ServiceError, TableNotFoundError, UnreachableError
 
 # The server goes, restarts or is at its limit: it may be well in a moment.
@@ -44,10 +45,13 @@ def _watch(state: grpc.ChannelConnectivity) -> None:
 
 def explained(target: str, error: grpc.RpcError) -> ServiceError:
     """The failure in the words of this package."""
-    code, text = error.code(), f"server {target}: {error.details()}"
+    code, text = error.code(), f"server {target}: {error.details()}{added_by_details(error)}"
     if code == grpc.StatusCode.UNAVAILABLE:
-        hint = "start albtpu-serve there, or name the HOST:PORT where it listens"
+        hint = ("start albtpu-serve there, name the HOST:PORT where it listens, or see that it speaks TLS "
+                "if you do (ca=)")
         return UnreachableError(f"{text}: {hint}", code.name)
+    if code == grpc.StatusCode.UNAUTHENTICATED:
+        return ServiceError(f"{text} (token=)", code.name)
     if code == grpc.StatusCode.DEADLINE_EXCEEDED:
         return UnreachableError(text, code.name)
     if code in (grpc.StatusCode.NOT_FOUND, grpc.StatusCode.FAILED_PRECONDITION):

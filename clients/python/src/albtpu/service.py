@@ -8,8 +8,9 @@ import grpc
 import numpy as np
 
 from .channel import File, open_channel
+from .errors import ArgumentError
 from .progress import Progress
-from .query import Query
+from .query import Query, check_table
 from .retries import Retries, explained
 from .source import UncertaintySource
 from .stream import ColumnStream
@@ -47,7 +48,7 @@ class Service(UncertaintySource):
 
     def __init__(self, target: str, channel: grpc.Channel, timeout: float, patience: float) -> None:
         self._target, self._channel, self._timeout, self._patience = target, channel, timeout, patience
-        self._stub = UncertaintyServiceStub(channel)
+        self._open_stub: UncertaintyServiceStub | None = UncertaintyServiceStub(channel)
 
     def tables(self) -> list[TableSummary]:
         """All tables of the server, by name, versions of one name from the newest."""
@@ -58,6 +59,7 @@ class Service(UncertaintySource):
 
     def table(self, name: str | None = None) -> Table:
         """Raises TableNotFoundError, which lists the names there are."""
+        check_table(name)
         table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
         return Table(
             TableReference.of(table.reference), table.title,
@@ -68,7 +70,14 @@ class Service(UncertaintySource):
             table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())})
 
     def close(self) -> None:
+        self._open_stub = None
         self._channel.close()
+
+    @property
+    def _stub(self) -> UncertaintyServiceStub:
+        if self._open_stub is None:
+            raise ArgumentError(f"the service at {self._target} is closed: connect again")
+        return self._open_stub
 
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
         if query.size == 0:

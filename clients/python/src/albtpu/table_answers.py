@@ -28,11 +28,11 @@ class TableAnswers:
         values = [name for name in QUANTITIES if name in wanted and name in content.values]
         errors = [name for name in values if query.standard_errors and name in content.standard_errors]
         columns = {"fetch": np.array([np.inf])} | dict(query.columns)
-        constant = {axis: column.astype(np.float32) for axis, column in columns.items() if column.size == 1}
         azimuths: list[dict[str, NDArray[np.float32]]] = [{}]
         if "azimuth" not in columns:
             azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in (0, 90)]
         with np.errstate(all="ignore"):  # Of a constant out of domain nothing will be used.
+            constant = {axis: column.astype(np.float32) for axis, column in columns.items() if column.size == 1}
             self._interpolators = [Interpolator(content, values, errors, constant | azimuth)
                                    for azimuth in azimuths]
 

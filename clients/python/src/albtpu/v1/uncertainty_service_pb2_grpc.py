@@ -12,7 +12,9 @@ class UncertaintyServiceStub(object):
     with a message that says what would be right, only when it cannot be read as pulses or names no table.
     Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), DEADLINE_EXCEEDED and CANCELLED.
+    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
+    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
+    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
     """
 
     def __init__(self, channel):
@@ -55,7 +57,9 @@ class UncertaintyServiceServicer(object):
     with a message that says what would be right, only when it cannot be read as pulses or names no table.
     Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), DEADLINE_EXCEEDED and CANCELLED.
+    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
+    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
+    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
     """
 
     def QueryPulses(self, request, context):
@@ -97,7 +101,9 @@ class UncertaintyServiceServicer(object):
 
         Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that
         `QueryColumns` would give; the answers of the requests before it are sent first, those after it are not
-        read. A caller that half-closes gets its last answers and OK; a stream without any request is OK.
+        read. A caller that half-closes gets its last answers and OK; a stream without any request is OK. One on
+        which nothing moves for a minute or two ends: DEADLINE_EXCEEDED where the next request does not come,
+        CANCELLED where answers are not read.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -161,7 +167,9 @@ class UncertaintyService(object):
     with a message that says what would be right, only when it cannot be read as pulses or names no table.
     Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), DEADLINE_EXCEEDED and CANCELLED.
+    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
+    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
+    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
     """
 
     @staticmethod

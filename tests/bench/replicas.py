@@ -1,0 +1,87 @@
+"""Pulses a second from two replicas behind one address beside one of them, each held to a share of a core.
+
+Usage: replicas.py BUILD_FOLDER [--share S] [--repetitions N]
+
+Clients and servers share this machine: only where two replicas and the client have processors enough can two do twice
+as much, so each replica gets a share of a core, by a control group. Needs root.
+"""
+
+import argparse
+import contextlib
+import itertools
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/e2e"))
+
+from serving import Server  # noqa: E402
+
+TABLES = ROOT / "tables"
+PERIOD = 10_000  # us: short beside the time of a message.
+
+
+class ControlGroup:
+    """Of one process: at most `share` of a core."""
+
+    count = itertools.count()
+
+    def __init__(self, process, share):
+        first = pathlib.Path("/sys/fs/cgroup/cpu")  # Of version 1.
+        parent = first if first.exists() else first.parent
+        self.folder = parent / f"albtpu-{os.getpid()}-{next(self.count)}"
+        quota = int(share * PERIOD)
+        try:
+            self.folder.mkdir()
+            if first.exists():
+                (self.folder / "cpu.cfs_period_us").write_text(str(PERIOD))
+                (self.folder / "cpu.cfs_quota_us").write_text(str(quota))
+            else:
+                (self.folder / "cpu.max").write_text(f"{quota} {PERIOD}")
+            (self.folder / "cgroup.procs").write_text(str(process.pid))
+        except OSError as error:
+            sys.exit(f"replicas.py: no control group of processor time: {error}")
+
+    def remove(self):
+        self.folder.rmdir()
+
+
+@contextlib.contextmanager
+def replicas(serve, count, share):
+    """The address of so many servers."""
+    with contextlib.ExitStack() as stack:
+        servers = [stack.enter_context(Server(serve, "--tables", TABLES)) for _ in range(count)]
+        for group in [ControlGroup(server.process, share) for server in servers]:
+            stack.callback(group.remove)  # After its server has ended.
+        stack.push(lambda *_: [server.__exit__() for server in servers] and None)
+        yield "ipv4:" + ",".join(server.address for server in servers), servers[0].process.pid
+
+
+def rate(bench, address, process):
+    command = [bench, "stream", "--callers", "16", "--table", TABLES / "survey.h5", "--address", address,
+               "--server-pid", str(process), "--seconds", "10"]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["pulses_per_second"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--share", type=float, default=0.3, help="of a core, for each replica")
+    parser.add_argument("--repetitions", type=int, default=5)
+    arguments = parser.parse_args()
+    rates = {1: [], 2: []}
+    for _ in range(arguments.repetitions):
+        for count in rates:
+            with replicas(arguments.build / "service/server/albtpu-serve", count, arguments.share) as (address, first):
+                rates[count].append(rate(arguments.build / "tests/bench/service_bench", address, first))
+    one, two = (statistics.median(rates[count]) / 1e6 for count in (1, 2))
+    print(f"Replicas with {arguments.share} of a core each: one {one:.3g}, two {two:.3g} million pulses a second, "
+          f"{two / one:.2f} times as many.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+"""Certificates for tests, made by openssl."""
+
+import pathlib
+import subprocess
+
+NEW_KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
+
+
+def openssl(*arguments):
+    subprocess.run(["openssl", *map(str, arguments)], check=True, capture_output=True)
+
+
+class Authority:
+    """One that vouches for servers and clients, in a folder of its own."""
+
+    def __init__(self, folder, name):
+        self.folder = pathlib.Path(folder, name)
+        self.folder.mkdir()
+        self.certificate = self.folder / "ca.pem"
+        openssl("req", "-x509", *NEW_KEY, "-days", 2, "-subj", f"/CN={name}",
+                "-keyout", self.folder / "ca.key", "-out", self.certificate)
+
+    def issue(self, name, days=1, hosts="DNS:localhost,IP:127.0.0.1"):
+        """The files of a certificate for `hosts` and of its key; it has expired where days are negative."""
+        request, key, certificate = (self.folder / (name + suffix) for suffix in (".csr", ".key", ".pem"))
+        openssl("req", *NEW_KEY, "-subj", f"/CN={name}", "-addext", f"subjectAltName={hosts}",
+                "-keyout", key, "-out", request)
+        openssl("x509", "-req", "-in", request, "-CA", self.certificate, "-CAkey", self.folder / "ca.key",
+                "-copy_extensions", "copy", "-days", days, "-out", certificate)
+        return certificate, key

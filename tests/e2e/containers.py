@@ -1,0 +1,110 @@
+"""Containers for a test: the engine's commands, and servers that are gone when the test ends."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import unittest
+
+PATIENCE = 600  # Seconds that a loaded machine may need.
+ENGINE = sys.argv[1]
+IS_PODMAN = pathlib.Path(ENGINE).name == "podman"
+
+# As docs/operations.md says. Podman alone would leave /tmp for writing.
+RESTRICTED = ("--read-only", *(("--read-only-tmpfs=false",) if IS_PODMAN else ()), "--cap-drop", "all",
+              "--security-opt", "no-new-privileges")
+
+
+def run(*command, check=True, **options):
+    """Returns what it said on standard output."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=PATIENCE,
+                            stdin=subprocess.DEVNULL, **options)
+    if check and result.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}: {result.stdout}{result.stderr}")
+    return result.stdout
+
+
+def engine(*command, **options):
+    return run(ENGINE, *command, **options)
+
+
+def inspect(kind, name):
+    return json.loads(engine(kind, "inspect", name))[0]
+
+
+def wait_for(condition, what):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited in vain for {what}")
+        time.sleep(0.2)
+
+
+class Container:
+    def __init__(self, image, *arguments, flags=()):
+        self.name = engine("run", "--detach", *RESTRICTED, *flags, image, *arguments).strip()
+
+    def log(self):
+        result = subprocess.run([ENGINE, "logs", self.name], capture_output=True, text=True, timeout=PATIENCE)
+        return result.stdout + result.stderr
+
+    def running(self):
+        return inspect("container", self.name)["State"]["Running"]
+
+    def exit_code(self):
+        return inspect("container", self.name)["State"]["ExitCode"]
+
+    def stop(self):
+        """By the image's signal, and when that is in vain for a minute, by SIGKILL."""
+        engine("stop", "--time", "60", self.name)
+
+    def remove(self):
+        engine("rm", "--force", "--volumes", self.name, check=False)
+
+
+class Server(Container):
+    """albtpu-serve, its ports published on free ones of this machine."""
+
+    def __init__(self, *arguments, flags=()):
+        super().__init__("albtpu-serve", *arguments,
+                         flags=("--publish", "127.0.0.1::50051", "--publish", "127.0.0.1::9464", *flags))
+        try:
+            wait_for(lambda: "ready on" in self.log() or not self.running(), "the server")
+        except AssertionError:
+            self.remove()
+            raise
+
+    def address(self, port=50051):
+        return engine("port", self.name, port).split()[0]
+
+    def is_healthy(self):
+        """By the image's HEALTHCHECK."""
+        if IS_PODMAN:  # Asks by itself only where there is systemd.
+            return subprocess.run([ENGINE, "healthcheck", "run", self.name], capture_output=True,
+                                  timeout=PATIENCE).returncode == 0
+        wait_for(lambda: inspect("container", self.name)["State"]["Health"]["Status"] != "starting", "its health")
+        return inspect("container", self.name)["State"]["Health"]["Status"] == "healthy"
+
+    def memory_peak(self):
+        """Bytes, by the control group; None where it does not tell."""
+        pid = inspect("container", self.name)["State"]["Pid"]
+        for line in pathlib.Path(f"/proc/{pid}/cgroup").read_text().splitlines():
+            _, controllers, path = line.split(":", 2)
+            for file in (f"/sys/fs/cgroup/memory{path}/memory.max_usage_in_bytes", f"/sys/fs/cgroup{path}/memory.peak"):
+                if ("memory" in controllers or not controllers) and os.path.exists(file):
+                    return int(pathlib.Path(file).read_text())
+        return None
+
+
+class ContainerTest(unittest.TestCase):
+    def start(self, image, *arguments, flags=()):
+        container = Container(image, *arguments, flags=flags)
+        self.addCleanup(container.remove)
+        return container
+
+    def serve(self, *arguments, flags=()):
+        server = Server(*arguments, flags=flags)
+        self.addCleanup(server.remove)
+        return server

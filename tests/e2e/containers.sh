@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The images: builds them with podman or docker on a base made of Debian packages, for which no registry need be
+# reached, and runs them as docs/operations.md says.
+#
+# Usage: containers.sh      after the programs are built in build/release
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source ./packages.sh
+
+base=localhost/albtpu-test-base
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+skip() {
+  echo "skipped: containers: $*"
+  exit 0
+}
+
+# Of a machine whose first process is not systemd podman asks too much.
+fit_podman() {
+  [[ ! -d /run/systemd/system ]] || return 0
+  cat >"$scratch/containers.conf" <<'EOF'
+[containers]
+default_ulimits = ["nofile=4096:4096", "nproc=4096:4096"]
+[engine]
+cgroup_manager = "cgroupfs"
+runtime = "runc"
+EOF
+  export CONTAINERS_CONF=$scratch/containers.conf
+}
+
+install_packages containers
+engine=$(command -v podman || command -v docker) || skip "no podman and no docker: apt-get install podman is right"
+[[ $engine != */podman ]] || fit_podman
+reason=$("$engine" info 2>&1 >/dev/null) || skip "$engine does not work here: ${reason##*$'\n'}"
+
+if ! "$engine" image inspect "$base" >/dev/null 2>&1; then
+  echo "== Making a base of Debian packages"
+  mmdebstrap --quiet --variant=minbase bookworm "$scratch/base.tar"
+  "$engine" import "$scratch/base.tar" "$base" >/dev/null
+fi
+reason=$("$engine" run --rm "$base" true 2>&1) || skip "$engine runs no container here: ${reason##*$'\n'}"
+
+echo "== Building the images"
+docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>&1 || {
+  tail -n 50 "$scratch/build.log"
+  echo "failed: containers: the images cannot be built" >&2
+  exit 1
+}
+echo "== Running them"
+export PYTHONPATH=clients/python/src
+status=0
+/usr/bin/python3 -B tests/e2e/containers_test.py "$engine" "$base" build/release . || status=1
+/usr/bin/python3 -B tests/e2e/orchestration_test.py "$engine" "$base" . || status=1
+exit "$status"

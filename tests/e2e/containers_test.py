@@ -1,0 +1,230 @@
+"""The images do what they are for, with no more rights than that takes.
+
+Usage: containers_test.py ENGINE BASE_IMAGE BUILD_FOLDER SOURCE_FOLDER [TEST]
+"""
+
+import json
+import os
+import pathlib
+import queue
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import unittest
+import urllib.request
+
+import grpc
+import numpy as np
+
+import albtpu
+from albtpu.v1 import uncertainty_service_pb2 as wire
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from authority import Authority
+from containers import PATIENCE, RESTRICTED, ContainerTest, engine, inspect, run, wait_for
+
+BASE, BUILD, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve(), pathlib.Path(sys.argv[4]).resolve()
+GENERATE, QUERY = BUILD / "generator/albtpu-generate", BUILD / "service/client/albtpu-query"
+CAMPAIGN = SOURCE / "tests/generator/six_seas.toml"
+IMAGES = ("albtpu-serve", "albtpu-query", "albtpu-generate")
+PULSE = dict(wind_speed=7, incidence=12, footprint=0.5, depth=8)
+PULSE_FLAGS = [word for name, value in PULSE.items() for word in (f"--{name.replace('_', '-')}", str(value))]
+MOST_BYTES_ABOVE_BASE = 150_000_000
+
+
+def query(*arguments):
+    """A query of one pulse by the program that was built beside the images."""
+    return json.loads(run(QUERY, "pulse", "--json", *PULSE_FLAGS, *arguments))
+
+
+class Images(unittest.TestCase):
+    def shell(self, image, script):
+        return engine("run", "--rm", *RESTRICTED, "--entrypoint", "sh", image, "-c", script)
+
+    def test_say_version_and_commit(self):
+        commit = run("git", "-C", SOURCE, "describe", "--always", "--dirty", "--abbrev=12").strip()
+        for name in IMAGES:
+            labels = inspect("image", name)["Config"]["Labels"]
+            version = labels["org.opencontainers.image.version"]
+            self.assertEqual(labels["org.opencontainers.image.revision"], commit, name)
+            self.assertEqual(labels["org.opencontainers.image.title"], name)
+            self.assertEqual(engine("run", "--rm", name, "--version"), f"{name} {version} ({commit})\n")
+
+    def test_run_as_a_user_without_rights(self):
+        for name in IMAGES:
+            user, capabilities = self.shell(name, "id -u; grep CapEff /proc/self/status").split("\n")[:2]
+            self.assertGreaterEqual(int(user), 1000)
+            self.assertEqual(int(capabilities.split()[1], 16), 0)
+            self.assertEqual(inspect("image", name)["Config"]["User"], f"{user}:{user}")
+
+    def test_hold_no_program_that_gives_rights(self):
+        for name in IMAGES:
+            found = engine("run", "--rm", "--user", "root", "--entrypoint", "find", name,
+                           "/", "-xdev", "-type", "f", "-perm", "/6000")
+            self.assertEqual(found, "", name)
+
+    def test_hold_no_tools_no_sources_no_history_and_no_keys(self):
+        tools = "for tool in g++ gcc cc ld make ninja cmake git ccache protoc python3; do command -v $tool; done; true"
+        files = ("*_history", "*.key", ".git", "*.cc", "CMakeLists.txt")
+        names = " -o ".join(f"-name '{file}'" for file in files)
+        keys = "grep -rl 'PRIVATE KEY-----' /etc /home /opt /root /srv /tables /usr/local /var 2>/dev/null"
+        for name in IMAGES:
+            self.assertEqual(self.shell(name, tools), "", name)
+            found = self.shell(name, f"find / -xdev \\( {names} \\) -print 2>/dev/null; {keys}; true")
+            self.assertEqual(found, "", name)
+
+    def test_are_little_above_the_base(self):
+        base = inspect("image", BASE)["Size"]
+        sizes = {name: inspect("image", name)["Size"] - base for name in IMAGES}
+        print(", ".join(f"{name}: {size / 1e6:.0f} MB above the base" for name, size in sizes.items()))
+        self.assertLessEqual(sizes["albtpu-serve"], MOST_BYTES_ABOVE_BASE)
+        self.assertLessEqual(sizes["albtpu-query"], MOST_BYTES_ABOVE_BASE)
+
+    def test_end_by_sigterm(self):
+        self.assertEqual(inspect("image", "albtpu-serve")["Config"]["StopSignal"], "SIGTERM")
+
+
+class Service(ContainerTest):
+    def test_answers_through_a_published_port_what_its_table_says(self):
+        server = self.serve()
+        self.assertEqual(query("--server", server.address()), query("--table", SOURCE / "tables/survey.h5"))
+
+    def test_answers_the_query_image(self):
+        server = self.serve()
+        text = engine("run", "--rm", *RESTRICTED, "--network", f"container:{server.name}", "albtpu-query", "pulse",
+                      "--json", *PULSE_FLAGS, "--server", "127.0.0.1:50051")
+        self.assertEqual(json.loads(text), query("--server", server.address()))
+
+    def test_is_healthy_and_tells_its_metrics(self):
+        server = self.serve()
+        self.assertTrue(server.is_healthy())
+        query("--server", server.address())
+        with urllib.request.urlopen(f"http://{server.address(9464)}/metrics", timeout=PATIENCE) as metrics:
+            self.assertRegex(metrics.read(), rb'albtpu_pulses_total\{axis="",outcome="INTERPOLATED"\} [1-9]')
+
+    def test_answers_from_the_tables_of_a_volume(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        folder.chmod(0o755)
+        shutil.copy(SOURCE / "tables/birkebak2018_model.h5", folder / "mine.h5")
+        server = self.serve(flags=("--volume", f"{folder}:/tables:ro"))
+        self.assertIn("mine (default)", run(QUERY, "tables", "--server", server.address()))
+        shutil.copy(SOURCE / "tables/survey.h5", folder / ".survey.new")
+        os.rename(folder / ".survey.new", folder / "survey.h5")
+        engine("kill", "--signal", "HUP", server.name)
+        wait_for(lambda: "survey (default)" in run(QUERY, "tables", "--server", server.address()), "the new table")
+
+    def test_talks_tls(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        authority = Authority(folder, "authority")
+        certificate, key = authority.issue("server", hosts="DNS:albtpu.example,IP:127.0.0.1")
+        folder.chmod(0o755)
+        authority.folder.chmod(0o755)
+        key.chmod(0o644)
+        # As Kubernetes asks in overlays/public: by the name of the certificate, trusting it alone.
+        server = self.serve("--listen", "0.0.0.0:50051", "--tls-cert", "/tls/server.pem",
+                            "--tls-key", "/tls/server.key",
+                            flags=("--volume", f"{authority.folder}:/tls:ro", "--add-host", "albtpu.example:127.0.0.1",
+                                   "--env", "ALBTPU_HEALTH=--server albtpu.example:50051 --tls-ca /tls/server.pem"))
+        self.assertTrue(server.is_healthy(), server.log())
+        answer = query("--server", server.address(), "--tls-ca", authority.certificate)
+        self.assertEqual(answer["outcome"], "INTERPOLATED")
+
+    def test_keeps_to_its_memory(self):
+        server = self.serve(flags=("--memory", "256m", "--memory-swap", "256m"))
+        with albtpu.connect(server.address()) as service:
+            for _ in range(5):
+                answer = service.query(wind_speed=7, incidence=12, footprint=0.5, depth=np.linspace(0, 60, 1_000_000))
+                self.assertTrue((answer.outcomes == 1).all())
+        print(f"albtpu-serve: {(server.memory_peak() or 0) / 1e6:.0f} MB at most under 5 million pulses")
+        self.assertTrue(server.running())
+
+    def test_lets_calls_end_when_it_is_stopped(self):
+        server = self.serve()
+        pulse = {name: np.float32(value).tobytes() for name, value in PULSE.items()}
+        requests = queue.SimpleQueue()
+        with grpc.insecure_channel(server.address(), [("grpc.enable_http_proxy", 0)]) as channel:
+            answers = UncertaintyServiceStub(channel).StreamColumns(iter(requests.get, None))
+            requests.put(wire.StreamColumnsRequest(query=dict(pulses=pulse)))
+            next(answers)
+            stopping = threading.Thread(target=server.stop)
+            stopping.start()
+            wait_for(lambda: "draining after SIGTERM" in server.log(), "the signal")
+            requests.put(wire.StreamColumnsRequest(query=dict(pulses=pulse)))
+            self.assertEqual(next(answers).answer.outcomes, b"\1")
+            requests.put(None)
+            self.assertEqual(answers.code(), grpc.StatusCode.OK)
+        stopping.join(PATIENCE)
+        self.assertEqual(server.exit_code(), 0)
+        self.assertIn("stopped", server.log())
+
+
+class FolderTest(ContainerTest):
+    """A folder for which a container has no rights but those of any user."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.folder.chmod(0o777)
+
+
+class Stopped(FolderTest):
+    def test_a_client_ends_at_once_and_leaves_nothing(self):
+        source = self.folder / "in.csv"
+        os.mkfifo(source, 0o666)
+        source.chmod(0o666)
+        client = self.start("albtpu-query", "csv", "in.csv", "out.csv", "--table", "/tables/survey.h5",
+                            flags=("--volume", f"{self.folder}:/data"))
+
+        def is_read():
+            try:
+                self.addCleanup(os.close, os.open(source, os.O_WRONLY | os.O_NONBLOCK))
+            except OSError:  # By nobody yet.
+                return False
+            return True
+
+        wait_for(is_read, "the client")
+        client.stop()
+        self.assertEqual(client.exit_code(), 128 + signal.SIGTERM, client.log())
+        self.assertEqual(list(self.folder.iterdir()), [source])
+
+    def test_a_generator_ends_at_once(self):
+        generator = self.start("albtpu-generate", "table", "--output", "survey.h5", "--campaign",
+                               "/usr/local/share/albtpu/campaigns/survey.toml",
+                               flags=("--volume", f"{self.folder}:/data"))
+        wait_for(lambda: "units of 'survey'" in generator.log(), "the first units")
+        generator.stop()
+        self.assertEqual(generator.exit_code(), 128 + signal.SIGTERM, generator.log())
+        self.assertFalse((self.folder / "survey.h5").exists())
+
+
+class Generator(FolderTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(CAMPAIGN, self.folder / "small.toml")
+
+    def generate(self, *command):
+        engine("run", "--rm", *RESTRICTED, "--volume", f"{self.folder}:/data", "--env", "SOURCE_DATE_EPOCH=1700000000",
+               *command)
+
+    def test_makes_by_two_ranks_the_table_of_the_program_outside(self):
+        run(GENERATE, "table", "--campaign", self.folder / "small.toml", "--output", self.folder / "outside.h5",
+            env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
+        self.generate("--tmpfs", "/tmp", "--entrypoint", "mpirun", "albtpu-generate", "--oversubscribe", "-n", "2",
+                      "albtpu-generate", "table", "--campaign", "small.toml", "--output", "inside.h5", "--threads", "1")
+        self.assertTrue((self.folder / "inside.h5").read_bytes() == (self.folder / "outside.h5").read_bytes())
+
+    def test_makes_by_shards_and_a_merge_the_table_of_one_run(self):
+        self.generate("albtpu-generate", "table", "--campaign", "small.toml", "--output", "whole.h5")
+        for shard in range(2):
+            self.generate("albtpu-generate", "table", "--campaign", "small.toml", "--work", "units",
+                          "--shard", f"{shard}/2")
+        self.generate("albtpu-generate", "merge", "--work", "units", "--output", "merged.h5")
+        self.assertTrue((self.folder / "merged.h5").read_bytes() == (self.folder / "whole.h5").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[5:], verbosity=2)

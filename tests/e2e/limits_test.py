@@ -1,0 +1,112 @@
+"""What albtpu-serve takes no more of, and how it says what is wrong with a request.
+
+Usage: limits_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
+"""
+
+import pathlib
+import re
+import signal
+import socket
+import ssl
+import sys
+import threading
+import unittest
+
+import grpc
+
+from albtpu.retries import explained
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from secured import SecurityTest
+from serving import PATIENCE
+
+REFLECTION_THREADS = 16  # Of limits.h.
+
+
+class Limits(SecurityTest):
+    def test_close_connections_that_say_nothing(self):
+        for flags in ((), self.tls()):
+            host, port = self.serve(*flags).address.split(":")
+            with socket.create_connection((host, int(port)), PATIENCE) as silent:
+                while silent.recv(4096):  # In plain text the server says first what it takes.
+                    pass
+        context = ssl.create_default_context(cafile=self.ca)
+        context.set_alpn_protocols(["h2"])
+        with socket.create_connection((host, int(port)), PATIENCE) as plain:
+            with context.wrap_socket(plain, server_hostname=host) as silent:
+                while silent.recv(4096):
+                    pass
+
+    def test_close_connections_that_speak_something_else(self):
+        host, port = self.serve().address.split(":")
+        with socket.create_connection((host, int(port)), PATIENCE) as browser:
+            browser.sendall(b"GET / HTTP/1.1\r\nHost: there\r\n\r\n")
+            while browser.recv(4096):
+                pass
+
+    def assert_refused(self, code, server, request, **options):
+        with grpc.insecure_channel(server.address, [("grpc.enable_http_proxy", 0)]) as channel:
+            with self.assertRaises(grpc.RpcError) as failure:
+                UncertaintyServiceStub(channel).QueryColumns(request, timeout=PATIENCE, **options)
+            self.assertEqual(failure.exception.code(), code, failure.exception)
+        return failure.exception
+
+    def test_refuse_messages_and_metadata_that_are_too_long(self):
+        server = self.serve()
+        exhausted = grpc.StatusCode.RESOURCE_EXHAUSTED
+        long = pb.QueryColumnsRequest(pulses=dict(depth=bytes(5 << 20)))
+        self.assert_refused(exhausted, server, long)
+        short = pb.QueryColumnsRequest()
+        self.assert_refused(exhausted, server, short, metadata=[("note", "x" * 20000)])
+        self.assertEqual(server.stop(signal.SIGTERM), 0)
+
+    def test_unpack_nothing(self):
+        server = self.serve()
+        bomb = pb.QueryColumnsRequest(pulses=dict(depth=bytes(256 << 20)))
+        failure = self.assert_refused(grpc.StatusCode.UNIMPLEMENTED, server, bomb,
+                                      compression=grpc.Compression.Gzip)
+        status = pathlib.Path(f"/proc/{server.process.pid}/status").read_text()
+        peak = int(re.search(r"VmHWM:\s+(\d+) kB", status)[1])
+        self.assertLess(peak, 128 << 10, failure)
+
+    def test_give_few_threads_to_those_who_ask_what_there_is(self):
+        server, streams = self.serve(), 3 * REFLECTION_THREADS
+        with grpc.insecure_channel(server.address, [("grpc.enable_http_proxy", 0)]) as channel:
+            reflect = channel.stream_stream("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")
+            ended = threading.Event()
+            calls = [reflect(iter(ended.wait, True), timeout=PATIENCE) for _ in range(streams)]  # They ask nothing.
+            refused = set()
+            while len(refused) < streams - REFLECTION_THREADS:
+                refused = {call for call in calls if not call.is_active()}
+            self.assertEqual({call.code() for call in refused}, {grpc.StatusCode.RESOURCE_EXHAUSTED})
+            for call in calls:
+                call.cancel()
+            ended.set()
+        self.assertEqual(server.stop(signal.SIGTERM), 0)
+
+    def test_repeat_little_of_a_request_in_errors(self):
+        request = pb.QueryColumnsRequest(options=dict(table="ä" * 1_000_000))
+        failure = self.assert_refused(grpc.StatusCode.NOT_FOUND, self.serve(), request)
+        self.assertLess(len(failure.details()), 2000)
+
+
+class Errors(SecurityTest):
+    def test_name_all_fields_that_are_wrong(self):
+        request = pb.QueryColumnsRequest(
+            pulses=dict(wind_speed=bytes(4), depth=bytes(12), incidence=bytes(8)))
+        streamed = pb.StreamColumnsRequest(query=request)
+        with grpc.insecure_channel(self.serve().address, [("grpc.enable_http_proxy", 0)]) as channel:
+            stub = UncertaintyServiceStub(channel)
+            for call, path in (
+                    (lambda: stub.QueryColumns(request, timeout=PATIENCE), "pulses."),
+                    (lambda: next(stub.StreamColumns(iter([streamed]), timeout=PATIENCE)), "query.pulses.")):
+                with self.assertRaises(grpc.RpcError) as failure:
+                    call()
+                self.assertEqual(failure.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
+                text = str(explained("there", failure.exception))
+                self.assertIn("column 'incidence' has 2 numbers, column 'depth' has 3", text)
+                self.assertIn(f"; {path}footprint: column 'footprint' is empty", text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,118 @@
+"""What albtpu-serve logs, and what it does not.
+
+Usage: log_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import grpc
+import numpy as np
+
+from serving import PATIENCE, Server, connect, make_stubs
+
+SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
+make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
+             for name in ("pulse", "table", "uncertainty", "uncertainty_service")))
+from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
+from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
+
+ID = "survey-42.line_7"
+
+
+def columns(**options):
+    return pb.QueryColumnsRequest(options=options, pulses={
+        axis: np.full(4, 5, "<f4").tobytes() for axis in ("wind_speed", "incidence", "footprint", "depth")})
+
+
+class Log(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        subprocess.run([SYNTHETIC_TABLE, os.path.join(self.folder, "survey.h5")], check=True)
+
+    def serve(self, *flags):
+        self.server = Server(SERVE, "--tables", self.folder, *flags)
+        self.addCleanup(self.server.__exit__)
+        channel = connect(self.server.address)
+        self.addCleanup(channel.close)
+        self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+
+    def ask_in_vain(self, request_id):
+        """Asks for a table that is not there; returns the id that the server gives the call."""
+        with self.assertRaises(grpc.RpcError) as failure:
+            self.stub.QueryColumns(columns(table="nowhere"), timeout=PATIENCE, wait_for_ready=True,
+                                   metadata=[("x-request-id", request_id)] if request_id else None)
+        return dict(failure.exception.trailing_metadata())["x-request-id"]
+
+    def stop(self):
+        """Returns the lines of the log."""
+        self.assertEqual(self.server.stop(signal.SIGTERM), 0)
+        self.server.wait_for("stopped")
+        return self.server.lines
+
+    def test_is_json_when_asked_for(self):
+        self.serve("--log-json")
+        self.ask_in_vain(ID)
+        list(self.stub.StreamColumns(iter([pb.StreamColumnsRequest(query=columns())] * 3), timeout=PATIENCE))
+        os.truncate(os.path.join(self.folder, "survey.h5"), 100)
+        self.server.process.send_signal(signal.SIGHUP)
+        self.server.wait_for("not reloaded")
+        lines = [json.loads(line) for line in self.stop()]
+        for line in lines:
+            self.assertRegex(line["time"], r"\A\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z\Z")
+        kinds = [(line["level"], line["message"].split()[0]) for line in lines]
+        self.assertEqual(kinds, [("info", "ready"), ("info", "call"), ("info", "call"), ("error", "tables"),
+                                 ("info", "draining"), ("info", "stopped")])
+        failed, streamed = lines[1:3]
+        self.assertEqual((failed["method"], failed["code"]), ("QueryColumns", "NOT_FOUND"))
+        self.assertIn("'nowhere'", failed["message"])
+        self.assertEqual((streamed["method"], streamed["code"], streamed["answers"], streamed["pulses"]),
+                         ("StreamColumns", "OK", 3, 12))
+        self.assertGreater(streamed["seconds"], 0)
+
+    def test_has_the_id_of_the_caller_or_one_of_its_own(self):
+        self.serve("--log-json")
+        self.assertEqual(self.ask_in_vain(ID), ID)
+        made = [self.ask_in_vain(other) for other in ("", "a b", "x" * 65, "\"")]
+        for request_id in made:
+            self.assertRegex(request_id, r"\A[0-9a-f]{16}\Z")
+        self.assertEqual(len(set(made)), len(made))
+        lines = [json.loads(line) for line in self.stop()]
+        logged = [line["request_id"] for line in lines if "request_id" in line]
+        self.assertEqual(logged, [ID, *made])
+
+    def test_does_not_tell_calls_that_went_well(self):
+        self.serve()
+        for _ in range(50):
+            self.stub.QueryColumns(columns(), timeout=PATIENCE, wait_for_ready=True)
+        self.assertEqual(len(self.stop()), 3)
+
+    def test_cannot_be_flooded(self):
+        self.serve("--log-json")
+        for _ in range(1000):
+            self.ask_in_vain("")
+        calls = [json.loads(line) for line in self.stop() if "call failed" in line]
+        self.assertLessEqual(sum(1 + line.get("lines_left_out", 0) for line in calls), 1000)
+        per_second = {}
+        for line in calls:
+            second = line["time"][:19]
+            per_second[second] = per_second.get(second, 0) + 1
+        # A second of the server may be parts of two of the clock.
+        self.assertLessEqual(max(per_second.values()), 200)
+
+    def test_is_for_people_without_a_flag(self):
+        self.serve()
+        self.ask_in_vain(ID)
+        self.assertRegex(self.stop()[1], r"\Aalbtpu-serve: call failed: there is no table 'nowhere'.* "
+                                         rf"\[request_id={ID} method=QueryColumns code=NOT_FOUND .*\]\Z")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

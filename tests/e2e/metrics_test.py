@@ -1,0 +1,170 @@
+"""The metrics of albtpu-serve, as Prometheus gets them, and what docs/monitoring makes of them.
+
+What promtool (Debian package prometheus) checks is skipped without it.
+
+Usage: metrics_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.request
+
+import grpc
+import numpy as np
+
+from serving import PATIENCE, Server, connect, make_stubs
+
+SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
+make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
+             for name in ("pulse", "table", "uncertainty", "uncertainty_service")))
+from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
+from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
+
+MONITORING = pathlib.Path(PROTO_FOLDER).parent / "docs/monitoring"
+PROMTOOL = shutil.which("promtool")
+SAMPLE = re.compile(r'(\w+)(?:\{(.*)\})? (\S+)')
+needs_promtool = unittest.skipUnless(PROMTOOL, "there is no promtool: apt-get install prometheus")
+
+
+def columns(depths, **options):
+    return pb.QueryColumnsRequest(options=options, pulses={
+        "wind_speed": np.float32(5).tobytes(), "incidence": np.float32(10).tobytes(),
+        "footprint": np.float32(1).tobytes(), "depth": np.array(depths, "<f4").tobytes()})
+
+
+class Metrics(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.make_table("1")
+        self.server = Server(SERVE, "--tables", self.folder, "--metrics", "127.0.0.1:0")
+        self.addCleanup(self.server.__exit__)
+        self.url = self.server.wait_for("metrics on").split()[-1]
+        channel = connect(self.server.address)
+        self.addCleanup(channel.close)
+        self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
+
+    def make_table(self, factor):
+        subprocess.run([SYNTHETIC_TABLE, os.path.join(self.folder, "survey.h5"), "--factor", factor],
+                       check=True)
+
+    def fetch(self):
+        no_proxy = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        with no_proxy.open(self.url, timeout=PATIENCE) as answer:
+            return answer.read().decode()
+
+    def samples(self):
+        """Values by name and labels, as they are written."""
+        lines = [line for line in self.fetch().splitlines() if line and not line.startswith("#")]
+        matches = [SAMPLE.fullmatch(line) for line in lines]
+        self.assertNotIn(None, matches)
+        return {(match[1], frozenset(re.findall(r'(\w+)="(.*?)"', match[2] or ""))): float(match[3])
+                for match in matches}
+
+    def value(self, name, **labels):
+        return self.samples()[name, frozenset(labels.items())]
+
+    def ask(self, request):
+        return self.stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=True)
+
+    def test_count_exactly_what_was_asked(self):
+        for _ in range(10):
+            self.ask(columns([1, 2, 3]))
+        self.ask(columns([1, -1, 1000, np.nan]))
+        requests = [pb.StreamColumnsRequest(query=columns(np.full(20000, 2)))] * 3
+        self.assertEqual(len(list(self.stub.StreamColumns(iter(requests), timeout=PATIENCE))), 3)
+        with self.assertRaises(grpc.RpcError):
+            self.ask(columns([1], table="nowhere"))
+        for outcome, axis, count in (("INTERPOLATED", "", 10 * 3 + 1 + 60000), ("OUT_OF_DOMAIN", "depth", 2),
+                                     ("INVALID", "depth", 1), ("OUT_OF_DOMAIN", "wind_speed", 0)):
+            self.assertEqual(self.value("albtpu_pulses_total", outcome=outcome, axis=axis), count)
+        for method, code, count in (("QueryColumns", "OK", 11), ("QueryColumns", "NOT_FOUND", 1),
+                                    ("StreamColumns", "OK", 1), ("QueryPulses", "OK", 0)):
+            self.assertEqual(self.value("albtpu_calls_total", method=method, code=code), count)
+        for method, count, pulses in (("QueryColumns", 11, 34), ("StreamColumns", 3, 60000)):
+            self.assertEqual(self.value("albtpu_answer_pulses_count", method=method), count)
+            self.assertEqual(self.value("albtpu_answer_pulses_sum", method=method), pulses)
+            self.assertEqual(self.value("albtpu_answer_seconds_count", method=method), count)
+            self.assertEqual(self.value("albtpu_calls_under_way", method=method), 0)
+
+    def test_name_the_tables_that_answer_and_count_reloads(self):
+        def digest():
+            (labels,) = [dict(labels) for name, labels in self.samples() if name == "albtpu_table_info"]
+            self.assertEqual((labels["name"], labels["default"]), ("survey", "true"))
+            return labels["digest"]
+        self.assertEqual(digest(), self.ask(columns([1])).table.digest)
+        self.make_table("2")
+        self.server.process.send_signal(signal.SIGHUP)
+        self.server.wait_for("tables reloaded")
+        self.assertEqual(digest(), self.ask(columns([1])).table.digest)
+        os.truncate(os.path.join(self.folder, "survey.h5"), 10)
+        self.server.process.send_signal(signal.SIGHUP)
+        self.server.wait_for("tables not reloaded")
+        for result, count in (("loaded", 1), ("refused", 1), ("unchanged", 0)):
+            self.assertEqual(self.value("albtpu_reloads_total", result=result), count)
+        self.assertEqual(self.value("albtpu_last_reload_successful"), 0)
+
+    def test_tell_of_the_process(self):
+        with open(f"/proc/{self.server.process.pid}/statm") as file:
+            resident = int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
+        self.assertLess(abs(self.value("process_resident_memory_bytes") / resident - 1), 0.2)
+        descriptors = len(os.listdir(f"/proc/{self.server.process.pid}/fd"))
+        self.assertLess(abs(self.value("process_open_fds") - descriptors), 5)
+        self.assertGreater(self.value("process_cpu_seconds_total"), 0)
+
+    def test_are_all_that_dashboard_and_alerts_ask_for(self):
+        self.ask(columns([1]))
+        # Those of TLS are there with TLS.
+        known = {name for name, _ in self.samples()} | {"up", "albtpu_certificate_expiry_timestamp_seconds"}
+        with open(MONITORING / "grafana.json") as file:
+            panels = json.load(file)["panels"]
+        asked = "\n".join(target["expr"] for panel in panels for target in panel["targets"])
+        asked += (MONITORING / "alerts.yaml").read_text()
+        names = set(re.findall(r"\b(?:albtpu|process)_[a-z_]+\b(?=[{\[) ]| ==)", asked))
+        self.assertGreater(len(names), 10)
+        self.assertLessEqual(names, known)
+        page = (MONITORING / "README.md").read_text()
+        for name in {re.sub("_(bucket|sum|count)$", "", name) for name in known if name.startswith("albtpu")}:
+            self.assertIn(f"`{name}`", page)
+
+    @needs_promtool
+    def test_are_as_prometheus_wants_them(self):
+        self.ask(columns([1]))
+        check = subprocess.run([PROMTOOL, "check", "metrics"], input=self.fetch(), capture_output=True,
+                               text=True)
+        self.assertEqual((check.returncode, check.stderr), (0, ""))
+
+    @needs_promtool
+    def test_have_alert_rules_that_fire_when_they_should(self):
+        for flags in (("check", "rules", "alerts.yaml"), ("test", "rules", "alerts_test.yaml")):
+            check = subprocess.run([PROMTOOL, *flags], cwd=MONITORING, capture_output=True, text=True)
+            self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
+
+    def test_are_compared_with_the_limit_that_the_server_has(self):
+        limits = (MONITORING.parents[1] / "service/server/limits.h").read_text()
+        most = sum(int(re.search(rf"int {name} = (\d+);", limits)[1])
+                   for name in ("kMaxConnections", "kOwnDescriptors"))
+        self.assertIn(f'clamp_max(process_max_fds{{job="albtpu"}}, {most})', (MONITORING / "alerts.yaml").read_text())
+
+    def test_want_an_address_that_is_free_and_of_this_machine(self):
+        taken = self.url.removeprefix("http://").removesuffix("/metrics")
+        for address, exit_code, problem in ((taken, 1, "Address already in use"),
+                                            ("0.0.0.0:0", 2, "--metrics"), ("9464", 2, "--metrics")):
+            result = subprocess.run([SERVE, "--tables", self.folder, "--listen", "127.0.0.1:0", "--metrics",
+                                     address], capture_output=True, text=True, timeout=PATIENCE)
+            self.assertEqual(result.returncode, exit_code, result.stderr)
+            self.assertRegex(result.stderr, r"\Aalbtpu-serve: [^\n]+\n\Z")
+            self.assertIn(problem, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,129 @@
+"""Several servers behind one name: clients take turns with them, and one that dies costs a retry, never a pulse.
+
+Usage: replicas_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
+"""
+
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import urllib.request
+
+import names
+import numpy as np
+
+import albtpu
+from serving import PATIENCE, Server
+
+NAME = "replicas.test"  # A domain that never is (RFC 6761).
+ADDRESSES = ("127.0.0.1", "127.0.0.2")
+SERVE, SYNTHETIC_TABLE, QUERY = sys.argv[1:4]
+PULSES = 10_000_000  # From Python, some tenths of a second.
+LINES = 1_000_000  # Of CSV.
+
+
+class Replica(Server):
+    def __init__(self, tables, listen):
+        super().__init__(SERVE, "--tables", tables, "--metrics", "127.0.0.1:0", listen=listen)
+        self.metrics = re.search(r"http://\S+", self.wait_for("metrics on"))[0]
+
+    def count(self, metric):
+        """The sum over the labels of a metric."""
+        with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
+            lines = page.read().decode().splitlines()
+        return sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith((metric + "{", metric + " ")))
+
+    def is_busy(self):
+        return self.count("albtpu_calls_under_way") > 0 and self.count("albtpu_pulses_total") > 0
+
+
+def depths(count):
+    return np.linspace(0, 20, count, dtype=np.float32)
+
+
+class Replicas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "tables").mkdir()
+        subprocess.run([SYNTHETIC_TABLE, cls.folder / "tables/quick.h5"], check=True)
+        (cls.folder / "in.csv").write_text("depth\n" + "".join(f"{depth:.3f}\n" for depth in depths(LINES // 10)) * 10)
+
+    def setUp(self):
+        self.replicas, port = [], 0
+        for address in ADDRESSES:  # Both at the port that was free for the first.
+            replica = Replica(self.folder / "tables", f"{address}:{port}")
+            self.addCleanup(replica.__exit__)
+            self.replicas.append(replica)
+            port = replica.address.rpartition(":")[2]
+        self.address = f"dns:///{NAME}:{port}"
+
+    def busy_one(self):
+        """A replica that has answered some of what is asked, and not all."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            for replica in self.replicas:
+                if replica.is_busy():
+                    return replica
+        raise AssertionError("nobody is asked")
+
+    def csv(self, output):
+        command = [QUERY, "csv", "in.csv", output, "--server", self.address, "--wind-speed", "5", "--incidence", "10",
+                   "--footprint", "0.5", "--overwrite"]
+        return subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+
+    def assert_written(self, asking, output):
+        said = asking.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(asking.returncode, 0, said)
+        undisturbed = self.folder / "undisturbed.csv"
+        if not undisturbed.exists():
+            self.assertEqual(subprocess.run([QUERY, "csv", "in.csv", undisturbed, "--table", "tables/quick.h5",
+                                             "--wind-speed", "5", "--incidence", "10", "--footprint", "0.5"],
+                                            cwd=self.folder, capture_output=True).returncode, 0)
+        self.assertTrue((self.folder / output).read_bytes() == undisturbed.read_bytes())
+        self.assertEqual((self.folder / output).read_bytes().count(b"\n"), LINES + 1)
+
+    def test_take_turns(self):
+        self.assert_written(self.csv("out.csv"), "out.csv")
+        pulses = [replica.count("albtpu_pulses_total") for replica in self.replicas]
+        self.assertEqual(sum(pulses), LINES)
+        self.assertGreater(min(pulses), 0.2 * LINES)  # Chunks are few.
+
+    def test_answer_each_pulse_of_a_file_once_when_one_is_killed(self):
+        asking = self.csv("killed.csv")
+        self.busy_one().stop(signal.SIGKILL)
+        self.assert_written(asking, "killed.csv")
+
+    def test_answer_each_pulse_of_a_file_once_when_one_falls_silent(self):
+        asking = self.csv("silent.csv")
+        silent = self.busy_one()
+        silent.process.send_signal(signal.SIGSTOP)  # As when its machine has lost its network.
+        self.assert_written(asking, "silent.csv")
+        silent.process.send_signal(signal.SIGCONT)
+
+    def test_answer_each_pulse_of_arrays_once_when_one_is_killed(self):
+        pulses = dict(wind_speed=5, incidence=10, footprint=0.5, depth=depths(PULSES))
+        answers = []
+        with albtpu.connect(self.address) as service:
+            asking = threading.Thread(target=lambda: answers.append(service.query(**pulses)))
+            asking.start()
+            self.busy_one().stop(signal.SIGKILL)
+            asking.join(PATIENCE)
+            disturbed, = answers
+            undisturbed = service.query(**pulses)
+        self.assertEqual(disturbed.outcomes.size, PULSES)
+        np.testing.assert_array_equal(disturbed.outcomes, undisturbed.outcomes)
+        for name, values in undisturbed.values.items():
+            np.testing.assert_array_equal(disturbed.values[name], values)
+
+
+if __name__ == "__main__":
+    names.give({NAME: ADDRESSES})
+    unittest.main(argv=sys.argv[:1], verbosity=2)

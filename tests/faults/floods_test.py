@@ -1,0 +1,164 @@
+"""Frames that are right, each for itself, and far too many or too large, take neither memory nor the server.
+
+Usage: floods_test.py NAME=PATH..., see programs.py
+"""
+
+import concurrent.futures
+import contextlib
+import struct
+
+import albtpu
+import faults
+import http2
+import programs
+import serving
+
+# Of limits.h, in bytes.
+MEMORY_GROWTH = 16 << 20
+MAX_READ_BYTES = 64 << 10
+
+MOST = 4 << 20  # Bytes of a flood, unless the server ends it;
+MOST_CALLS, CONNECTIONS = 40 << 20, 4  # of one that makes calls, from each of several connections at a time.
+LARGEST = 2**31 - 1  # Window, and stream.
+
+# Bytes of memory, that a flood may cost the server: what it grows by before connections are looked at, what a
+# processor makes of calls within a tenth of a second, which is what a busy machine may take to let the server look,
+# and what each connection had sent of them, in one read, when it was ended.
+CALL_BYTES, SHORTEST_CALL, CALLS_IN_TIME = 12 << 10, 15, 10_000
+GROWTH = MEMORY_GROWTH + CALL_BYTES * (CALLS_IN_TIME + CONNECTIONS * MAX_READ_BYTES // SHORTEST_CALL)
+
+
+def odd(i):
+    """Number of the stream of a client's call `i`."""
+    return 2 * i + 1
+
+
+def resets(i):
+    """Calls that are taken back at once."""
+    return http2.call(odd(i), b"StreamColumns") + http2.frame(http2.RST_STREAM, stream=odd(i),
+                                                              payload=struct.pack(">I", 8))
+
+
+def short_resets(i):
+    """The same in a seventh of the bytes: as many as a server can be made to begin."""
+    return http2.short_call(odd(i), b"QueryPulses") + http2.frame(http2.RST_STREAM, stream=odd(i),
+                                                                 payload=struct.pack(">I", 8))
+
+
+def unacknowledged(i):
+    """Calls that do not end, of a caller that never acknowledges how many it may have."""
+    return http2.short_call(odd(i), b"QueryColumns")
+
+
+def calls(i):
+    """Many more than a connection may have; their messages do not end."""
+    return http2.call(odd(i), b"QueryColumns") + http2.frame(http2.DATA, stream=odd(i), payload=b"\0\0\0\xff\xff")
+
+
+def questions(i):
+    """Whose answers nobody takes: the window is closed."""
+    if i == 0:
+        return http2.settings(_4=0)
+    return http2.call(odd(i), b"ListTables") + http2.message(odd(i), b"", http2.END_STREAM)
+
+
+def continuations(i):
+    """A header block without end."""
+    block = http2.field(b"x%d" % i, b"y" * 1000)
+    if i == 0:
+        return http2.frame(http2.HEADERS, 0, 1, http2.header_block(b"QueryColumns") + block)
+    return http2.frame(http2.CONTINUATION, 0, 1, block)
+
+
+def empty_continuations(i):
+    return http2.frame(http2.CONTINUATION, 0, 1) if i else http2.frame(http2.HEADERS, 0, 1)
+
+
+def long_number(i):
+    """A length in a header block that takes no end (RFC 7541, 5.1)."""
+    return http2.frame(http2.CONTINUATION, 0, 1, b"\x80" * 16384) if i else http2.frame(
+        http2.HEADERS, 0, 1, b"\0\x7f" + b"\x80" * 100)
+
+
+def promised_header(i):
+    """A header field that is said to have two gigabytes, and comes."""
+    return http2.frame(http2.CONTINUATION, 0, 1, b"x" * 16384) if i else http2.frame(
+        http2.HEADERS, 0, 1, b"\0\x7f\x80\xff\xff\xff\x07")
+
+
+def settings(i):
+    return http2.settings(_1=i, _3=i)
+
+
+def huge_settings(i):
+    return http2.frame(http2.SETTINGS, payload=struct.pack(">HI", 1 + i % 6, 2**32 - 1 - i) * 2730)
+
+
+def pings(i):
+    return http2.frame(http2.PING, payload=struct.pack(">Q", i))
+
+
+def windows(i):
+    """That overflow."""
+    return http2.window_update(0, LARGEST)
+
+
+def windows_of_a_stream(i):
+    return http2.window_update(1, LARGEST) if i else http2.call(1, b"StreamColumns")
+
+
+def empty_data(i):
+    return http2.frame(http2.DATA, 0, 1) if i else http2.call(1, b"StreamColumns")
+
+
+def priorities(i):
+    return http2.frame(http2.PRIORITY, stream=odd(i), payload=struct.pack(">IB", 1 if i else 3, i % 256))
+
+
+def unknown_frames(i):
+    return http2.frame(200, 255, odd(i), b"x" * 1000)
+
+
+MANY_CALLS = (resets, short_resets, unacknowledged)
+FLOODS = (*MANY_CALLS, calls, questions, continuations, empty_continuations, long_number, promised_header, settings,
+          huge_settings, pings, windows, windows_of_a_stream, empty_data, priorities, unknown_frames)
+
+
+def pour(address, flood):
+    """Sends a flood and reads nothing, until all is sent or the server ends it; returns the bytes sent."""
+    sent, i = 0, 0
+    with contextlib.closing(http2.Connection(address)) as caller:
+        if flood is not unacknowledged:
+            caller.finish_handshake()
+        connection = caller.socket
+        connection.settimeout(10)  # A server that takes no more has its limit too.
+        try:
+            while sent < (MOST_CALLS if flood in MANY_CALLS else MOST) and (flood in MANY_CALLS or i < 200_000):
+                piece = b"".join(flood(i + more) for more in range(500))
+                i += 500
+                connection.sendall(piece)
+                sent += len(piece)
+        except OSError:
+            pass
+    return sent
+
+
+class Floods(faults.FaultTest):
+    def test_take_neither_memory_nor_the_server(self):
+        for flood in FLOODS:
+            with self.subTest(flood.__name__):
+                server = self.serve()
+                before = faults.memory(server.process)
+                floods = (CONNECTIONS if flood in MANY_CALLS else 1) * [flood]
+                with faults.UnaryWitness(self, server.address), concurrent.futures.ThreadPoolExecutor() as pool:
+                    sent = sum(pool.map(pour, len(floods) * [server.address], floods))
+                grown = faults.memory(server.process, "VmHWM") - before
+                print(f"{flood.__name__}: {sent >> 10} KiB sent, memory grew by {grown >> 10} KiB", flush=True)
+                self.assertLess(grown, GROWTH)
+                with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
+                    self.assert_answers(service)  # In a stream: each place was given back.
+                self.assert_drains(server)
+
+
+if __name__ == "__main__":
+    programs.main()

@@ -1,0 +1,108 @@
+"""Where there is no room, outputs are absent and the server goes on.
+
+Usage: full_disk_test.py NAME=PATH..., see programs.py
+"""
+
+import ctypes
+import os
+import pathlib
+import subprocess
+import tempfile
+
+import albtpu
+import faults
+import programs
+import serving
+
+CLONE_NEWNS = 0x20000
+ROOM, LEFT = 256 << 10, 8 << 10  # Bytes: of the disk, and free for a log.
+
+
+def make_small_disk():
+    """A tmpfs that only this process and its children see; None where that is not permitted."""
+    if os.geteuid() != 0 or ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWNS) != 0:
+        return None
+    folder = tempfile.mkdtemp()
+    commands = (["mount", "--make-rprivate", "/"], ["mount", "-t", "tmpfs", "-o", f"size={ROOM}", "tmpfs", folder])
+    if any(subprocess.run(command, capture_output=True, check=False).returncode for command in commands):
+        os.rmdir(folder)
+        return None
+    return pathlib.Path(folder)
+
+
+DISK = make_small_disk()
+
+
+class FullDisk(faults.FaultTest):
+    """Runs programs where no more than ROOM bytes can be written."""
+
+    prefix = ()
+
+    def setUp(self):
+        super().setUp()
+        if DISK is None:
+            self.skipTest("a small disk can be mounted by root alone")
+        self.room = DISK
+        self.addCleanup(self.clear)
+
+    def clear(self):
+        for path in self.room.iterdir():
+            path.unlink()
+
+    def assert_writes_nothing(self, name, *command):
+        command = [*self.prefix, *map(str, command)]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=serving.PATIENCE, check=False)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        errors = [line for line in result.stderr.splitlines() if "albtpu-query: table synthetic" not in line]
+        self.assertEqual(len(errors), 1, result.stderr)
+        self.assertRegex(errors[0], f"{name}.*(No space left|File too large)")
+        self.assertEqual(list(self.room.iterdir()), [])
+
+    def test_leaves_no_output(self):
+        flight = programs.make_flight(self.folder / "flight.las")
+        csv = self.folder / "pulses.csv"
+        csv.write_text("wind_speed,incidence,footprint,depth\n" + "5,12,0.5,8\n" * 20000)
+        server = self.serve()
+        for source in ("--table", self.tables / "survey.h5"), ("--server", server.address):
+            for command, path, flags in (("las", flight, faults.FLAGS), ("csv", csv, ())):
+                with self.subTest(command, source=source[0]):
+                    self.assert_writes_nothing(f"out.{command}", programs.PATHS["query"], command, path,
+                                               self.room / f"out.{command}", *source, *flags)
+        self.assert_drains(server)
+
+    def test_leaves_no_table(self):
+        self.assert_writes_nothing("table.h5", programs.PATHS["synthetic_table"], self.room / "table.h5")
+
+    def test_of_the_log_does_not_stop_the_server(self):
+        log = self.room / "log"
+        log.write_bytes(b"\n" * (ROOM - LEFT))
+        with open(log, "ab") as file:
+            process = subprocess.Popen([*self.prefix, programs.PATHS["serve"], "--tables", self.tables,
+                                        "--listen", "127.0.0.1:0"], stderr=file)
+        self.addCleanup(process.kill)
+        faults.wait_until(lambda: b"\n" in log.read_bytes().lstrip(b"\n"), "the server is ready")
+        address = serving.READY.search(log.read_text())[1]
+        with albtpu.connect(address) as service:
+            for _ in range(2 * LEFT // 100):  # Each is a line, longer than that.
+                with self.assertRaises(albtpu.ServiceError):
+                    service.query(**self.pulses, table="unknown" * 12)
+                self.assert_answers(service)
+        self.assertEqual(log.stat().st_size, ROOM)
+        process.terminate()
+        self.assertEqual(process.wait(serving.PATIENCE), 0)
+
+
+class FileLimit(FullDisk):
+    """The same where the system limits the size of files (ulimit -f)."""
+
+    prefix = ("prlimit", f"--fsize={ROOM}")
+    test_leaves_no_table = None  # Made by a program of the tests, which such a limit ends.
+
+    def setUp(self):
+        faults.FaultTest.setUp(self)
+        self.room = self.folder / "room"
+        self.room.mkdir()
+
+
+if __name__ == "__main__":
+    programs.main()

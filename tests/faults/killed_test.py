@@ -1,0 +1,105 @@
+"""SIGKILL again and again, of the server or of the client: files come out byte for byte as in process.
+
+Usage: killed_test.py NAME=PATH..., see programs.py
+"""
+
+import random
+import signal
+
+import faults
+import many_files_e2e_test as many_files
+import programs
+import serving
+
+SERVER_KILLS, CLIENT_KILLS = 20, 12
+
+
+def wait_for_written(process, size):
+    """Whether the process comes so far."""
+    def is_there():
+        so_far = faults.written(process)
+        return so_far is None or so_far >= size
+    faults.wait_until(is_there, f"{size} bytes are written")
+    return process.poll() is None
+
+
+class Killed(faults.FaultTest):
+    def setUp(self):
+        super().setUp()
+        self.random = random.Random(faults.SEED)
+        self.flight = programs.make_flight(self.folder / "flight.las")
+
+    def make_csv(self, path, count):
+        pulses = faults.random_pulses(count)
+        rows = zip(*(pulses[axis].tolist() for axis in faults.AXES))
+        path.write_text("\n".join([",".join(faults.AXES), *(",".join(map(repr, row)) for row in rows), ""]))
+        return path
+
+    def assert_survives_kills_of_the_server(self, command, source, flags):
+        expected, target = (self.folder / name / f"out.{command}" for name in ("expected", "out"))
+        for path in (expected, target):
+            path.parent.mkdir()
+        programs.query(command, source, expected, "--table", self.tables / "survey.h5", *flags, check=0)
+        server = self.serve()
+        client = self.start_query(command, source, target, "--server", server.address, *flags)
+        size, kills = expected.stat().st_size, 0
+        for i in range(SERVER_KILLS):
+            if not wait_for_written(client, size * (i + self.random.random()) / (SERVER_KILLS + 1)):
+                break
+            server.process.kill()
+            server.process.wait()
+            server, kills = self.serve(listen=server.address), kills + 1
+        errors = client.communicate(timeout=2 * serving.PATIENCE)[1]
+        self.assertEqual(client.returncode, 0, errors)
+        self.assertEqual(target.read_bytes(), expected.read_bytes())
+        summaries = [path.with_name(path.name + ".json").read_bytes() for path in (target, expected)]
+        self.assertEqual(*summaries)
+        self.assertEqual(len(list(target.parent.iterdir())), 2)
+        print(f"{command}: {size >> 20} MiB, the server killed {kills} times")
+        self.assertGreaterEqual(kills, SERVER_KILLS - 1)
+
+    def test_server_leaves_no_trace_in_las(self):
+        source = many_files.repeat(self.flight, self.folder / "long.las", 150)
+        self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
+
+    def test_server_leaves_no_trace_in_csv(self):
+        self.assert_survives_kills_of_the_server("csv", self.make_csv(self.folder / "long.csv", 800_000), ())
+
+    def assert_survives_kills_of_the_client(self, command, flags):
+        survey = self.folder / "survey"
+        expected, out = self.folder / "expected", self.folder / "out"
+        for folder in (expected, out):
+            folder.mkdir()
+        flags = ("--server", self.serve().address, *flags)
+        programs.query(command, survey, "--output-dir", expected, *flags, check=0)
+        whole = {path.name: path.read_bytes() for path in expected.iterdir()}
+        most = max(map(len, whole.values()))
+        kills = 0
+        for _ in range(CLIENT_KILLS):
+            client = self.start_query(command, survey, "--output-dir", out, *flags, "--resume")
+            if wait_for_written(client, most * self.random.random()):
+                kills += 1
+            client.send_signal(signal.SIGKILL)
+            client.wait()
+            for path in out.iterdir():  # What has its name is whole.
+                self.assertEqual(path.read_bytes(), whole.get(path.name), path.name)
+        programs.query(command, survey, "--output-dir", out, *flags, "--resume", check=0)
+        self.assertEqual({path.name: path.read_bytes() for path in out.iterdir()}, whole)
+        print(f"{command}: the client killed {kills} times")
+        self.assertGreater(kills, CLIENT_KILLS // 2)
+
+    def test_client_leaves_nothing_but_whole_las(self):
+        (self.folder / "survey").mkdir()
+        for i in range(6):
+            many_files.repeat(self.flight, self.folder / "survey" / f"line{i}.las", 20)
+        self.assert_survives_kills_of_the_client("las", faults.FLAGS)
+
+    def test_client_leaves_nothing_but_whole_csv(self):
+        (self.folder / "survey").mkdir()
+        for i in range(6):
+            self.make_csv(self.folder / "survey" / f"line{i}.csv", 100_000)
+        self.assert_survives_kills_of_the_client("csv", ())
+
+
+if __name__ == "__main__":
+    programs.main()

@@ -1,0 +1,286 @@
+"""A server under everything at once, for as long as one likes: its answers stay right and its memory flat.
+
+Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
+
+At the same time: files are annotated, some by clients that are killed in the middle and resumed; arrays and single
+pulses are asked for; requests are wrong; streams are cancelled, or never read; connections are silent or speak
+something else; tables are exchanged. Every answer is compared with that of the table file. Prints what was done and
+the resident memory of the server after a tenth of the time and at its end: under load, where it depends on what is
+under way, and, from 10 minutes on, at rest, when the load has paused and the server has given back what is free; there
+more than 5 % between them fails. Nothing but the time that it takes is left to chance: seeds are fixed.
+"""
+
+import argparse
+import itertools
+import os
+import pathlib
+import random
+import signal
+import socket
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import types
+
+import grpc
+import numpy as np
+
+import albtpu
+from albtpu.v1 import uncertainty_service_pb2 as pb
+from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+
+from serving import PATIENCE, Server, connect
+
+FLIGHT = ("--water-level", "0", "--wind-speed", "5", "--footprint", "1")
+MOST_GROWTH = 1.05
+PAUSES = {"exchange": 2, "silent_connections": 0.5, "strange_connections": 0.5, "wrong_requests": 0.1}  # s
+FLAT_FROM = 10  # Minutes: a shorter run has seen too little of each kind to say that memory is flat.
+EARLY = 0.1  # Of the time.
+GIVEN_BACK = 70  # s until the server has given back what is free (kMemoryReturn of limits.h).
+
+
+class Wrong(Exception):
+    """An answer that is not that of the table, or a failure where there should be none."""
+
+
+def expect(good, *what):
+    if not good:
+        raise Wrong(*what)
+
+
+class MixedLoad:
+    """What is done to a server; each method without `_` is one kind of load, done once."""
+
+    def __init__(self, programs, folder):
+        self.programs, self.folder, self.numbers = programs, folder, itertools.count()
+        self.tables = folder / "tables"
+        self.tables.mkdir()
+        for factor in (2, 3):
+            self._run(programs.synthetic_table, folder / f"{factor}.h5", "--factor", factor)
+        self._run(programs.synthetic_table, self.tables / "survey.h5")
+        self._exchange(2)
+        self.flight = folder / "flight.las"
+        self._run(programs.simulated_flight, self.flight)
+        self.annotated = folder / "annotated.las"
+        self._query("las", self.flight, self.annotated, "--table", self.tables / "survey.h5", *FLIGHT)
+        random_numbers = np.random.default_rng(1)
+        ranges = {"wind_speed": (3, 12), "incidence": (0, 25), "footprint": (0.5, 3), "depth": (0, 12)}
+        self.pulses = {name: random_numbers.uniform(*ends, 200_000).astype(np.float32)
+                       for name, ends in ranges.items()}
+        with albtpu.open_table(self.tables / "survey.h5") as table:
+            self.expected = table.query(**self.pulses)
+        self.exchanged = {}
+        for factor in (2, 3):
+            with albtpu.open_table(folder / f"{factor}.h5") as table:
+                answer = table.query(**self._some(slice(0, 1000)))
+                self.exchanged[answer.table.digest] = answer
+        self.server = Server(programs.serve, "--tables", self.tables)
+
+    def file(self):
+        self._annotate(self._output())
+
+    def killed_client(self):
+        output = self._output()
+        command = [self.programs.query, "las", self.flight, output, "--server", self.server.address, *FLIGHT]
+        process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+        time.sleep(random.Random(str(output)).uniform(0, 0.2))
+        process.kill()
+        process.wait()
+        self._annotate(output, "--resume")
+
+    def array(self):
+        with albtpu.connect(self.server.address, patience=PATIENCE) as service:
+            self._compare(service.query(**self.pulses), self.expected)
+
+    def single_pulses(self):
+        with connect(self.server.address) as channel:
+            stub = UncertaintyServiceStub(channel)
+            for i in range(100):
+                pulse = {name: value[i] for name, value in self.pulses.items()}
+                request = pb.QueryPulsesRequest(pulses=[pulse])
+                row, = stub.QueryPulses(request, timeout=PATIENCE).uncertainties
+                expect(row.outcome == self.expected.outcomes[i], "outcome", i, row)
+                if row.outcome == 1:
+                    np.testing.assert_allclose(row.sea_surface.thu, self.expected.thu[i], 2e-5, 1e-7)
+
+    def table_under_exchange(self):
+        with albtpu.connect(self.server.address, patience=PATIENCE) as service:
+            answer = service.query(**self._some(slice(0, 1000)), table="spare")
+            self._compare(answer, self.exchanged[answer.table.digest])
+
+    def exchange(self):
+        self._exchange(2 + next(self.numbers) % 2)
+        self.server.process.send_signal(signal.SIGHUP)
+
+    def wrong_requests(self):
+        with connect(self.server.address) as channel:
+            stub = UncertaintyServiceStub(channel)
+            for pulses in ({}, {"depth": b"123"}, {"depth": bytes(8), "wind_speed": bytes(12)},
+                           {"depth": bytes(5 << 20)}):
+                try:
+                    stub.QueryColumns(pb.QueryColumnsRequest(pulses=pulses), timeout=PATIENCE)
+                    raise Wrong("a wrong request was answered", pulses)
+                except grpc.RpcError as error:
+                    expect(error.code().name in ("INVALID_ARGUMENT", "RESOURCE_EXHAUSTED"), error)
+
+    def cancelled_stream(self):
+        with connect(self.server.address) as channel:
+            requests = itertools.repeat(self._request())
+            stream = UncertaintyServiceStub(channel).StreamColumns(requests, timeout=PATIENCE)
+            for _ in range(3):
+                next(stream)
+            stream.cancel()
+
+    def unread_stream(self):
+        with connect(self.server.address) as channel:
+            stream = UncertaintyServiceStub(channel).StreamColumns(itertools.repeat(self._request()), timeout=2)
+            expect(stream.code() == grpc.StatusCode.DEADLINE_EXCEEDED, stream.details())
+
+    def silent_connections(self):
+        self._talk([b""] * 50)
+
+    def strange_connections(self):
+        numbers = random.Random(next(self.numbers))
+        self._talk([b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + numbers.randbytes(200) for _ in range(50)])
+
+    def _talk(self, messages):
+        host, port = self.server.address.rsplit(":", 1)
+        for message in messages:
+            with socket.create_connection((host, int(port)), PATIENCE) as connection:
+                connection.sendall(message)
+
+    def _request(self):
+        columns = {name: value[:20_000].tobytes() for name, value in self.pulses.items()}
+        return pb.StreamColumnsRequest(query={"pulses": columns})
+
+    def _some(self, part):
+        return {name: value[part] for name, value in self.pulses.items()}
+
+    @staticmethod
+    def _compare(answer, expected):
+        expect((answer.outcomes == expected.outcomes).all(), "outcomes")
+        for name in ("thu", "tvu"):
+            np.testing.assert_allclose(getattr(answer, name), getattr(expected, name), 2e-5, 1e-7, name)
+
+    def _exchange(self, factor):
+        new = self.tables / "new"
+        new.write_bytes((self.folder / f"{factor}.h5").read_bytes())
+        os.replace(new, self.tables / "spare.h5")
+
+    def _output(self):
+        return self.folder / f"{next(self.numbers)}.las"
+
+    def _annotate(self, output, *more):
+        self._query("las", self.flight, output, "--server", self.server.address, *FLIGHT, *more)
+        expect(output.read_bytes() == self.annotated.read_bytes(), "the file has other bytes")
+        output.unlink()
+        pathlib.Path(f"{output}.json").unlink()
+
+    def _query(self, *arguments):
+        self._run(self.programs.query, *arguments)
+
+    @staticmethod
+    def _run(*command):
+        run = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+        expect(run.returncode == 0, run.stderr)
+
+
+class Run:
+    """Each kind of load in a thread of its own, again and again until the time is over or one of them fails."""
+
+    def __init__(self, load, seconds, rests):
+        self.load = load
+        self.stop, self.going = threading.Event(), threading.Event()
+        self.change, self.paused = threading.Condition(), 0
+        self.counts, self.failures, self.memory, self.memory_at_rest = {}, [], [], []
+        kinds = [name for name in vars(MixedLoad) if not name.startswith("_")]
+        self.threads = [threading.Thread(target=self._repeat, args=(name,)) for name in kinds]
+        self.going.set()
+        for thread in self.threads:
+            thread.start()
+        for part in (EARLY, 1 - EARLY):
+            end = time.monotonic() + part * seconds
+            while time.monotonic() < end and not self.stop.wait(1):
+                self.memory.append(self._resident_memory())
+            if rests and not self.stop.is_set():
+                self.memory_at_rest.append(self._rest())
+        self.stop.set()
+        self.going.set()
+        for thread in self.threads:
+            thread.join()
+
+    def _repeat(self, name):
+        count = 0
+        try:
+            while not self.stop.is_set():
+                getattr(self.load, name)()
+                count += 1
+                self.stop.wait(PAUSES.get(name, 0))
+                self._pause()
+        except Exception as failure:  # Whatever it is, it is the result.
+            self.failures.append((name, count, failure))
+            self.stop.set()
+            with self.change:
+                self.change.notify()
+        self.counts[name] = count
+
+    def _pause(self):
+        """While the load rests."""
+        if self.going.is_set():
+            return
+        with self.change:
+            self.paused += 1
+            self.change.notify()
+        self.going.wait()
+        with self.change:
+            self.paused -= 1
+
+    def _rest(self):
+        """MiB that the server keeps when nothing is asked of it."""
+        self.going.clear()
+        with self.change:
+            self.change.wait_for(lambda: self.paused == len(self.threads) or self.stop.is_set())
+        self.stop.wait(GIVEN_BACK)
+        memory = self._resident_memory()
+        self.going.set()
+        return memory
+
+    def _resident_memory(self):
+        pages = pathlib.Path(f"/proc/{self.load.server.process.pid}/statm").read_text().split()[1]
+        return int(pages) * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+    def memory_at(self, part):
+        """MiB, median of a twentieth of the run, up to `part` of it."""
+        last = max(1, round(part * len(self.memory)))
+        return statistics.median(self.memory[max(0, last - max(1, len(self.memory) // 20)):last])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("programs", nargs=4, metavar="NAME=PATH")
+    parser.add_argument("--minutes", type=float, default=0.5)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        programs = dict(program.split("=", 1) for program in arguments.programs)
+        load = MixedLoad(types.SimpleNamespace(**programs), pathlib.Path(folder))
+        run = Run(load, 60 * arguments.minutes, rests=arguments.minutes >= FLAT_FROM)
+        code = load.server.stop(signal.SIGTERM)
+    for name, count in sorted(run.counts.items()):
+        print(f"{name}: {count}")
+    print(f"resident memory under load: {run.memory_at(EARLY):.1f} MiB after {EARLY * arguments.minutes:g} minutes, "
+          f"{run.memory_at(1):.1f} MiB after {arguments.minutes:g}; the most {max(run.memory):.1f} MiB")
+    is_flat = True
+    if len(run.memory_at_rest) == 2:
+        early, late = run.memory_at_rest
+        print(f"at rest: {early:.1f} MiB, then {late:.1f} MiB ({late / early - 1:+.1%})")
+        is_flat = late <= MOST_GROWTH * early
+    for name, count, failure in run.failures:
+        print(f"{name}, time {count + 1}: {failure!r}")
+    sys.exit(0 if not run.failures and code == 0 and is_flat else 1)
+
+
+if __name__ == "__main__":
+    main()

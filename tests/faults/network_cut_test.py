@@ -1,0 +1,139 @@
+"""The network goes while a file is under way: it comes back and nothing shows, or there is one error and no output.
+
+Usage: network_cut_test.py NAME=PATH..., see programs.py
+"""
+
+import io
+import threading
+import time
+
+import albtpu
+import faults
+import many_files_e2e_test as many_files
+import namespaces
+import numpy as np
+import programs
+import serving
+
+REASON = namespaces.enter()
+SOME_WRITTEN = 1 << 20  # Bytes of an answer; sanitizers write less, which start with a try of memory.
+SHORT = 5  # s, of a cut that is survived.
+# s, from a cut to the error: 30 until it is seen, 13 of patience, 8 tries of at most 5 to connect.
+LONGEST = 100 * serving.ALLOWANCE
+
+
+class Python:
+    """The Python client, in a thread: asks the same again and again, for answers that must be the same."""
+
+    def __init__(self, address, pulses):
+        self.answer = self.failure = None
+        self.begun, self.enough = threading.Event(), threading.Event()
+        self.thread = threading.Thread(target=self._run, args=(address, pulses))
+        self.thread.start()
+
+    def _run(self, address, pulses):
+        try:
+            with albtpu.connect(address) as service:
+                self.answer = service.query(**pulses)
+                self.begun.set()
+                while not self.enough.is_set():
+                    again = service.query(**pulses)
+                    for name in ("thu", "tvu", "outcome"):
+                        np.testing.assert_array_equal(getattr(again, name), getattr(self.answer, name))
+        except Exception as failure:  # Whatever it is, it is the result.
+            self.failure = failure
+
+    def end(self, patience):
+        self.enough.set()
+        self.thread.join(patience)
+
+
+class NetworkCut(faults.FaultTest):
+    def setUp(self):
+        if REASON:
+            self.skipTest(REASON)
+        super().setUp()
+        flight = programs.make_flight(self.folder / "flight.las")
+        self.las = many_files.repeat(flight, self.folder / "long.las", 200)
+        self.csv = self.folder / "long.csv"
+        self.many = faults.random_pulses(400_000)
+        rows = io.StringIO()
+        np.savetxt(rows, np.column_stack(list(self.many.values())).astype(float), "%.9g", ",")
+        # Many more than are asked for ahead of what is written.
+        self.csv.write_text(",".join(self.many) + "\n" + 8 * rows.getvalue())
+        self.server = self.serve("--insecure", listen="0.0.0.0:0", prefix=("unshare", "--net"))
+        self.wire = namespaces.Wire(self.server.process)
+        self.addCleanup(self.wire.remove)
+        self.address = f"{namespaces.THERE}:{self.server.address.rpartition(':')[2]}"
+
+    def cut_in_the_middle(self, cut):
+        """Starts a client of each kind; `cut` comes when all of them are under way."""
+        self.out = self.folder / "out"
+        self.out.mkdir()
+        self.clients = [
+            self.start_query("las", self.las, self.out / "out.las", "--server", self.address, *faults.FLAGS),
+            self.start_query("csv", self.csv, self.out / "out.csv", "--server", self.address)]
+        self.python = Python(self.address, self.many)
+        self.addCleanup(self.python.end, serving.PATIENCE)
+        self.assertTrue(self.python.begun.wait(serving.PATIENCE), self.python.failure)
+        for client in self.clients:
+            faults.wait_until(lambda: client.poll() is not None or (faults.written(client) or 0) > SOME_WRITTEN,
+                              "answers are on the way")
+        cut()
+        self.cut_at = time.monotonic()
+        self.assertEqual([client.poll() for client in self.clients], [None, None], "a client was faster")
+
+    def assert_nothing_shows(self):
+        for client in self.clients:
+            errors = client.communicate(timeout=LONGEST)[1]
+            self.assertEqual(client.returncode, 0, errors)
+        self.python.end(LONGEST)
+        self.assertIsNone(self.python.failure)
+        expected = self.folder / "expected"
+        expected.mkdir()
+        table = ("--table", self.tables / "survey.h5")
+        programs.query("las", self.las, expected / "out.las", *table, *faults.FLAGS, check=0)
+        programs.query("csv", self.csv, expected / "out.csv", *table, check=0)
+        self.assertEqual(*({path.name: path.read_bytes() for path in folder.iterdir()}
+                           for folder in (self.out, expected)))
+        answer = self.python.answer
+        for was, is_ in zip(self.answer_in_process(self.many), (answer.thu, answer.tvu, answer.outcome.astype(str))):
+            np.testing.assert_array_equal(is_, was)
+
+    def assert_one_error_each(self):
+        for client in self.clients:
+            errors = client.communicate(timeout=LONGEST)[1]
+            took = time.monotonic() - self.cut_at
+            problems = [line for line in errors.splitlines() if f"server {self.address}" in line]
+            print(f"after {took:.0f} s: {problems}")
+            self.assertEqual(client.returncode, 1, errors)
+            self.assertEqual(len(problems), 1, errors)
+        self.python.thread.join(LONGEST)
+        print(f"after {time.monotonic() - self.cut_at:.0f} s: {self.python.failure!r}")
+        self.assertIsInstance(self.python.failure, albtpu.UnreachableError)
+        self.assertLess(time.monotonic() - self.cut_at, LONGEST)
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    def test_for_seconds_does_not_show(self):
+        self.cut_in_the_middle(self.wire.cut)
+        time.sleep(SHORT)  # The fault itself.
+        self.wire.mend()
+        self.assert_nothing_shows()
+
+    def test_that_loses_packets_for_seconds_does_not_show(self):
+        self.cut_in_the_middle(self.wire.lose)
+        time.sleep(SHORT)
+        self.wire.find()
+        self.assert_nothing_shows()
+
+    def test_for_good_is_an_error(self):
+        self.cut_in_the_middle(self.wire.cut)
+        self.assert_one_error_each()
+
+    def test_that_loses_packets_for_good_is_an_error(self):
+        self.cut_in_the_middle(self.wire.lose)
+        self.assert_one_error_each()
+
+
+if __name__ == "__main__":
+    programs.main()

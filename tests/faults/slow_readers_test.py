@@ -1,0 +1,187 @@
+"""Calls whose callers do not read, or hardly, hold what limits.h lets them hold, and end.
+
+Usage: slow_readers_test.py NAME=PATH..., see programs.py
+"""
+
+import re
+import time
+
+import albtpu
+import faults
+import http2
+import numpy as np
+import programs
+import serving
+from albtpu.v1 import uncertainty_service_pb2 as wire
+
+# Of limits.h.
+MAX_BULK_CALLS = 128
+MAX_STREAM_IDLE = 60  # s; noticed after twice as long at most.
+MAX_CALLS_PER_CONNECTION = 64
+MAX_UNREAD_BYTES = 256 << 20
+MAX_INLINE_BYTES = 192 << 10
+
+READ_NOTHING, READ_A_BYTE_AT_A_TIME = 150, 100
+PULSES = 6000  # Of a request: two of them pass before the server has opened its window.
+BYTES_READ = 50  # By each of those who read a byte at a time.
+CONNECTION_BYTES = 64 << 10  # Of memory, that a connection costs the server beside its messages.
+OPEN_WINDOW = http2.settings(_4=2**31 - 1) + http2.window_update(0, 2**31 - 1 - 65535)
+
+
+def question(pulses):
+    """Of a single call: one column, and all that can be asked of it."""
+    columns = {axis: np.float32(value).tobytes() for axis, value in
+               (("wind_speed", 5), ("incidence", 10), ("footprint", 0.5))}
+    columns["depth"] = np.linspace(1, 15, pulses, dtype=np.float32).tobytes()
+    options = dict(standard_errors=True, best_s44_order=True, s44_order=1)
+    return wire.QueryColumnsRequest(pulses=columns, options=options).SerializeToString()
+
+
+def begin_stream(address, first, requests):
+    connection = http2.Connection(address, http2.PREFACE + first)
+    content = request()
+    connection.socket.sendall(http2.call(1, b"StreamColumns") + requests * http2.message(1, content))
+    return connection
+
+
+def request():
+    query = wire.QueryColumnsRequest.FromString(question(PULSES))
+    return wire.StreamColumnsRequest(query=query).SerializeToString()
+
+
+def data(got):
+    """What of a frame belongs to the answers."""
+    kind, _, stream, payload = got
+    return payload if (kind, stream) == (http2.DATA, 1) else b""
+
+
+def status(connection):
+    """With which status of gRPC the server ended the stream; None: it was cut, or the connection was."""
+    while got := connection.read():
+        kind, flags, stream, payload = got
+        if stream == 1 and kind == http2.RST_STREAM:
+            return None
+        if stream == 1 and flags & http2.END_STREAM:
+            return int(re.search(rb"grpc-status.(\d+)", payload, re.DOTALL)[1])
+    return None
+
+
+class SilentCaller:
+    """Asks as many single calls as a connection may have, and takes no answer."""
+
+    def __init__(self, address, content):
+        self.connection = http2.Connection(address, http2.PREFACE + http2.settings(_4=0))
+        self.connection.finish_handshake()
+        self.ended = 0  # Of its calls.
+        for i in range(MAX_CALLS_PER_CONNECTION):
+            for got in self.connection.ask(2 * i + 1, b"QueryColumns", content):
+                self._take(got)
+
+    def _take(self, got):
+        kind, flags, _, _ = got
+        self.ended += bool(kind == http2.HEADERS and flags & http2.END_STREAM)
+
+    def read_to_the_end(self):
+        while self.ended < MAX_CALLS_PER_CONNECTION:
+            self._take(self.connection.read())
+
+
+class SlowReaders(faults.FaultTest):
+    def read_answer(self, address):
+        """As one who reads has it."""
+        connection = begin_stream(address, OPEN_WINDOW, 1)
+        answer = b""
+        while len(answer) < 5 or len(answer) < 5 + int.from_bytes(answer[1:5], "big"):
+            answer += data(connection.read())
+        connection.close()
+        return answer
+
+    def begin(self, count, address, first):
+        for _ in range(count):
+            connection = begin_stream(address, first, 2)
+            self.addCleanup(connection.close)
+            yield connection
+
+    def read_bytes(self, connection):
+        """One after the other, each when it is there."""
+        read = b""
+        while len(read) < BYTES_READ:
+            connection.socket.sendall(http2.window_update(1, 1))
+            had = len(read)
+            while len(read) == had:
+                read += data(connection.read())
+        return read
+
+    def test_hold_little_and_end(self):
+        server = self.serve()
+        answer, sent = self.read_answer(server.address), request()
+        before = faults.memory(server.process)
+        with faults.UnaryWitness(self, server.address):
+            slow = list(self.begin(READ_A_BYTE_AT_A_TIME, server.address, http2.settings(_4=0)))
+            for connection in slow:  # Each has one of the places now.
+                self.assertEqual(self.read_bytes(connection), answer[:BYTES_READ])
+            began = time.monotonic()
+            silent = [*self.begin(READ_NOTHING // 2, server.address, http2.settings(_4=0)),
+                      *self.begin(READ_NOTHING // 2, server.address, OPEN_WINDOW)]
+            with albtpu.connect(server.address, patience=3 * MAX_STREAM_IDLE) as service:
+                self.assert_answers(service)  # A stream too, once others have ended.
+            waited = time.monotonic() - began
+            statuses = [status(connection) for connection in silent]
+            for connection in slow:
+                self.assertNotIn(status(connection), (0, 8))  # Was let in, and not to the end.
+        held = faults.memory(server.process, "VmHWM") - before
+        bound = (MAX_BULK_CALLS * (2 * len(sent) + len(answer))
+                 + (READ_NOTHING + READ_A_BYTE_AT_A_TIME) * CONNECTION_BYTES)
+        refused = statuses.count(8)
+        print(f"{held >> 10} KiB held, at most {bound >> 10} KiB may be; {refused} streams refused; "
+              f"a place was free after {waited:.0f} s")
+        self.assertEqual(refused, READ_NOTHING + READ_A_BYTE_AT_A_TIME - MAX_BULK_CALLS)
+        self.assertLess(held, bound)
+        self.assertLess(waited, (2 * MAX_STREAM_IDLE + 10) * serving.ALLOWANCE)
+        self.assert_drains(server)
+
+    def ask_and_read_nothing(self, server, content, connections):
+        callers = []
+        for _ in range(connections):
+            callers.append(SilentCaller(server.address, content))
+            self.addCleanup(callers[-1].connection.close)
+        return callers
+
+    def test_of_short_single_calls_lose_their_answers(self):
+        server, content = self.serve("--metrics", "127.0.0.1:0"), question(15000)
+        self.assertLess(len(content), MAX_INLINE_BYTES)
+        before = faults.memory(server.process)
+        began = time.monotonic()
+        with faults.Witness(self, server.address):
+            callers = self.ask_and_read_nothing(server, content, 16)  # A gigabyte of answers.
+            for caller in callers:
+                caller.read_to_the_end()
+        waited = time.monotonic() - began
+        held = faults.memory(server.process, "VmHWM") - before
+        refused = self.metric(server, 'albtpu_calls_total{code="RESOURCE_EXHAUSTED",method="QueryColumns"}')
+        dropped = self.metric(server, "albtpu_unread_answers_total")
+        print(f"{held >> 20} MiB held; {refused:.0f} answers refused, {dropped:.0f} dropped, the last after "
+              f"{waited:.0f} s")
+        self.assertEqual(refused + dropped, len(callers) * MAX_CALLS_PER_CONNECTION)
+        self.assertLess(held, MAX_UNREAD_BYTES + (16 * MAX_CALLS_PER_CONNECTION + 1) * CONNECTION_BYTES)
+        self.assertLess(waited, MAX_STREAM_IDLE + serving.PATIENCE)
+        self.assert_drains(server)
+
+    def test_of_long_single_calls_give_their_places_back(self):
+        server, content = self.serve(), question(60000)
+        self.assertGreater(len(content), MAX_INLINE_BYTES)
+        callers = self.ask_and_read_nothing(server, content, MAX_BULK_CALLS // MAX_CALLS_PER_CONNECTION)
+        began = time.monotonic()
+        with faults.UnaryWitness(self, server.address), \
+                albtpu.connect(server.address, patience=3 * MAX_STREAM_IDLE) as service:
+            self.assert_answers(service)  # In a stream, once others have ended.
+        waited = time.monotonic() - began
+        print(f"a place was free after {waited:.0f} s")
+        for caller in callers:
+            caller.read_to_the_end()
+        self.assertLess(waited, MAX_STREAM_IDLE + serving.PATIENCE)
+        self.assert_drains(server)
+
+
+if __name__ == "__main__":
+    programs.main()

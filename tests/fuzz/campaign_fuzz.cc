@@ -1,0 +1,46 @@
+// Any text as a campaign: refused with a reason, or one whose every encounter is a sea that can be simulated
+// and whose table can be written.
+#include <cmath>
+#include <string_view>
+
+#include "generator/campaign.h"
+#include "tables/format.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace albtpu;
+
+void CheckEncounter(const Encounter& encounter) {
+  ALBTPU_MUST(std::isfinite(encounter.sea.wind_speed_10m) && encounter.sea.wind_speed_10m > 0);
+  ALBTPU_MUST(encounter.sea.fetch > 0);
+  ALBTPU_MUST(encounter.refractive_index > 1 && std::isfinite(encounter.refractive_index));
+  ALBTPU_MUST(!encounter.depths.empty() && encounter.depths.front() >= 0);
+  for (const BeamOptions& beam : encounter.beams) {
+    ALBTPU_MUST(beam.incidence >= 0 && std::cos(beam.incidence) > 0.49);
+    ALBTPU_MUST(beam.footprint > 0 && std::isfinite(beam.footprint));
+    ALBTPU_MUST(beam.source_height > 0);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(text);
+  if (!campaign.ok()) {
+    ALBTPU_MUST(absl::IsInvalidArgument(campaign.status()) && !campaign.status().message().empty());
+    return 0;
+  }
+  ALBTPU_MUST(campaign->text == text);
+  std::size_t count = 1;
+  for (const Axis& axis : campaign->axes) {
+    ALBTPU_MUST(axis.size() <= format::kMaxNodeCount && axis.size() <= format::kMaxValueCount / count);
+    count *= axis.size();
+  }
+  ALBTPU_MUST(campaign->effort.realizations >= 2);
+  ALBTPU_MUST(campaign->effort.most_realizations >= campaign->effort.realizations);
+  CheckEncounter(EncounterOf(*campaign, 0));
+  CheckEncounter(EncounterOf(*campaign, EncounterCount(*campaign) - 1));
+  return 0;
+}

@@ -1,0 +1,112 @@
+// Changes requests of columns field by field, so that most of them stay requests; some byte by byte.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "albtpu/v1/uncertainty_service.pb.h"
+#include "tests/fuzz/fuzz_target.h"
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+
+namespace {
+
+using namespace albtpu;
+
+// Of a column: the usual is more than what the interpolator takes at a time; now and then it is more than one of
+// its blocks.
+constexpr std::size_t kUsualBytes = 96, kMostBytes = 2048;
+constexpr float kTelling[] = {0.0f,
+                              -0.0f,
+                              1.0f,
+                              3.0f,
+                              10.0f,
+                              25.0f,
+                              45.0f,
+                              90.0f,
+                              0.25f,
+                              2.0f,
+                              1000.f,
+                              100000.f,
+                              20.0f,
+                              -1.0f,
+                              1e-40f,
+                              std::numeric_limits<float>::max(),
+                              std::numeric_limits<float>::infinity(),
+                              std::numeric_limits<float>::quiet_NaN()};
+
+void MutateBytes(std::mt19937& random, std::string& column) {
+  switch (random() % 4) {
+    case 0:  // Any bytes.
+      column.resize(std::max(column.size(), kUsualBytes));
+      column.resize(
+          LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(column.data()), column.size() / 2, column.size()));
+      return;
+    case 1:  // Another length.
+      column.resize(random() % 64 == 0 ? random() % kMostBytes
+                                       : sizeof(float) * (random() % (kUsualBytes / sizeof(float))));
+      return;
+    default: {  // A number that means something.
+      if (column.size() < sizeof(float)) column.resize(sizeof(float));
+      const std::size_t at = random() % (column.size() / sizeof(float)) * sizeof(float);
+      const float number = kTelling[random() % std::size(kTelling)];
+      std::memcpy(column.data() + at, &number, sizeof number);
+    }
+  }
+}
+
+std::string* AnyColumn(std::mt19937& random, v1::PulseColumns& pulses) {
+  switch (random() % 6) {
+    case 0:
+      return pulses.mutable_wind_speed();
+    case 1:
+      return pulses.mutable_fetch();
+    case 2:
+      return pulses.mutable_incidence();
+    case 3:
+      return pulses.mutable_azimuth();
+    case 4:
+      return pulses.mutable_footprint();
+  }
+  return pulses.mutable_depth();
+}
+
+void MutateOptions(std::mt19937& random, v1::QueryColumnsRequest& request) {
+  constexpr const char* kTables[] = {"", "survey", "tiny", "published", "survey/1", "absent", "/", "../tiny"};
+  v1::QueryOptions& options = *request.mutable_options();
+  switch (random() % 6) {
+    case 0:
+      return options.set_table(kTables[random() % std::size(kTables)]);
+    case 1:
+      return options.set_coverage(static_cast<v1::Coverage>(random() % 4));
+    case 2:
+      return options.set_standard_errors(random() % 2 == 0);
+    case 3:
+      return options.set_best_s44_order(random() % 2 == 0);
+    case 4:
+      return options.set_s44_order(static_cast<v1::S44Order>(random() % 8));
+    default:
+      if (random() % 3 == 0) return request.clear_quantities();
+      request.add_quantities(static_cast<v1::Quantity>(random() % 8));
+  }
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned int seed) {
+  std::mt19937 random(seed);
+  v1::QueryColumnsRequest request;
+  const bool is_request = request.ParseFromArray(data, static_cast<int>(size));
+  if (!is_request || random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
+  if (random() % 4 == 0) {
+    MutateOptions(random, request);
+  } else {
+    MutateBytes(random, *AnyColumn(random, *request.mutable_pulses()));
+  }
+  const std::string bytes = request.SerializeAsString();
+  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
+  std::memcpy(data, bytes.data(), bytes.size());
+  return bytes.size();
+}

@@ -1,0 +1,115 @@
+// Any text as CSV records of pulses: refused with a reason that names a line, or read without losing a byte.
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "service/client/csv_pulses.h"
+#include "service/client/csv_reader.h"
+#include "service/client/number_text.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace albtpu;
+using namespace albtpu::client;
+
+void MustNameALine(const absl::Status& status) {
+  ALBTPU_MUST(absl::IsInvalidArgument(status) && absl::StrContains(status.message(), " line "));
+}
+
+std::string Quoted(std::string_view meant) {
+  std::string quoted = "\"";
+  for (const char character : meant) quoted.append(character == '"' ? 2 : 1, character);
+  return quoted + '"';
+}
+
+// The cells of a record are the record: they follow each other, a comma between each two, and what a quoted
+// one means is what it was quoted from.
+void CheckCells(const CsvRecord& record) {
+  const std::size_t first = record.cell_begins.front();
+  ALBTPU_MUST(record.text.substr(0, first) == kByteOrderMark.substr(0, first));
+  for (std::size_t i = 0; i < record.cell_count(); ++i) {
+    const std::size_t begin = record.cell_begins[i];
+    ALBTPU_MUST(begin <= record.text.size());
+    if (i > 0) ALBTPU_MUST(begin > record.cell_begins[i - 1] && record.text[begin - 1] == ',');
+    const std::string_view raw = record.RawCell(i);
+    if (raw.empty() || raw.front() != '"') {
+      ALBTPU_MUST(raw.find_first_of(",\n") == std::string_view::npos);
+    } else {
+      ALBTPU_MUST(Quoted(record.Cell(i)) == raw);
+    }
+  }
+}
+
+// The records stand in the block one behind the other, from its beginning to its end or to the one that is
+// wrong.
+void CheckRecords(const CsvBlock& block) {
+  CsvRecords records("file", block);
+  CsvRecord record;
+  const char* next = block.text.data();
+  const char* const end = next + block.text.size();
+  std::size_t line = block.first_line;
+  while (true) {
+    const absl::StatusOr<bool> more = records.Next(record);
+    if (!more.ok()) return MustNameALine(more.status());
+    if (!*more) break;
+    ALBTPU_MUST(record.text.data() == next && record.line == line);
+    next += record.text.size();
+    const std::string_view ending = record.line_ending;
+    ALBTPU_MUST(ending == "\n" || ending == "\r\n" || (ending.empty() && next == end));
+    ALBTPU_MUST(ending.empty() || ending.data() == next);
+    next += ending.size();
+    for (const char character : record.text) line += character == '\n';
+    line += !ending.empty();
+    CheckCells(record);
+  }
+  ALBTPU_MUST(next == end);
+}
+
+// A number of a file is written such that it is read as the same number.
+void CheckNumbers(const PulseBatch& pulses) {
+  for (const std::vector<float>& column : pulses.axis) {
+    for (const float number : column) {
+      if (std::isnan(number)) continue;
+      ALBTPU_MUST(ParseFloat(FormatFloat(number)) == number);
+    }
+  }
+}
+
+// Every record that is not blank becomes one pulse, up to the one that is wrong.
+void CheckPulses(const CsvBlock& block) {
+  CsvRecords records("file", block);
+  CsvRecord header, record;
+  const absl::StatusOr<bool> has_header = records.Next(header);
+  if (!has_header.ok() || !*has_header) return;
+  FixedCoordinates fixed;
+  if (!absl::StrContains(block.text, "wind_speed")) fixed[Index(AxisId::kWindSpeed)] = 5.0f;
+  static const std::vector<std::string> appended = {"thu", "tvu"};
+  const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind("file", header, fixed, appended);
+  if (!columns.ok()) return MustNameALine(columns.status());
+  CsvPulseBatches batches;
+  columns->Clear(batches);
+  std::size_t count = 0;
+  for (absl::StatusOr<bool> more = records.Next(record); more.ok() && *more; more = records.Next(record)) {
+    if (record.blank()) continue;
+    const absl::StatusOr<bool> has_azimuth = columns->Append(record, batches);
+    if (!has_azimuth.ok()) return MustNameALine(has_azimuth.status());
+    ++count;
+  }
+  ALBTPU_MUST(batches.with_azimuth.size + batches.without_azimuth.size == count);
+  for (const PulseBatch* batch : {&batches.with_azimuth, &batches.without_azimuth}) {
+    ALBTPU_MUST(batch->size == 0 || CheckLengths(batch->columns()).ok());
+    CheckNumbers(*batch);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const CsvBlock block{.text = std::string(reinterpret_cast<const char*>(data), size), .first_line = 1};
+  CheckRecords(block);
+  CheckPulses(block);
+  return 0;
+}

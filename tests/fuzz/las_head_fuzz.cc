@@ -1,0 +1,108 @@
+// Any bytes as what a LAS file has besides points, from memory: refused with a reason, or places that lie in
+// the file and descriptions that can be repeated.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/client/las_crs.h"
+#include "service/client/las_extra_bytes.h"
+#include "service/client/las_header.h"
+#include "service/client/las_vlr.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace albtpu;
+using namespace albtpu::client;
+
+const std::string kName = "file";
+
+void MustSayWhatIsWrong(const absl::Status& status) {
+  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status));
+  ALBTPU_MUST(status.message().size() > 20);
+}
+
+void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
+  ALBTPU_MUST(header.version_minor >= 2 && header.version_minor <= 4);
+  ALBTPU_MUST(header.point_format >= 0 && header.point_format <= kLargestPointFormat);
+  ALBTPU_MUST(header.record_length >= MinimumRecordLength(header.point_format));
+  ALBTPU_MUST(header.header_size <= header.offset_to_points && header.offset_to_points <= file_size);
+  const std::uint64_t room = file_size - header.offset_to_points;
+  ALBTPU_MUST(header.point_count <= room && header.point_count * header.record_length <= room);
+  for (const std::uint64_t start : {header.start_of_evlrs, header.start_of_waveform_packet}) {
+    ALBTPU_MUST(start == 0 || (header.end_of_points() <= start && start <= file_size));
+  }
+  ALBTPU_MUST(std::isfinite(header.offset_z) && std::isfinite(header.scale_z) && header.scale_z != 0);
+}
+
+// Described again, the same bytes with two more entries of 192 bytes and more, which are ours.
+void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
+  constexpr std::size_t kEntry = 192, kNameField = 4;
+  const absl::StatusOr<std::string> ours =
+      DescribeUncertainty(kName, described, extra_bytes, Coverage::kTwoSigma);
+  if (!ours.ok()) return MustSayWhatIsWrong(ours.status());
+  ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + 2 * kEntry);
+  ALBTPU_MUST(ours->size() <= kLargestExtraBytesRecord);
+  ALBTPU_MUST(ours->substr(0, described.size()) == described);
+  ALBTPU_MUST(ours->substr(ours->size() - kEntry + kNameField, kTvuName.size()) == kTvuName);
+  ALBTPU_MUST(ours->substr(ours->size() - 2 * kEntry + kNameField, kThuName.size()) == kThuName);
+  const absl::StatusOr<std::string> again =
+      DescribeUncertainty(kName, *ours, extra_bytes + kAppendedBytes, Coverage::kTwoSigma);
+  ALBTPU_MUST(absl::IsInvalidArgument(again.status()));
+}
+
+void CheckData(const VlrEntry& entry, std::string_view data, const LasHeader& header) {
+  constexpr std::string_view kProjection = "LASF_Projection";
+  if (entry.Is(kSpecUser, kExtraBytesRecord)) CheckExtraBytes(data, header.extra_bytes());
+  const std::optional<std::string> feet = entry.Is(kProjection, 2112)    ? FindFeetInWkt(data)
+                                          : entry.Is(kProjection, 34735) ? FindFeetInGeoKeys(data)
+                                                                         : std::nullopt;
+  ALBTPU_MUST(!feet.has_value() || feet->size() > 4);
+}
+
+void CheckVlrs(std::string_view head, const LasHeader& header) {
+  const absl::StatusOr<std::vector<VlrEntry>> entries = ListVlrs(kName, header, head);
+  if (!entries.ok()) return MustSayWhatIsWrong(entries.status());
+  ALBTPU_MUST(entries->size() == header.vlr_count);
+  std::uint64_t next = header.header_size;
+  bool described = false;
+  for (const VlrEntry& entry : *entries) {
+    ALBTPU_MUST(entry.offset == next && entry.data_offset == next + kVlrHeaderSize);
+    ALBTPU_MUST(entry.data_size <= head.size() && entry.end() <= head.size());
+    next = entry.end();
+    CheckData(entry, head.substr(entry.data_offset, entry.data_size), header);
+    described = described || entry.Is(kSpecUser, kExtraBytesRecord);
+  }
+  if (!described) CheckExtraBytes("", header.extra_bytes());
+}
+
+void CheckEvlrs(std::string_view file, const LasHeader& header) {
+  std::uint64_t next = header.start_of_evlrs;
+  for (std::uint32_t i = 0; i < header.evlr_count && file.size() - next >= kEvlrHeaderSize; ++i) {
+    const std::string bytes(file.substr(next, kEvlrHeaderSize));
+    const absl::StatusOr<VlrEntry> entry = ParseEvlr(kName, bytes, next, file.size());
+    if (!entry.ok()) return MustSayWhatIsWrong(entry.status());
+    ALBTPU_MUST(entry->data_offset == next + kEvlrHeaderSize && entry->data_size <= file.size());
+    ALBTPU_MUST(entry->end() <= file.size());
+    CheckData(*entry, file.substr(entry->data_offset, entry->data_size), header);
+    next = entry->end();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string file(reinterpret_cast<const char*>(data), size);
+  const std::string beginning = file.substr(0, kLargestLasHeader);
+  const absl::StatusOr<LasHeader> header = ParseLasHeader(kName, beginning, size);
+  if (!header.ok()) {
+    MustSayWhatIsWrong(header.status());
+    return 0;
+  }
+  CheckHeader(*header, size);
+  CheckVlrs(file.substr(0, header->offset_to_points), *header);  // Of its own memory: its end is the end.
+  CheckEvlrs(file, *header);
+  return 0;
+}

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Fuzzes every target, one after the other, and says how many inputs each was given.
+#
+# Usage: run.sh SECONDS [TARGET...]    SECONDS for each target; all targets unless some are named
+#
+# Inputs that reached something new are kept in build/fuzz/corpus, for the next time. An input that a target fails on is
+# left beside them: mended, it belongs to tests/fuzz/found/TARGET, where every test run tries it again. The few inputs
+# that get further than the seeds, by three branches or more each, are in tests/fuzz/reached/TARGET.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+if (($# < 1)) || [[ ! $1 =~ ^[0-9]+$ ]]; then
+  echo "$0: '${1-}' is no number of seconds: run.sh SECONDS [TARGET...]" >&2
+  exit 2
+fi
+seconds=$1
+shift
+targets=("$@")
+
+# The longest input of each target: room for what it is about, and no more, since short ones run faster.
+declare -A longest=([campaign]=2048 [columns]=2400 [csv]=300 [csv_file]=300 [las]=1500 [las_head]=1500 [seal]=600
+                    [table]=131072)
+(($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
+for target in "${targets[@]}"; do
+  if [[ -z ${longest[$target]-} ]]; then
+    echo "$0: '$target' is no target: ${!longest[*]} are" >&2
+    exit 2
+  fi
+done
+if ! command -v clang++-14 >/dev/null; then
+  echo "$0: there is no clang++-14: apt-get install clang-14 libclang-rt-14-dev" >&2
+  exit 2
+fi
+
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz -j "$(nproc)" --target albtpu_fuzz_seeds "${targets[@]/%/_fuzz}" >build/fuzz/build.log ||
+  { tail -n 50 build/fuzz/build.log >&2; exit 1; }
+folder=build/fuzz/tests/fuzz
+"$folder/albtpu_fuzz_seeds" build/fuzz/seeds
+
+# Leaks are looked for once, when a target ends: libraries keep memory from input to input (HDF5 its free lists, gRPC
+# its slices), which looks like a leak after one and makes libFuzzer search all memory each time. Short call stacks of
+# allocations and a small quarantine take a tenth less time and an eighth of the memory; what is found tells its whole
+# story when it is run again without them. The time limit is generous: on a busy machine it passes without work.
+export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=8
+export UBSAN_OPTIONS=print_stacktrace=1
+export LSAN_OPTIONS=suppressions=tests/sanitizers/lsan.supp:print_suppressions=0
+[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm  # Files of targets stay in memory.
+status=0
+figure() { sed -n "s/^stat::$1: *//p" "$log"; }
+for target in "${targets[@]}"; do
+  corpus=build/fuzz/corpus/$target
+  mkdir -p "$corpus"
+  options=(-max_len="${longest[$target]}" -detect_leaks=0)
+  dictionary=tests/fuzz/${target%%_*}.dict  # Of the format: csv and csv_file have one.
+  [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
+  known=("build/fuzz/seeds/$target")
+  for kind in found reached; do
+    [[ ! -d tests/fuzz/$kind/$target ]] || known+=("tests/fuzz/$kind/$target")
+  done
+  log=build/fuzz/$target.log
+  if "$folder/${target}_fuzz" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=60 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/corpus/$target." "${options[@]}" "$corpus" "${known[@]}" >"$log" 2>&1; then
+    echo "$target: $(figure number_of_executed_units) executions, $(figure average_exec_per_sec)/s, nothing found"
+  else
+    echo "$target: FOUND SOMETHING, see $log:"
+    grep -m 5 -E 'does not hold|ERROR|SUMMARY|runtime error|Test unit written' "$log" || tail -n 5 "$log"
+    status=1
+  fi
+done
+exit "$status"

@@ -1,0 +1,45 @@
+// Any bytes as a table file, as far as its seal: refused with a reason, or sealed as FORMAT.md says; and what is
+// sealed is refused with one bit of it changed.
+#include <cstring>
+#include <string>
+
+#include "tables/seal.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace albtpu;
+
+template <typename Integer>
+Integer NumberAt(const std::string& file, std::size_t offset) {
+  Integer number;
+  std::memcpy(&number, file.data() + offset, sizeof number);  // Little-endian, as this program is.
+  return number;
+}
+
+bool IsSealed(const std::string& file) {
+  const absl::Status status = seal::Check(file);
+  if (status.ok()) return true;
+  ALBTPU_MUST(absl::IsDataLoss(status) || absl::IsInvalidArgument(status));
+  ALBTPU_MUST(!status.message().empty());
+  return false;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string file(reinterpret_cast<const char*>(data), size);
+  if (IsSealed(file)) {
+    ALBTPU_MUST(size >= seal::kSize && file.substr(0, seal::kMagic.size()) == seal::kMagic);
+    ALBTPU_MUST(NumberAt<std::uint32_t>(file, seal::kVersionOffset) == seal::kFormatVersion);
+    ALBTPU_MUST(NumberAt<std::uint64_t>(file, seal::kLengthOffset) == size);
+  }
+  if (size < seal::kSize) return 0;
+  // Which bit is told by the input itself, so that it is any of them and the same in every run.
+  const std::size_t bit = (NumberAt<std::uint64_t>(file, seal::kDigestOffset) ^ data[size - 1]) % (8 * size);
+  seal::Apply(file);
+  ALBTPU_MUST(IsSealed(file));
+  file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8));
+  ALBTPU_MUST(!IsSealed(file));
+  return 0;
+}

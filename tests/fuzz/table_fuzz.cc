@@ -1,0 +1,87 @@
+// Any bytes as a table file: refused with a reason, or a table of which both interpolators answer alike.
+// Either way HDF5 has as much open as before.
+#include <hdf5.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "absl/strings/string_view.h"
+#include "tables/column_query.h"
+#include "tables/hdf5.h"
+#include "tables/seal.h"
+#include "tables/table_encoding.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/twin.h"
+#include "tests/tables/synthetic_table.h"
+
+namespace {
+
+using namespace albtpu;
+
+constexpr std::size_t kMostValues = 100'000;  // of tables that are asked: of larger ones, that they are valid
+
+// Pulses on nodes, between them and outside, and one without azimuth.
+void Ask(const UncertaintyTable& table) {
+  constexpr std::size_t kPulses = 8;
+  std::array<std::vector<float>, kAxisCount> columns;
+  PulseColumns pulses{.size = kPulses, .axis = {}};
+  for (const AxisId id : kAxes) {
+    const std::vector<double>& nodes = table.axis(id).nodes();
+    const double first = nodes.front(), last = nodes.back(), second = nodes[nodes.size() / 2];
+    for (const double x : {first, last, second, (first + second) / 2, (second + last) / 2,
+                           first + 0.9 * (last - first), first - 1, 2 * last}) {
+      columns[Index(id)].push_back(static_cast<float>(x));
+    }
+    pulses.axis[Index(id)] = columns[Index(id)];
+  }
+  std::vector<std::uint8_t> outcomes(kPulses), axes(kPulses);
+  std::array<std::vector<float>, kQuantityCount> values, errors;
+  AnswerColumns answers;
+  answers.outcomes = outcomes.data();
+  answers.outcome_axes = axes.data();
+  for (std::size_t q = 0; q < kQuantityCount; ++q) {
+    values[q].resize(kPulses);
+    errors[q].resize(kPulses);
+    answers.values[q] = values[q].data();
+    answers.standard_errors[q] = errors[q].data();
+  }
+  const ColumnInterpolator interpolator(table);
+  const fuzz::Twin twin(table);
+  for (const bool azimuth_absent : {false, true}) {
+    if (azimuth_absent) pulses.axis[Index(AxisId::kAzimuth)] = {};
+    interpolator.Answer({}, pulses, 0, kPulses, answers);
+    twin.MustAnswerAlike({}, pulses, answers);
+  }
+}
+
+// Of a file that was refused HDF5 keeps nothing that the next one meets: another is read as what it is.
+void ReadAnother() {
+  static const UncertaintyTable table = testing::TinyTable();
+  static const std::string sealed = EncodeTable(table).value();
+  const std::string file = sealed;  // In the memory, as likely as not, that was of the file before.
+  const absl::StatusOr<UncertaintyTable> another = DecodeTable(file);
+  ALBTPU_MUST(another.ok() && another->digest() == table.digest());
+}
+
+ssize_t OpenInHdf5() {
+  const hdf5::Session session;
+  return H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const absl::string_view file(reinterpret_cast<const char*>(data), size);
+  const ssize_t open_before = OpenInHdf5();
+  const absl::StatusOr<UncertaintyTable> table = DecodeTable(file);
+  ALBTPU_MUST(OpenInHdf5() == open_before);
+  if (!table.ok()) {
+    ALBTPU_MUST(absl::IsDataLoss(table.status()) || absl::IsInvalidArgument(table.status()));
+    ALBTPU_MUST(!table.status().message().empty());
+    if (seal::Check(file).ok()) ReadAnother();
+    return 0;
+  }
+  if (ValueCount(table->axes(), Quantity::kThu) <= kMostValues) Ask(*table);
+  return 0;
+}

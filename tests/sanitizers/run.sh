@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# All tests but the validations, which repeat the generator's code for minutes and here for hours, under
+# AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer. Says how many ran under each, and what
+# was found: also by programs that a test ended, or whose exit code it did not look at.
+#
+# Usage: run.sh [PRESET [CTEST OPTION...]]    of the presets asan and tsan; for example run.sh tsan -R '^serve_test$'
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+# ThreadSanitizer of g++ 12 knows where memory lies with 28 random bits of addresses at most.
+if (($(</proc/sys/vm/mmap_rnd_bits) > 28)) && [[ -z ${ALBTPU_FIXED_ADDRESSES-} ]]; then
+  ALBTPU_FIXED_ADDRESSES=yes exec setarch --addr-no-randomize "$0" "$@"
+fi
+
+presets=(asan tsan)
+if (($# > 0)); then
+  presets=("$1")
+  shift
+fi
+status=0
+summary=()
+for preset in "${presets[@]}"; do
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset" -j "$(nproc)"
+  findings=$PWD/build/$preset/findings
+  rm -rf "$findings"
+  mkdir "$findings"
+  ALBTPU_FINDINGS=log_path=$findings/report ctest --preset "$preset" --parallel 2 "$@" |
+    tee "build/$preset/test.log" || status=1
+  reports=$(find "$findings" -type f | wc -l)
+  if ((reports > 0)); then
+    status=1
+    cat "$findings"/*
+  fi
+  tests=$(sed -n 's/.* tests passed, .* out of //p' "build/$preset/test.log")
+  summary+=("$preset: $tests tests, $reports programs with findings")
+done
+printf '%s\n' "${summary[@]}"
+exit "$status"

@@ -1,0 +1,95 @@
+// Tells ThreadSanitizer what a pipeline of oneTBB orders, as tbb_tasks.cc does for tasks: what a filter does to an
+// item comes after what the filter before it did; what a serial filter does, after what it did with the item before;
+// and what follows the pipeline, after all of it.
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <sanitizer/tsan_interface.h>
+
+#include <utility>
+
+#include "tests/sanitizers/next_function.h"
+
+namespace {
+
+using albtpu::sanitizers::NextFunction;
+using tbb::detail::d1::base_filter;
+using tbb::detail::d1::filter_node;
+using tbb::detail::d1::task_group_context;
+
+unsigned int ModeOf(base_filter& filter) {
+  unsigned int mode = filter.is_serial() ? base_filter::filter_is_serial : 0;
+  if (filter.is_serial() && !filter.is_ordered()) mode |= base_filter::filter_is_out_of_order;
+  if (filter.object_may_be_null()) mode |= base_filter::filter_may_emit_null;
+  return mode;
+}
+
+// A filter in place of another.
+class SeenFilter final : public base_filter {
+ public:
+  SeenFilter(base_filter* filter, const void* pipeline)
+      : base_filter(ModeOf(*filter)), filter_(filter), pipeline_(const_cast<void*>(pipeline)) {}
+  ~SeenFilter() override {
+    filter_->~base_filter();
+    tbb::detail::r1::deallocate_memory(filter_);
+  }
+
+  void* operator()(void* item) override {
+    if (is_serial()) __tsan_acquire(this);
+    if (item != nullptr) __tsan_acquire(item);
+    base_filter* const outer = std::exchange(running, this);
+    item = (*filter_)(item);
+    running = outer;
+    if (item != nullptr) __tsan_release(item);
+    if (is_serial()) __tsan_release(this);
+    __tsan_release(pipeline_);
+    return item;
+  }
+  void finalize(void* item) override { filter_->finalize(item); }
+
+  static thread_local base_filter* running;
+
+ private:
+  base_filter* filter_;
+  void* pipeline_;
+};
+thread_local base_filter* SeenFilter::running = nullptr;
+
+// The node of such a filter.
+class SeenLeaf final : public filter_node {
+ public:
+  SeenLeaf(const filter_node& leaf, const void* pipeline) : leaf_(leaf), pipeline_(pipeline) {}
+  base_filter* create_filter() const override {
+    return new (tbb::detail::r1::allocate_memory(sizeof(SeenFilter)))
+        SeenFilter(leaf_.create_filter(), pipeline_);
+  }
+
+ private:
+  const filter_node& leaf_;
+  const void* pipeline_;
+};
+
+filter_node* Seen(const filter_node& node, const void* pipeline) {
+  using tbb::detail::r1::allocate_memory;
+  if (!node.left) return new (allocate_memory(sizeof(SeenLeaf))) SeenLeaf(node, pipeline);
+  return new (allocate_memory(sizeof(filter_node)))
+      filter_node(Seen(*node.left, pipeline), Seen(*node.right, pipeline));
+}
+
+}  // namespace
+
+namespace tbb::detail::r1 {
+
+void parallel_pipeline(task_group_context& context, std::size_t tokens, const filter_node& filters) {
+  static const auto next = NextFunction<void(task_group_context&, std::size_t, const filter_node&)>(
+      "_ZN3tbb6detail2r117parallel_pipelineERNS0_2d118task_group_contextEmRKNS2_11filter_nodeE");
+  const d1::filter_node_ptr seen(Seen(filters, &filters));
+  next(context, tokens, *seen);
+  __tsan_acquire(const_cast<filter_node*>(&filters));
+}
+
+void set_end_of_input(base_filter&) {
+  static const auto next =
+      NextFunction<void(base_filter&)>("_ZN3tbb6detail2r116set_end_of_inputERNS0_2d111base_filterE");
+  next(*SeenFilter::running);
+}
+
+}  // namespace tbb::detail::r1

@@ -1,0 +1,63 @@
+// Servers for tests of the client, in one process with it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "service/server/server.h"
+#include "service/server/server_metrics.h"
+#include "tables/table_io.h"
+#include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::client {
+
+// A server with one table, `quick`.
+class RunningServer {
+ public:
+  explicit RunningServer(const albtpu::testing::SyntheticOptions& options = {},
+                         const std::string& listen = "127.0.0.1:0") {
+    const absl::Status written =
+        WriteTable(albtpu::testing::SyntheticTable(options), folder_ / "quick.h5", Existing::kReplace);
+    EXPECT_TRUE(written.ok()) << written;
+    tables_.emplace(server::TableCatalog::Load(folder_ / "", "").value());
+    server_ = server::Server::Start(*tables_, {metrics_.calls, metrics_.access, log_},
+                                    server::ListenAddress::Parse(listen).value())
+                  .value();
+  }
+  const std::string& address() const { return server_->address(); }
+
+  // How many it has given, of calls in columns.
+  int answers() const {
+    int count = 0;
+    for (const prometheus::MetricFamily& family : metrics_.registry->Collect()) {
+      if (family.name != "albtpu_answer_pulses") continue;
+      for (const prometheus::ClientMetric& metric : family.metric) {
+        count += static_cast<int>(metric.histogram.sample_count);
+      }
+    }
+    return count;
+  }
+
+  void Stop() { server_->Drain(); }
+
+ private:
+  albtpu::testing::TemporaryFolder folder_;
+  server::ServerMetrics metrics_;
+  server::CallLog log_;
+  std::optional<server::LiveTables> tables_;
+  std::unique_ptr<server::Server> server_;
+};
+
+// One address for servers that have no name.
+inline std::string AllOf(const std::vector<std::string>& addresses) {
+  return absl::StrCat("ipv4:", absl::StrJoin(addresses, ","));
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,37 @@
+#include "service/client/server_health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/service/client/running_server.h"
+
+namespace albtpu::client {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ServerHealth, IsGoodWhileTheServerServes) {
+  const RunningServer server;
+  EXPECT_TRUE(CheckHealth(server.address()).ok());
+}
+
+TEST(ServerHealth, IsGoodWhereOneOfManyServes) {
+  RunningServer first;
+  const RunningServer second;
+  first.Stop();
+  EXPECT_TRUE(CheckHealth(AllOf({first.address(), second.address()})).ok());
+}
+
+TEST(ServerHealth, SaysWhatIsWrong) {
+  RunningServer server;
+  const std::string address = server.address();
+  server.Stop();
+  const absl::Status gone = CheckHealth(address);
+  EXPECT_EQ(gone.code(), absl::StatusCode::kUnavailable);
+  EXPECT_THAT(std::string(gone.message()), HasSubstr(address));
+  const absl::Status no_file = CheckHealth(address, {.ca = "nowhere.pem"});
+  EXPECT_THAT(std::string(no_file.message()), HasSubstr("--tls-ca: nowhere.pem"));
+}
+
+}  // namespace
+}  // namespace albtpu::client

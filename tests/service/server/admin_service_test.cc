@@ -1,0 +1,91 @@
+#include "service/server/admin_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/service/server/served_tables.h"
+
+namespace albtpu::server {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Admin : public ServedTables {
+ protected:
+  grpc::Status Reload(v1::ReloadTablesResponse& response) {
+    const auto stub = v1::AdminService::NewStub(channel_);
+    grpc::ClientContext context;
+    context.set_wait_for_ready(true);
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+    return stub->ReloadTables(&context, {}, &response);
+  }
+};
+
+TEST_F(Admin, ReloadsTablesAndSaysWhatBecameOfEach) {
+  WriteOrDie(testing::SyntheticTable({.factor = 5}), folder_ / "another.h5");
+  std::filesystem::remove(folder_ / "published.h5");
+  v1::ReloadTablesResponse response;
+  ASSERT_TRUE(Reload(response).ok());
+  std::vector<std::pair<std::string, int>> tables;
+  for (const v1::ReloadedTable& table : response.tables()) tables.emplace_back(table.name(), table.change());
+  EXPECT_EQ(tables, (std::vector<std::pair<std::string, int>>{{"another", v1::TABLE_CHANGE_LOADED},
+                                                              {"survey", v1::TABLE_CHANGE_KEPT},
+                                                              {"twice/2", v1::TABLE_CHANGE_KEPT},
+                                                              {"twice/1", v1::TABLE_CHANGE_KEPT},
+                                                              {"published", v1::TABLE_CHANGE_REMOVED}}));
+  v1::GetTableResponse table;
+  EXPECT_TRUE(GetTable("another", table).ok());
+  EXPECT_EQ(GetTable("published", table).error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(Admin, SaysWhichTableIsDamagedAndNotWhereItLies) {
+  std::ofstream(folder_ / "survey.h5") << "not a table";
+  v1::ReloadTablesResponse response;
+  const grpc::Status status = Reload(response);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_THAT(status.error_message(), AllOf(HasSubstr("survey.h5"), Not(HasSubstr(folder_.path().string()))));
+  v1::GetTableResponse table;
+  ASSERT_TRUE(GetTable("survey", table).ok());
+  EXPECT_EQ(table.table().reference().digest(), survey_.digest());
+}
+
+TEST_F(Admin, LetsAStreamEndOnTheTableOnWhichItBegan) {
+  grpc::ClientContext context;
+  const auto stream = stub_->StreamColumns(&context);
+  v1::StreamColumnsRequest request;
+  *request.mutable_query()->mutable_pulses() = WireColumns(3);
+  v1::StreamColumnsResponse answer;
+  ASSERT_TRUE(stream->Write(request) && stream->Read(&answer));
+  const std::string digest = answer.answer().table().digest();
+
+  ASSERT_TRUE(
+      WriteTable(testing::SyntheticTable({.factor = 7}), folder_ / "survey.h5", Existing::kReplace).ok());
+  v1::ReloadTablesResponse response;
+  ASSERT_TRUE(Reload(response).ok());
+  ASSERT_TRUE(stream->Write(request) && stream->Read(&answer));
+  EXPECT_EQ(answer.answer().table().digest(), digest);
+  stream->WritesDone();
+  EXPECT_TRUE(stream->Finish().ok());
+
+  v1::QueryColumnsResponse later;
+  ASSERT_TRUE(QueryColumns(request.query(), later).ok());
+  EXPECT_NE(later.table().digest(), digest);
+}
+
+TEST(AdminCallers, OfThisMachineAreKnownByTheirAddress) {
+  for (const char* peer : {"ipv4:127.0.0.1:4242", "ipv4:127.0.0.2:1", "ipv6:%5B::1%5D:4242",
+                           "ipv6:[::1]:4242", "unix:/run/albtpu"}) {
+    EXPECT_TRUE(IsOfThisMachine(peer)) << peer;
+  }
+  for (const char* peer : {"", "ipv4:192.0.2.1:127", "ipv4:12.7.0.1:1", "ipv6:%5B2001:db8::1%5D:1",
+                           "ipv6:%5B::1:2%5D:1", "unknown"}) {
+    EXPECT_FALSE(IsOfThisMachine(peer)) << peer;
+  }
+}
+
+}  // namespace
+}  // namespace albtpu::server

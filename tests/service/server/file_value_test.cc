@@ -1,0 +1,85 @@
+#include "service/server/file_value.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <thread>
+
+#include "absl/status/status.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::server {
+namespace {
+
+using Text = FileValue<std::string>;
+
+// A file whose value is its first word; without one it is refused.
+class FileValueTest : public ::testing::Test {
+ protected:
+  absl::StatusOr<std::unique_ptr<Text>> Open() {
+    return Text::Open({path_}, [this]() -> absl::StatusOr<std::string> {
+      std::string word;
+      if (std::ifstream(path_) >> word) return word;
+      return absl::InvalidArgumentError("no word: one is right");
+    });
+  }
+
+  // As programs that replace a file do.
+  void Write(const std::string& text) {
+    std::ofstream(folder_ / "new") << text;
+    std::filesystem::rename(folder_ / "new", path_);
+  }
+
+  testing::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "file";
+};
+
+TEST_F(FileValueTest, IsWhatTheFileSays) {
+  Write("first");
+  const auto value = Open().value();
+  EXPECT_EQ(*value->Get(), "first");
+  EXPECT_EQ(value->Get(), value->Get());
+}
+
+TEST_F(FileValueTest, ChangesWithTheFile) {
+  Write("first");
+  const auto value = Open().value();
+  const std::shared_ptr<const std::string> before = value->Get();
+  Write("other");
+  EXPECT_EQ(*value->Get(), "other");
+  EXPECT_EQ(*before, "first");
+}
+
+TEST_F(FileValueTest, StaysWhereTheFileIsNotRight) {
+  Write("first");
+  const auto value = Open().value();
+  Write("");
+  EXPECT_EQ(*value->Get(), "first");
+  std::filesystem::remove(path_);
+  EXPECT_EQ(*value->Get(), "first");
+  Write("third");
+  EXPECT_EQ(*value->Get(), "third");
+}
+
+TEST_F(FileValueTest, IsReadAgainWhereItOnceCouldNotBe) {
+  Write("first");
+  bool readable = true;
+  const auto value =
+      Text::Open({path_}, [&]() -> absl::StatusOr<std::string> {
+        std::string word;
+        std::ifstream(path_) >> word;
+        return readable ? absl::StatusOr<std::string>(word) : absl::InternalError("too many open files");
+      }).value();
+  readable = false;
+  Write("other");
+  EXPECT_EQ(*value->Get(), "first");
+  readable = true;
+  while (*value->Get() != "other") std::this_thread::yield();
+}
+
+TEST_F(FileValueTest, WantsARightFileToBeginWith) {
+  EXPECT_EQ(Open().status(), absl::InvalidArgumentError("no word: one is right"));
+}
+
+}  // namespace
+}  // namespace albtpu::server

@@ -1,0 +1,56 @@
+#include "service/server/idle_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <optional>
+
+namespace albtpu::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr std::chrono::hours kLong{1};
+
+TEST(IdleWatch, NoticesThatNothingMoves) {
+  std::promise<void> idle;
+  const auto begin = steady_clock::now();
+  const IdleWatch watch(milliseconds(20), [&] { idle.set_value(); });
+  idle.get_future().wait();
+  EXPECT_GE(steady_clock::now() - begin, milliseconds(20));
+}
+
+TEST(IdleWatch, WaitsAnewAfterAMove) {
+  std::promise<void> idle;
+  const auto begin = steady_clock::now();
+  IdleWatch watch(milliseconds(50), [&] { idle.set_value(); });
+  watch.Moved();
+  idle.get_future().wait();
+  EXPECT_GE(steady_clock::now() - begin, milliseconds(100));
+}
+
+TEST(IdleWatch, NoticesNothingOnceItHasGone) {
+  bool noticed = false;
+  {
+    const IdleWatch watch(kLong, [&] { noticed = true; });
+  }
+  EXPECT_FALSE(noticed);
+}
+
+TEST(IdleWatch, MayBeEndedByWhatItCalls) {
+  std::promise<void> ended;
+  std::optional<IdleWatch> watch;
+  std::promise<void> made;
+  watch.emplace(milliseconds(1), [&, is_made = made.get_future().share()] {
+    is_made.wait();
+    watch.reset();
+    ended.set_value();
+  });
+  made.set_value();
+  ended.get_future().wait();
+  EXPECT_FALSE(watch.has_value());
+}
+
+}  // namespace
+}  // namespace albtpu::server

@@ -1,0 +1,143 @@
+#include "service/server/live_tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <future>
+
+#include "tests/service/server/served_tables.h"
+
+namespace albtpu::server {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Kind = TableCatalog::Change::Kind;
+
+class LiveTablesOfAFolder : public ::testing::Test {
+ protected:
+  LiveTablesOfAFolder() {
+    Put("quick.h5", 1);
+    Put("survey/1.h5", 1);
+    tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
+  }
+
+  // In place of what has this name, as tables are written: all at once.
+  void Put(const std::string& file, double factor) {
+    std::filesystem::create_directories((folder_ / file).parent_path());
+    const absl::Status written =
+        WriteTable(testing::SyntheticTable({.factor = factor}), folder_ / file, Existing::kReplace);
+    ASSERT_TRUE(written.ok()) << written;
+  }
+
+  void Spoil(const std::string& file) { std::ofstream(folder_ / file) << "not a table"; }
+
+  LiveTables::Outcome Reload() {
+    std::promise<LiveTables::Outcome> outcome;
+    tables_->Reload([&outcome](const LiveTables::Outcome& told) { outcome.set_value(told); });
+    return outcome.get_future().get();
+  }
+
+  static std::map<std::string, Kind> Kinds(const LiveTables::Outcome& outcome) {
+    std::map<std::string, Kind> kinds;
+    for (const TableCatalog::Change& change : OrDie(outcome)) kinds[change.name] = change.kind;
+    return kinds;
+  }
+
+  std::string DigestOf(std::string_view name) {
+    return OrDie(tables_->current()->Find(name))->table.digest();
+  }
+
+  testing::TemporaryFolder folder_;
+  std::optional<LiveTables> tables_;
+};
+
+TEST_F(LiveTablesOfAFolder, ShareWhatHasNotChanged) {
+  const auto before = tables_->current();
+  EXPECT_EQ(Kinds(Reload()),
+            (std::map<std::string, Kind>{{"quick", Kind::kKept}, {"survey/1", Kind::kKept}}));
+  const auto after = tables_->current();
+  EXPECT_NE(after, before);
+  EXPECT_EQ(after->entries(), before->entries());  // The very same objects.
+}
+
+TEST_F(LiveTablesOfAFolder, TakeNewAndExchangedTablesAndLeaveThoseThatAreGone) {
+  Put("bay.h5", 2);
+  Put("survey/1.h5", 3);
+  std::filesystem::remove(folder_ / "quick.h5");
+  const std::string survey = DigestOf("survey");
+  EXPECT_EQ(Kinds(Reload()),
+            (std::map<std::string, Kind>{
+                {"bay", Kind::kLoaded}, {"survey/1", Kind::kLoaded}, {"quick", Kind::kRemoved}}));
+  EXPECT_NE(DigestOf("survey"), survey);
+  EXPECT_EQ(tables_->current()->Find("quick").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST_F(LiveTablesOfAFolder, AnswerByTheNewestVersionAndByAnyThatIsNamed) {
+  const std::string first = DigestOf("survey");
+  Put("survey/2.h5", 2);
+  ASSERT_TRUE(Reload().ok());
+  EXPECT_NE(DigestOf("survey"), first);
+  EXPECT_EQ(DigestOf("survey/1"), first);
+}
+
+TEST_F(LiveTablesOfAFolder, StayAsAWholeWhenOneTableIsDamaged) {
+  const auto before = tables_->current();
+  Put("survey/2.h5", 2);
+  Spoil("quick.h5");
+  Spoil("worse.h5");
+  const LiveTables::Outcome outcome = Reload();
+  EXPECT_THAT(std::string(outcome.status().message()), AllOf(HasSubstr("quick.h5"), HasSubstr("worse.h5")));
+  EXPECT_EQ(tables_->current(), before);
+
+  Put("quick.h5", 4);
+  std::filesystem::remove(folder_ / "worse.h5");
+  EXPECT_TRUE(Reload().ok());
+  EXPECT_EQ(OrDie(tables_->current()->Find("survey"))->name, "survey/2");
+}
+
+TEST_F(LiveTablesOfAFolder, StayWhenTheFolderCannotBeTakenAsItIs) {
+  const auto before = tables_->current();
+  Put("survey.h5", 1);  // Beside survey/1.h5.
+  EXPECT_FALSE(Reload().ok());
+  std::filesystem::remove_all(folder_.path());
+  EXPECT_FALSE(Reload().ok());
+  std::filesystem::create_directory(folder_.path());
+  EXPECT_FALSE(Reload().ok());
+  EXPECT_EQ(tables_->current(), before);
+}
+
+TEST_F(LiveTablesOfAFolder, StayWhenTheGivenDefaultIsGone) {
+  tables_.reset();
+  tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "quick")));
+  std::filesystem::remove(folder_ / "quick.h5");
+  EXPECT_THAT(std::string(Reload().status().message()), HasSubstr("quick"));
+  EXPECT_TRUE(tables_->current()->Find("").ok());
+}
+
+TEST_F(LiveTablesOfAFolder, LiveAsLongAsACallHoldsThem) {
+  const auto held = tables_->current();
+  const TableCatalog::Entry* entry = OrDie(held->Find("quick"));
+  Put("quick.h5", 2);
+  ASSERT_TRUE(Reload().ok());
+  const std::string digest = DigestOf("quick");
+  tables_.reset();
+  EXPECT_NE(entry->table.digest(), digest);
+  EXPECT_EQ(entry->table.digest(), OrDie(held->Find("quick"))->table.digest());
+}
+
+TEST_F(LiveTablesOfAFolder, TellEveryoneWhoAsked) {
+  std::promise<void> all_told;
+  std::atomic<int> told = 0;
+  for (int i = 0; i < 10; ++i) {
+    tables_->Reload([&](const LiveTables::Outcome& outcome) {
+      EXPECT_TRUE(outcome.ok());
+      if (++told == 10) all_told.set_value();
+    });
+  }
+  all_told.get_future().get();
+}
+
+}  // namespace
+}  // namespace albtpu::server
