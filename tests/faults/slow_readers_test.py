@@ -168,9 +168,11 @@ class SlowReaders(faults.FaultTest):
         self.assert_drains(server)
 
     def test_of_long_single_calls_give_their_places_back(self):
-        server, content = self.serve(), question(60000)
+        server, content = self.serve("--metrics", "127.0.0.1:0"), question(60000)
         self.assertGreater(len(content), MAX_INLINE_BYTES)
         callers = self.ask_and_read_nothing(server, content, MAX_BULK_CALLS // MAX_CALLS_PER_CONNECTION)
+        under_way = 'albtpu_calls_under_way{method="QueryColumns"}'
+        faults.wait_until(lambda: self.metric(server, under_way) == MAX_BULK_CALLS, "each call has a place")
         began = time.monotonic()
         with faults.UnaryWitness(self, server.address), \
                 albtpu.connect(server.address, patience=3 * MAX_STREAM_IDLE) as service:
