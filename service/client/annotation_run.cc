@@ -89,7 +89,7 @@ class Run {
     if (!annotated.ok()) return annotated.status();
     const std::string summary = SummaryText(making_, job, annotated->findings, annotated->file.size());
     absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
-    if (status.ok()) Note(absl::StrCat(job.output.string(), ":", annotated->text));
+    if (status.ok()) Note(absl::StrCat(job.output.string(), ":"), annotated->text);
     return status;
   }
 

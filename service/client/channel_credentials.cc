@@ -9,12 +9,17 @@
 namespace albtpu::client {
 namespace {
 
+// What a PEM file of each kind has in its first line.
+constexpr char kCertificate[] = "-----BEGIN CERTIFICATE-----", kPrivateKey[] = "PRIVATE KEY-----";
+
 // Empty for no file.
-absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path) {
+absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path,
+                                    const std::string& kind) {
   if (path.empty()) return "";
   absl::StatusOr<std::string> pem = ReadTextFile(flag, path);
-  if (!pem.ok() || absl::StrContains(*pem, "-----BEGIN ")) return pem;
-  return absl::InvalidArgumentError(absl::StrCat(flag, ": ", path, ": a PEM file is right"));
+  if (!pem.ok() || absl::StrContains(*pem, kind)) return pem;
+  return absl::InvalidArgumentError(
+      absl::StrCat(flag, ": ", path, ": a PEM file with '", kind, "' is right"));
 }
 
 absl::StatusOr<std::string> ReadToken(const std::string& path) {
@@ -31,11 +36,14 @@ absl::StatusOr<std::string> ReadToken(const std::string& path) {
 
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const Credentials& credentials) {
   if (!credentials.HasTls()) return grpc::InsecureChannelCredentials();
-  absl::StatusOr<std::string> ca = ReadPem("--tls-ca", credentials.ca);
+  if (credentials.certificate.empty() != credentials.key.empty()) {
+    return absl::InvalidArgumentError("--tls-cert and --tls-key: both are right, or neither");
+  }
+  absl::StatusOr<std::string> ca = ReadPem("--tls-ca", credentials.ca, kCertificate);
   if (!ca.ok()) return ca.status();
-  absl::StatusOr<std::string> key = ReadPem("--tls-key", credentials.key);
+  absl::StatusOr<std::string> key = ReadPem("--tls-key", credentials.key, kPrivateKey);
   if (!key.ok()) return key.status();
-  absl::StatusOr<std::string> certificate = ReadPem("--tls-cert", credentials.certificate);
+  absl::StatusOr<std::string> certificate = ReadPem("--tls-cert", credentials.certificate, kCertificate);
   if (!certificate.ok()) return certificate.status();
   const auto tls = grpc::SslCredentials({*std::move(ca), *std::move(key), *std::move(certificate)});
   if (credentials.token.empty()) return tls;

@@ -34,8 +34,8 @@ absl::Status FlushAnswers() {
   return absl::DataLossError("standard output: cannot be written: send it where there is room");
 }
 
-void Note(std::string_view message) {
-  std::fprintf(stderr, "albtpu-query: %s\n", PrintableText(message).c_str());  // Some of it a server's.
+void Note(std::string_view message, const std::string& below) {
+  std::fprintf(stderr, "albtpu-query: %s%s\n", PrintableText(message).c_str(), below.c_str());
 }
 
 }  // namespace albtpu::client

@@ -1,6 +1,7 @@
 // From a status to what the shell sees: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "absl/status/status.h"
@@ -20,7 +21,8 @@ int Report(const absl::Status& status);
 // Flushes standard output; fails when what was printed did not get through (a full disk, say).
 absl::Status FlushAnswers();
 
-// `albtpu-query: message` on standard error.
-void Note(std::string_view message);
+// `albtpu-query: message` on standard error, on one line, for some of it may be a server's; then `below`,
+// which is ours, as it is.
+void Note(std::string_view message, const std::string& below = "");
 
 }  // namespace albtpu::client

@@ -8,15 +8,16 @@
 #include "service/client/commands.h"
 #include "service/client/exit_status.h"
 #include "service/client/options.h"
+#include "service/printable_text.h"
 
 namespace albtpu::client {
 namespace {
 
 std::string Text(const TableSummary& table) {
-  std::string text =
-      absl::StrCat(table.name.empty() ? table.id : table.name, table.is_default ? " (default)" : "", "\n");
+  std::string text = absl::StrCat(PrintableText(table.name.empty() ? table.id : table.name),
+                                  table.is_default ? " (default)" : "", "\n");
   const auto line = [&text](std::string_view label, const std::string& value) {
-    absl::StrAppend(&text, absl::StrFormat("  %-24s %s\n", std::string(label), value));
+    absl::StrAppend(&text, absl::StrFormat("  %-24s %s\n", PrintableText(label), PrintableText(value)));
   };
   line("title", table.title);
   line("id", table.id);

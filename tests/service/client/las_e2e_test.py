@@ -85,7 +85,7 @@ class LasTest(programs.Test):
         target = self.folder / "out.las"
         result = self.annotate(source, target, 26, -23.09)
         self.assertEqual(result.stdout, "")
-        self.assertIn("56382 points", result.stderr)
+        self.assertRegex(result.stderr, "(?m)^  56382 points; .*\n  depth ")
         new = self.check(source, target, 26, -23.09)
         offset, kind, _, _ = new.extra_dimensions()["undocumented"]
         self.assertEqual((offset, kind), (30, 0))

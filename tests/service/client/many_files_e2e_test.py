@@ -118,7 +118,7 @@ class ManyFilesTest(programs.Test):
         query("las", survey, "--output-dir", expected, *flags, check=0)
         process = start("las", survey, "--output-dir", out, *flags)
         for line in process.stderr:
-            if "line1.las" in line and "points;" in line:  # The second file is written, and not just under way.
+            if line.endswith("line1.las:\n"):  # The second file is written, and not just under way.
                 break
         process.send_signal(signal.SIGKILL)
         process.communicate(timeout=60)
@@ -155,7 +155,7 @@ class ManyFilesTest(programs.Test):
         with programs.server(tables) as address:
             process = start("las", survey, "--output-dir", out, "--server", address, *FLAGS)
             for line in process.stderr:
-                if "line0.las" in line and "points;" in line:  # The first file is written.
+                if line.endswith("line0.las:\n"):  # The first file is written.
                     break
         rest = process.communicate(timeout=120)[1]
         if process.returncode == 0:  # It was through before the server had gone.
