@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <thread>
 
 #include "tables/answer_writer.h"
 #include "tables/block_numbers.h"

@@ -84,6 +84,7 @@ absl::StatusOr<AttributeValue> ReadVariableText(hid_t attribute, hid_t type, con
   if (H5Aread(attribute, memory_type, &text) < 0) return Unreadable(name);
   std::string copy(text == nullptr ? "" : text);
   H5free_memory(text);
+  if (const absl::Status status = CheckSize(copy.size(), 1, name); !status.ok()) return status;
   return copy;
 }
 

@@ -198,9 +198,33 @@ absl::Status CheckCoverage(hid_t file) {
                absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
 }
 
-absl::StatusOr<UncertaintyTable> ReadContents(hid_t file) {
+// Where a dataset has several names, or its chunks lie in one place, a small file would fill any memory.
+absl::Status CheckStoredOnce(hid_t file, std::size_t length) {
+  std::vector<std::string> names;
+  for (AxisId id : kAxes) names.emplace_back(Describe(id).name);
+  for (Quantity quantity : kQuantities) {
+    const std::string name(Describe(quantity).name);
+    names.insert(names.end(), {name, name + std::string(kStandardErrorSuffix)});
+  }
+  std::size_t room = length;
+  for (const std::string& name : names) {
+    if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0 || !IsOfThisFile(file, name)) continue;
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const std::size_t stored = dataset ? H5Dget_storage_size(dataset) : 0;
+    if (stored > room) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "has more bytes in datasets than its %d in all: each should have bytes of its own", length));
+    }
+    room -= stored;
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UncertaintyTable> ReadContents(hid_t file, std::size_t length) {
   const absl::Status coverage = CheckCoverage(file);
   if (!coverage.ok()) return coverage;
+  const absl::Status stored = CheckStoredOnce(file, length);
+  if (!stored.ok()) return stored;
   absl::StatusOr<UncertaintyTable::Axes> axes = ReadAxes(file);
   if (!axes.ok()) return axes.status();
   UncertaintyTable::Variables variables;
@@ -232,7 +256,7 @@ absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
   // HDF5 reads the very bytes that were checked, not the file again.
   const Handle image = hdf5::OpenImage(file);
   if (!image) return absl::InvalidArgumentError("is sealed, but what it holds is not HDF5");
-  return ReadContents(image);
+  return ReadContents(image, file.size());
 }
 
 }  // namespace albtpu

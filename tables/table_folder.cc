@@ -18,8 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPreferredName = "survey";
 
-// Messages travel in HTTP headers, of which many programs take 8 KiB at most.
-constexpr std::size_t kMaxListedBytes = 2000;
+// With the text around, less than the kilobyte after which the service cuts messages: they travel in HTTP
+// headers.
+constexpr std::size_t kMaxListedBytes = 800;
 constexpr std::size_t kMaxQuotedBytes = 100;
 
 bool IsName(std::string_view text) {

@@ -138,6 +138,21 @@ TEST(ForeignStorage, IsRefusedWhereAChunkIsMissing) {
             "variable 'thu' has a chunk that is missing or damaged");
 }
 
+TEST(ForeignStorage, IsRefusedWhereItIsSharedByDatasets) {
+  EXPECT_THAT(ProblemAfter([](hid_t file) {
+                ReplaceThu(file, DeflatedCreation());
+                const Handle thu(H5Dopen2(file, "thu", H5P_DEFAULT), H5Dclose);
+                const std::vector<hsize_t> first(6, 0);
+                const std::string stored(60000, '\0');
+                EXPECT_GE(H5Dwrite_chunk(thu, H5P_DEFAULT, 0, first.data(), stored.size(), stored.data()), 0);
+                for (const char* name : {"tvu", "bias_vertical"}) {
+                  H5Ldelete(file, name, H5P_DEFAULT);
+                  EXPECT_GE(H5Lcreate_hard(file, "thu", file, name, H5P_DEFAULT, H5P_DEFAULT), 0);
+                }
+              }),
+              EndsWith("each should have bytes of its own"));
+}
+
 TEST(ForeignStorage, IsRefusedInLargeChunks) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 const Handle creation = Creation();

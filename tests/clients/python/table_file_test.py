@@ -166,7 +166,43 @@ class TableFile(unittest.TestCase):
         def attribute(of, name, value):
             return lambda file: file[of].attrs.create(name, value)
 
+        def replace(name, make):
+            def change(file):
+                old = file[name]
+                shape, attributes = old.shape, dict(units=old.attrs["units"], interpolation="linear")
+                del file[name]
+                make(file, name, shape)
+                if make is not link:
+                    file[name].attrs.update(attributes)
+            return change
+
+        def link(file, name, shape):
+            file[name] = h5py.ExternalLink("/dev/zero", "/thu")
+
+        def external(file, name, shape):
+            file.create_dataset(name, shape, "<f4", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])
+
+        def virtual(file, name, shape):
+            layout = h5py.VirtualLayout(shape, "<f4")
+            layout[...] = h5py.VirtualSource("/dev/zero", name, shape)
+            file.create_virtual_dataset(name, layout)
+
+        def otherwise_filtered(file, name, shape):
+            file.create_dataset(name, shape, "<f4", chunks=shape, scaleoffset=2)
+
+        def huge(file, name, shape):
+            file.create_dataset(name, (2**15, 2**14), "<f4", chunks=(64, 64), compression="gzip")
+
+        def too_great(file):
+            file["thu"][...] = 2e6
+
         for change, problem in ((delete, "variable 'thu' is missing"), (decrease, "axis 'depth' has nodes"),
+                                (replace("thu", link), "variable 'thu' is a link"),
+                                (replace("thu", external), "variable 'thu' has its values in other files"),
+                                (replace("thu", virtual), "variable 'thu' has its values in other files"),
+                                (replace("thu", otherwise_filtered), "variable 'thu' goes through other filters"),
+                                (replace("thu", huge), "variable 'thu' has 536870912 values"),
+                                (too_great, "above 1e"),
                                 (attribute("tvu", "units", "feet"), "'tvu' is in 'feet'"),
                                 (attribute("fetch", "interpolation", "cubic"), "'cubic'"),
                                 (attribute("/", "coverage", "1 sigma"), "'1 sigma'")):

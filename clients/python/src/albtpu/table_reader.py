@@ -1,4 +1,8 @@
-"""From the bytes of a table file to axes and values, held to the rules of tables/FORMAT.md."""
+"""From the bytes of a table file to axes and values, held to the rules of tables/FORMAT.md.
+
+But for two that C++ sees to as well: the content digest is taken as the file has it, and chunks are inflated
+by HDF5 as they are. What the seal covers, nobody has changed by accident.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,9 @@ from .seal import check_seal
 from .tables import AttributeValue, Axis, Quantity, Table, TableReference
 
 Floats = NDArray[np.float32]
+# Limits of tables/FORMAT.md.
+_MOST_VALUES, _MOST_NODES, _LEAST_DISTANCE, _GREATEST_NODE, _GREATEST_VALUE = 2**28, 65536, 1e-6, 1e9, 1e6
+_FILTERS = {h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_FLETCHER32}
 _RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_digest", "campaign")
 
 
@@ -42,13 +49,13 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
     axes = {axis: _read_axis(file, axis) for axis in AXES}
     values, standard_errors, quantities = {}, {}, {}
     for quantity, (units, long_name) in QUANTITIES.items():
-        if quantity not in file:
+        if not _holds(file, quantity):
             if quantity in BIASES:
                 continue
             raise TableFileError(f"variable '{quantity}' is missing")
         values[quantity] = _read_values(file, quantity, quantity, axes)
         scale = _scale(file[quantity], "variable", quantity, values[quantity])
-        if (errors := quantity + STANDARD_ERROR) in file:
+        if _holds(file, errors := quantity + STANDARD_ERROR):
             standard_errors[quantity] = _read_values(file, errors, quantity, axes)
         quantities[quantity] = Quantity(units, long_name, scale, quantity in standard_errors)
     reference = TableReference(name, _text(file, "id"), _text(file, "version"), _text(file, "content_digest"))
@@ -59,14 +66,14 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
 
 def _read_axis(file: h5py.File, axis: str) -> Axis:
     nodes = _floats(file, "axis", axis, AXES[axis].units)
-    if nodes.ndim != 1 or nodes.size == 0:
+    if nodes.ndim != 1 or not 0 < nodes.size <= _MOST_NODES:
         raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and "
-                             "a node")
-    largest = 90 if axis == "azimuth" else np.inf
-    increase = bool((np.diff(nodes) > 0).all())
-    if not (np.isfinite(nodes).all() and nodes[0] >= 0 and nodes[-1] <= largest and increase):
+                             f"1 to {_MOST_NODES} nodes")
+    largest = 90 if axis == "azimuth" else _GREATEST_NODE
+    increase = bool((np.diff(nodes.astype(float)) >= _LEAST_DISTANCE).all())
+    if not (nodes[0] >= 0 and nodes[-1] <= largest and increase):
         raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, "
-                             "or are azimuths above 90 degrees")
+                             f"or are above {largest:g}")
     return Axis(nodes, *AXES[axis], _scale(file[axis], "axis", axis, nodes))
 
 
@@ -76,15 +83,32 @@ def _read_values(file: h5py.File, name: str, quantity: str, axes: dict[str, Axis
     expected = expected[:-1] if quantity in REFRACTIONS else expected
     if values.shape != expected:
         raise TableFileError(f"variable '{name}' has the shape {values.shape}: its axes have {expected}")
-    if not np.isfinite(values).all() or (name not in BIASES and (values < 0).any()):
-        raise TableFileError(f"variable '{name}' has values that are not finite, or are negative")
+    if not (np.abs(values) <= _GREATEST_VALUE).all() or (name not in BIASES and (values < 0).any()):
+        raise TableFileError(f"variable '{name}' has values that are not finite, above "
+                             f"{_GREATEST_VALUE:g}, or negative")
     return values
 
 
+def _holds(file: h5py.File, name: str) -> bool:
+    """Does not look behind links, as `in` does: they may lead out of the file."""
+    return bool(file.id.links.exists(name.encode()))
+
+
 def _floats(file: h5py.File, kind: str, name: str, units: str) -> Floats:
+    if not _holds(file, name):
+        raise TableFileError(f"{kind} '{name}' is missing")
+    if file.id.links.get_info(name.encode()).type != h5py.h5l.TYPE_HARD:
+        raise TableFileError(f"{kind} '{name}' is a link: it should be a dataset of this file")
     dataset = file.get(name)
     if not isinstance(dataset, h5py.Dataset) or dataset.dtype != np.dtype("<f4"):
         raise TableFileError(f"{kind} '{name}' is no dataset of float32")
+    creation = dataset.id.get_create_plist()
+    if creation.get_external_count() or creation.get_layout() == h5py.h5d.VIRTUAL:
+        raise TableFileError(f"{kind} '{name}' has its values in other files: they should be in this one")
+    if not _FILTERS.issuperset(creation.get_filter(i)[0] for i in range(creation.get_nfilters())):
+        raise TableFileError(f"{kind} '{name}' goes through other filters than shuffle and deflate")
+    if dataset.size > _MOST_VALUES:
+        raise TableFileError(f"{kind} '{name}' has {dataset.size} values: {_MOST_VALUES} at most are right")
     if (found := _text(dataset, "units")) != units:
         raise TableFileError(f"{kind} '{name}' is in '{found}': it should be in '{units}'")
     values: Floats = dataset[()]
