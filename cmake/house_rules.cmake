@@ -14,7 +14,7 @@ function(albtpu_sanitize target)
     target_compile_options(${target} PRIVATE -U__SANITIZE_THREAD__ -D_GLIBCXX_TSAN=1)
   endif()
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL "EXECUTABLE")
+  if(type STREQUAL "EXECUTABLE" AND ALBTPU_BUILD_TESTS)  # Which bring it.
     target_link_libraries(${target} PRIVATE albtpu_seen_libraries)
   endif()
 endfunction()

@@ -24,6 +24,7 @@ v1::TableChange ToWire(TableCatalog::Change::Kind kind) {
 
 // Why a reload was refused, in the names of the folder: where that lies is not for callers to know.
 absl::Status WithoutFolder(const absl::Status& reason, const std::filesystem::path& folder) {
+  if (absl::IsInternal(reason)) return reason;  // Nothing of which is told to callers.
   const std::string inside = absl::StrReplaceAll(
       reason.message(),
       {{(folder / "").string(), ""}, {absl::StrCat("'", folder.string(), "'"), "the folder of tables"}});

@@ -4,6 +4,7 @@
 #include <openssl/err.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
+#include <openssl/ssl.h>
 #include <openssl/x509.h>
 
 #include <memory>
@@ -68,6 +69,17 @@ absl::Status CheckTimes(const std::string& where, const X509& certificate) {
   return absl::OkStatus();
 }
 
+// Why TLS would not use them, as it does not keys that are too short; empty if it would.
+std::string Refusal(X509& certificate, EVP_PKEY& key) {
+  const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_server_method()),
+                                                                  &SSL_CTX_free);
+  const bool taken = SSL_CTX_use_certificate(context.get(), &certificate) == 1 &&
+                     SSL_CTX_use_PrivateKey(context.get(), &key) == 1;
+  const char* reason = taken ? "" : ERR_reason_error_string(ERR_peek_last_error());
+  ERR_clear_error();
+  return reason == nullptr ? "unknown" : reason;
+}
+
 // And notes when it expires.
 absl::Status CheckPair(const CertificateFiles& files, Certificates& pem) {
   const std::string where = absl::StrCat("--tls-cert: ", files.certificate.string());
@@ -88,6 +100,10 @@ absl::Status CheckPair(const CertificateFiles& files, Certificates& pem) {
     return absl::InvalidArgumentError(
         absl::StrCat("--tls-key: ", files.key.string(), ": is not the key of the certificate in ",
                      files.certificate.string(), ": name those that belong together"));
+  }
+  if (const std::string refusal = Refusal(*certificate, *key); !refusal.empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ": TLS refuses it (", refusal, "): RSA of 2048 bits or more is right"));
   }
   pem.expiry = Expiry(*certificate);
   return CheckTimes(where, *certificate);

@@ -83,7 +83,7 @@ std::string ToText(const Caller& caller) {
   char text[INET6_ADDRSTRLEN] = "";
   inet_ntop(ipv4 ? AF_INET : AF_INET6, caller.address.data(), text, sizeof text);
   return ipv4 ? absl::StrCat("ipv4:", text, ":", caller.port)
-              : absl::StrCat("ipv6:[", text, "]:", caller.port);
+              : absl::StrCat("ipv6:%5B", text, "%5D:", caller.port);
 }
 
 std::vector<ConnectionCalls> CountConnectionCalls() {

@@ -15,7 +15,7 @@ struct Caller {
   auto operator<=>(const Caller&) const = default;
 };
 
-// As gRPC writes it: ipv4:127.0.0.1:4242.
+// As gRPC writes it: ipv4:127.0.0.1:4242, ipv6:%5B::1%5D:4242.
 std::string ToText(const Caller& caller);
 
 // The caller at the other end of a socket. Without an address if it has none, or is no connection.

@@ -73,7 +73,7 @@ ConnectionGate::~ConnectionGate() {
 
 std::vector<Caller> ConnectionGate::End(const std::vector<Caller>& callers) {
   // gRPC closes descriptors when it likes: the system alone knows whose they are. While the lock is held none
-  // becomes another connection's.
+  // becomes another connection of the gate.
   const std::lock_guard lock(taking_);
   const std::set<Caller> to_end(callers.begin(), callers.end());
   std::vector<Caller> ended;

@@ -15,8 +15,9 @@
 
 namespace albtpu::server {
 
-// Takes connections and hands them over to gRPC, never more at a time than kMaxConnections nor than the
-// system lets the process have open: further ones are closed at once, and those open stay as they are.
+// Takes connections and hands them over to gRPC, never more at a time than kMaxConnections, and some of
+// kOwnDescriptors that are free, nor than the system lets the process have open: further ones are closed at
+// once, and those open stay as they are.
 //
 // gRPC 1.51 does not take connections itself: when it once cannot, because too many files are open, it stops
 // listening for good and says so in a line of the log.

@@ -68,8 +68,10 @@ absl::StatusOr<std::vector<ListeningSocket>> Listen(const ListenAddress& address
       continue;
     }
     const int error = errno;
-    failure.Update(absl::UnavailableError(absl::StrCat(address.ToString(), ": ", std::strerror(error))));
-    if (error == EADDRINUSE) return failure;
+    const absl::Status reason =
+        absl::UnavailableError(absl::StrCat(address.ToString(), ": ", std::strerror(error)));
+    if (error == EADDRINUSE) return reason;
+    failure.Update(reason);
   }
   if (sockets.empty()) return failure;
   return sockets;

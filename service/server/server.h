@@ -36,7 +36,7 @@ class Server {
   const std::string& address() const { return address_; }
 
   // Says NOT_SERVING to those that ask for health, takes no new call, and returns when all calls under way
-  // have ended or kDrainTime has passed.
+  // have ended or kDrainTime has passed. Tables that are being reloaded are read to the end.
   void Drain();
 
  private:

@@ -59,6 +59,7 @@ grpc::ServerUnaryReactor* Failed(grpc::CallbackServerContext& context, CallRecor
 // `bytes`: of request and answer.
 grpc::ServerUnaryReactor* Answered(UnreadAnswers& unread, grpc::CallbackServerContext& context,
                                    CallRecord& record, std::size_t bytes) {
+  if (!unread.HaveRoomFor(bytes)) return Failed(context, record, TooManyUnread());
   record.End(grpc::Status::OK);
   return new AnsweredCall(unread, context, bytes);
 }

@@ -18,6 +18,7 @@ import grpc
 
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+from authority import openssl
 from secured import PULSE_FLAGS, QUERY, SERVE, SecurityTest
 from serving import PATIENCE
 
@@ -51,6 +52,11 @@ class Starting(SecurityTest):
         self.assert_fails(1, "expired.pem: the certificate expired on",
                           *self.tls(certificate=expired, key=its_key))
         self.assert_fails(1, "--tls-client-ca: .*junk.pem", *self.tls("--tls-client-ca", junk))
+        weak, its_key = self.folder / "weak.pem", self.folder / "weak.key"
+        openssl("req", "-x509", "-newkey", "rsa:1024", "-nodes", "-subj", "/CN=weak", "-keyout", its_key,
+                "-out", weak)
+        self.assert_fails(1, "--tls-cert: .*weak.pem: TLS refuses it .*: RSA of 2048 bits or more is right",
+                          *self.tls(certificate=weak, key=its_key))
 
     def test_wants_tokens_that_cannot_be_guessed(self):
         for text, problem in (("", "holds no token"), ("short", "line 1 has 5 characters"),

@@ -55,7 +55,7 @@ TEST(Caller, IsNobodyWhereThereIsNoConnection) {
 
 TEST(Caller, IsWrittenAsGrpcWritesIt) {
   EXPECT_EQ(ToText({std::string("\x7f\0\0\x01", 4), 4242}), "ipv4:127.0.0.1:4242");
-  EXPECT_EQ(ToText({std::string(15, '\0') + '\x01', 4242}), "ipv6:[::1]:4242");
+  EXPECT_EQ(ToText({std::string(15, '\0') + '\x01', 4242}), "ipv6:%5B::1%5D:4242");
 }
 
 }  // namespace

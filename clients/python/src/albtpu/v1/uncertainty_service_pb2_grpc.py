@@ -14,7 +14,7 @@ class UncertaintyServiceStub(object):
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
     again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
     and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
+    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
     """
 
     def __init__(self, channel):
@@ -59,7 +59,7 @@ class UncertaintyServiceServicer(object):
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
     again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
     and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
+    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
     """
 
     def QueryPulses(self, request, context):
@@ -169,7 +169,7 @@ class UncertaintyService(object):
     limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
     again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
     and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with all of them by path: `pulses.depth`.
+    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
     """
 
     @staticmethod
