@@ -1,30 +1,103 @@
-// NAME_fuzz FOLDER...
+// NAME_fuzz SECONDS FOLDER...
 //
-// Gives every file of the folders to a fuzz target, once: for compilers without libFuzzer, and to see that
-// what was found stays mended. A folder that is not there has no files.
+// Gives every file of the folders to a fuzz target, once, to see that what was found stays mended; then, for so many
+// seconds, what the target's mutator makes of them: always the same inputs, as far as the time goes. For compilers
+// without libFuzzer. A folder that is not there has no files. The input that a target fails on is left in the file
+// `failed_input` of the working directory.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/mutate.h"
 
-int main(int argc, char** argv) {
-  std::size_t count = 0;
-  for (const std::filesystem::path folder : std::vector<std::string>(argv + 1, argv + argc)) {
+extern "C" {
+// Of a target that has one; else bytes are changed.
+__attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                                          std::size_t max_size, unsigned int seed);
+// What such a mutator asks libFuzzer for.
+std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+}
+
+namespace {
+
+using albtpu::fuzz::Mutator;
+
+constexpr unsigned int kSeed = 1;
+
+std::optional<Mutator> mutator;
+std::string input;  // That the target is given.
+
+// By what a handler of signals may call.
+extern "C" void LeaveInput(int signal) {
+  const int file = open("failed_input", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (write(file, input.data(), input.size()) < 0) _exit(1);
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+std::vector<std::string> ReadInputs(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::string> inputs;
+  for (const std::filesystem::path& folder : folders) {
     if (!std::filesystem::is_directory(folder)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file()) continue;
-      std::cerr << entry.path().filename().string()
-                << std::endl;  // The last one named is the one that ends us.
       std::ifstream file(entry.path(), std::ios::binary);
-      const std::string bytes(std::istreambuf_iterator<char>(file), {});
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-      ++count;
+      inputs.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     }
   }
-  std::cout << count << " inputs\n";
-  return count > 0 ? 0 : 1;
+  std::sort(inputs.begin(), inputs.end());  // Folders have no order.
+  return inputs;
+}
+
+void Try(std::string bytes) {
+  input = std::move(bytes);
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+}
+
+std::string NewInput(std::size_t most) {
+  std::string bytes = mutator->AnyInput();
+  if (LLVMFuzzerCustomMutator == nullptr) return mutator->Mutate(std::move(bytes), most);
+  const std::size_t size = bytes.size();
+  bytes.resize(most);
+  bytes.resize(
+      LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most, mutator->Number()));
+  return bytes;
+}
+
+}  // namespace
+
+std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size) {
+  const std::string bytes = mutator->Mutate(std::string(data, data + size), max_size);
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
+
+int main(int argc, char** argv) {
+  using Clock = std::chrono::steady_clock;
+  if (argc < 3) return 2;
+  const Clock::duration time = std::chrono::seconds(std::stoi(argv[1]));
+  const std::vector<std::string> inputs = ReadInputs({argv + 2, argv + argc});
+  if (inputs.empty()) return 1;
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, LeaveInput);
+  std::size_t longest = 64;
+  for (const std::string& each : inputs) {
+    Try(each);
+    longest = std::max(longest, each.size());
+  }
+  mutator.emplace(inputs, kSeed);
+  std::size_t made = 0;
+  for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; ++made)
+    Try(NewInput(2 * longest));
+  std::cout << inputs.size() << " inputs, " << made << " made of them\n";
 }
