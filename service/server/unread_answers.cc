@@ -38,10 +38,10 @@ void UnreadAnswers::DropUnread(Clock::time_point now) {
     }
   }
   for (grpc_call* call : calls) {
+    metrics_.CountUnread();  // Before its caller can know.
     grpc_call_cancel_with_status(call, GRPC_STATUS_DEADLINE_EXCEEDED,
                                  "the answer was not read: ask when you can take what you ask for", nullptr);
     grpc_call_unref(call);
-    metrics_.CountUnread();
   }
 }
 
