@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
-#include <future>
 #include <memory>
+#include <thread>
 
 #include "service/server/limits.h"
 #include "tests/service/server/served_tables.h"
@@ -42,7 +43,7 @@ using ConnectionWatchTest = ServedTables;
 
 // tests/faults/floods_test.py has those who are ended.
 TEST_F(ConnectionWatchTest, EndsNobodyWhereMemoryGrowsForAnotherReason) {
-  bool ended = false;
+  std::atomic<bool> ended = false;
   const ConnectionWatch watch([&](const std::vector<Caller>&) { ended = true; });
   v1::ListTablesResponse tables;
   ASSERT_TRUE(ListTables(tables).ok());
@@ -52,6 +53,7 @@ TEST_F(ConnectionWatchTest, EndsNobodyWhereMemoryGrowsForAnotherReason) {
     std::memset(held.back().get(), i + 1, kMemoryGrowth);
     ASSERT_TRUE(ListTables(tables).ok());
   }
+  std::this_thread::sleep_for(50 * kMemoryLook);  // What is held is surely seen.
   EXPECT_FALSE(ended);
 }
 
