@@ -6,6 +6,7 @@ Usage: kubernetes_test.py KUBERNETES_FOLDER VERSION
 """
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import unittest
 import yaml
 
 FOLDER, VERSION = pathlib.Path(sys.argv[1]), sys.argv[2]
+OPERATIONS = FOLDER.parent.parent / "docs/operations.md"
 ROOTS = ("base", "overlays/volume", "overlays/volume/fill", "overlays/public", "campaign/shards", "campaign/merge")
 ASKED_FOR = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign"}  # To be made before, as the comments there say.
 
@@ -39,6 +41,10 @@ class Rendered(unittest.TestCase):
 
     def deployment(self, root):
         return next(each for each in self.objects[root] if each["kind"] == "Deployment")["spec"]
+
+    def service(self, name):
+        return next(each for each in self.objects["base"]
+                    if each["kind"] == "Service" and each["metadata"]["name"] == name)["spec"]
 
     def containers(self):
         """Each with its pod, and where it is from."""
@@ -102,8 +108,16 @@ class Rendered(unittest.TestCase):
                 self.assertEqual(address, f"0.0.0.0:{ports[name]}")
 
     def test_clients_balance_by_the_addresses_of_a_name(self):
-        service = next(each for each in self.objects["base"] if each["kind"] == "Service")
-        self.assertEqual(service["spec"]["clusterIP"], "None")
+        spec = self.service("albtpu-serve")
+        self.assertEqual(spec["clusterIP"], "None")
+        self.assertFalse(spec.get("publishNotReadyAddresses", False))
+
+    def test_prometheus_is_told_of_servers_that_are_not_ready(self):
+        scraped = re.search(r"names: \[([a-z-]+)\.NAMESPACE\.svc.*port: (\d+)", OPERATIONS.read_text())
+        spec = self.service(scraped[1])
+        self.assertEqual(spec["clusterIP"], "None")
+        self.assertTrue(spec["publishNotReadyAddresses"])
+        self.assertEqual([port["port"] for port in spec["ports"]], [int(scraped[2])])
 
     def test_servers_are_asked_for_their_health(self):
         for _, _, container in self.containers():
