@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Builds the three images with podman or docker: albtpu-serve, albtpu-query and albtpu-generate, tagged with the
-# version and `latest`.
+# Builds the three images with podman or docker, or what ENGINE names: albtpu-serve, albtpu-query and albtpu-generate,
+# tagged with the version and `latest`, or with ALBTPU_TAG alone.
 #
 # Usage: build.sh [flags of the engine's build, such as --build-arg BASE=localhost/debian]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-engine=$(command -v podman || command -v docker) || {
-  echo "$0: neither podman nor docker: apt-get install podman is right" >&2
+engine=$(command -v "${ENGINE:-podman}" || command -v "${ENGINE:-docker}") || {
+  echo "$0: no ${ENGINE:-podman and no docker}: apt-get install podman is right" >&2
   exit 1
 }
 export DOCKER_BUILDKIT=1  # Debian's docker would build without, and know no --mount.
@@ -19,6 +19,8 @@ build=("$engine" build --file docker/Dockerfile --build-arg "VERSION=$version" -
 
 for image in service:albtpu-serve query:albtpu-query generator:albtpu-generate; do
   name=${image#*:}
+  tags=(--tag "$name:${ALBTPU_TAG:-$version}")
+  [[ -n ${ALBTPU_TAG-} ]] || tags+=(--tag "$name:latest")
   echo "== $name $version ($commit)"
-  "${build[@]}" --target "${image%:*}" --tag "$name:$version" --tag "$name:latest" "$@" .
+  "${build[@]}" --target "${image%:*}" "${tags[@]}" "$@" .
 done

@@ -11,6 +11,8 @@ import unittest
 PATIENCE = 600  # Seconds that a loaded machine may need.
 ENGINE = sys.argv[1]
 IS_PODMAN = pathlib.Path(ENGINE).name == "podman"
+TAG = os.environ.get("ALBTPU_TAG", "latest")  # Of the images, as docker/build.sh reads it.
+SERVE, QUERY, GENERATE = (f"albtpu-{name}:{TAG}" for name in ("serve", "query", "generate"))
 
 # As docs/operations.md says. Podman alone would leave /tmp for writing.
 RESTRICTED = ("--read-only", *(("--read-only-tmpfs=false",) if IS_PODMAN else ()), "--cap-drop", "all",
@@ -68,7 +70,7 @@ class Server(Container):
     """albtpu-serve, its ports published on free ones of this machine."""
 
     def __init__(self, *arguments, flags=()):
-        super().__init__("albtpu-serve", *arguments,
+        super().__init__(SERVE, *arguments,
                          flags=("--publish", "127.0.0.1::50051", "--publish", "127.0.0.1::9464", *flags))
         try:
             wait_for(lambda: "ready on" in self.log() or not self.running(), "the server")

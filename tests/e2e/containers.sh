@@ -41,8 +41,9 @@ if ! "$engine" image inspect "$base" >/dev/null 2>&1; then
 fi
 reason=$("$engine" run --rm "$base" true 2>&1) || skip "$engine runs no container here: ${reason##*$'\n'}"
 
+export ALBTPU_TAG=test  # Beside the images that this machine may run.
 echo "== Building the images"
-docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>&1 || {
+ENGINE=$engine docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>&1 || {
   tail -n 50 "$scratch/build.log"
   echo "failed: containers: the images cannot be built" >&2
   exit 1

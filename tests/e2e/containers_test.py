@@ -22,12 +22,12 @@ import albtpu
 from albtpu.v1 import uncertainty_service_pb2 as wire
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 from authority import Authority
-from containers import PATIENCE, RESTRICTED, ContainerTest, engine, inspect, run, wait_for
+from containers import GENERATE, PATIENCE, QUERY, RESTRICTED, SERVE, ContainerTest, engine, inspect, run, wait_for
 
 BASE, BUILD, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve(), pathlib.Path(sys.argv[4]).resolve()
-GENERATE, QUERY = BUILD / "generator/albtpu-generate", BUILD / "service/client/albtpu-query"
+GENERATOR, CLIENT = BUILD / "generator/albtpu-generate", BUILD / "service/client/albtpu-query"  # Outside.
 CAMPAIGN = SOURCE / "tests/generator/six_seas.toml"
-IMAGES = ("albtpu-serve", "albtpu-query", "albtpu-generate")
+IMAGES = (SERVE, QUERY, GENERATE)
 PULSE = dict(wind_speed=7, incidence=12, footprint=0.5, depth=8)
 PULSE_FLAGS = [word for name, value in PULSE.items() for word in (f"--{name.replace('_', '-')}", str(value))]
 MOST_BYTES_ABOVE_BASE = 150_000_000
@@ -35,7 +35,7 @@ MOST_BYTES_ABOVE_BASE = 150_000_000
 
 def query(*arguments):
     """A query of one pulse by the program that was built beside the images."""
-    return json.loads(run(QUERY, "pulse", "--json", *PULSE_FLAGS, *arguments))
+    return json.loads(run(CLIENT, "pulse", "--json", *PULSE_FLAGS, *arguments))
 
 
 class Images(unittest.TestCase):
@@ -44,12 +44,12 @@ class Images(unittest.TestCase):
 
     def test_say_version_and_commit(self):
         commit = run("git", "-C", SOURCE, "describe", "--always", "--dirty", "--abbrev=12").strip()
-        for name in IMAGES:
-            labels = inspect("image", name)["Config"]["Labels"]
+        for image in IMAGES:
+            labels, name = inspect("image", image)["Config"]["Labels"], image.partition(":")[0]
             version = labels["org.opencontainers.image.version"]
             self.assertEqual(labels["org.opencontainers.image.revision"], commit, name)
             self.assertEqual(labels["org.opencontainers.image.title"], name)
-            self.assertEqual(engine("run", "--rm", name, "--version"), f"{name} {version} ({commit})\n")
+            self.assertEqual(engine("run", "--rm", image, "--version"), f"{name} {version} ({commit})\n")
 
     def test_run_as_a_user_without_rights(self):
         for name in IMAGES:
@@ -78,11 +78,11 @@ class Images(unittest.TestCase):
         base = inspect("image", BASE)["Size"]
         sizes = {name: inspect("image", name)["Size"] - base for name in IMAGES}
         print(", ".join(f"{name}: {size / 1e6:.0f} MB above the base" for name, size in sizes.items()))
-        self.assertLessEqual(sizes["albtpu-serve"], MOST_BYTES_ABOVE_BASE)
-        self.assertLessEqual(sizes["albtpu-query"], MOST_BYTES_ABOVE_BASE)
+        self.assertLessEqual(sizes[SERVE], MOST_BYTES_ABOVE_BASE)
+        self.assertLessEqual(sizes[QUERY], MOST_BYTES_ABOVE_BASE)
 
     def test_end_by_sigterm(self):
-        self.assertEqual(inspect("image", "albtpu-serve")["Config"]["StopSignal"], "SIGTERM")
+        self.assertEqual(inspect("image", SERVE)["Config"]["StopSignal"], "SIGTERM")
 
 
 class Service(ContainerTest):
@@ -92,8 +92,8 @@ class Service(ContainerTest):
 
     def test_answers_the_query_image(self):
         server = self.serve()
-        text = engine("run", "--rm", *RESTRICTED, "--network", f"container:{server.name}", "albtpu-query", "pulse",
-                      "--json", *PULSE_FLAGS, "--server", "127.0.0.1:50051")
+        text = engine("run", "--rm", *RESTRICTED, "--network", f"container:{server.name}", QUERY, "pulse", "--json",
+                      *PULSE_FLAGS, "--server", "127.0.0.1:50051")
         self.assertEqual(json.loads(text), query("--server", server.address()))
 
     def test_is_healthy_and_tells_its_metrics(self):
@@ -109,11 +109,11 @@ class Service(ContainerTest):
         folder.chmod(0o755)
         shutil.copy(SOURCE / "tables/birkebak2018_model.h5", folder / "mine.h5")
         server = self.serve(flags=("--volume", f"{folder}:/tables:ro"))
-        self.assertIn("mine (default)", run(QUERY, "tables", "--server", server.address()))
+        self.assertIn("mine (default)", run(CLIENT, "tables", "--server", server.address()))
         shutil.copy(SOURCE / "tables/survey.h5", folder / ".survey.new")
         os.rename(folder / ".survey.new", folder / "survey.h5")
         engine("kill", "--signal", "HUP", server.name)
-        wait_for(lambda: "survey (default)" in run(QUERY, "tables", "--server", server.address()), "the new table")
+        wait_for(lambda: "survey (default)" in run(CLIENT, "tables", "--server", server.address()), "the new table")
 
     def test_talks_tls(self):
         folder = pathlib.Path(tempfile.mkdtemp())
@@ -176,7 +176,7 @@ class Stopped(FolderTest):
         source = self.folder / "in.csv"
         os.mkfifo(source, 0o666)
         source.chmod(0o666)
-        client = self.start("albtpu-query", "csv", "in.csv", "out.csv", "--table", "/tables/survey.h5",
+        client = self.start(QUERY, "csv", "in.csv", "out.csv", "--table", "/tables/survey.h5",
                             flags=("--volume", f"{self.folder}:/data"))
 
         def is_read():
@@ -192,7 +192,7 @@ class Stopped(FolderTest):
         self.assertEqual(list(self.folder.iterdir()), [source])
 
     def test_a_generator_ends_at_once(self):
-        generator = self.start("albtpu-generate", "table", "--output", "survey.h5", "--campaign",
+        generator = self.start(GENERATE, "table", "--output", "survey.h5", "--campaign",
                                "/usr/local/share/albtpu/campaigns/survey.toml",
                                flags=("--volume", f"{self.folder}:/data"))
         wait_for(lambda: "units of 'survey'" in generator.log(), "the first units")
@@ -211,18 +211,18 @@ class Generator(FolderTest):
                *command)
 
     def test_makes_by_two_ranks_the_table_of_the_program_outside(self):
-        run(GENERATE, "table", "--campaign", self.folder / "small.toml", "--output", self.folder / "outside.h5",
+        run(GENERATOR, "table", "--campaign", self.folder / "small.toml", "--output", self.folder / "outside.h5",
             env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
-        self.generate("--tmpfs", "/tmp", "--entrypoint", "mpirun", "albtpu-generate", "--oversubscribe", "-n", "2",
+        self.generate("--tmpfs", "/tmp", "--entrypoint", "mpirun", GENERATE, "--oversubscribe", "-n", "2",
                       "albtpu-generate", "table", "--campaign", "small.toml", "--output", "inside.h5", "--threads", "1")
         self.assertTrue((self.folder / "inside.h5").read_bytes() == (self.folder / "outside.h5").read_bytes())
 
     def test_makes_by_shards_and_a_merge_the_table_of_one_run(self):
-        self.generate("albtpu-generate", "table", "--campaign", "small.toml", "--output", "whole.h5")
+        self.generate(GENERATE, "table", "--campaign", "small.toml", "--output", "whole.h5")
         for shard in range(2):
-            self.generate("albtpu-generate", "table", "--campaign", "small.toml", "--work", "units",
+            self.generate(GENERATE, "table", "--campaign", "small.toml", "--work", "units",
                           "--shard", f"{shard}/2")
-        self.generate("albtpu-generate", "merge", "--work", "units", "--output", "merged.h5")
+        self.generate(GENERATE, "merge", "--work", "units", "--output", "merged.h5")
         self.assertTrue((self.folder / "merged.h5").read_bytes() == (self.folder / "whole.h5").read_bytes())
 
 

@@ -6,6 +6,7 @@ Usage: orchestration_test.py ENGINE BASE_IMAGE SOURCE_FOLDER [TEST]
 import json
 import os
 import pathlib
+import re
 import shutil
 import socket
 import subprocess
@@ -14,10 +15,11 @@ import tempfile
 import unittest
 import urllib.request
 
-from containers import ENGINE, IS_PODMAN, PATIENCE, RESTRICTED, engine, run, wait_for
+from containers import ENGINE, IS_PODMAN, PATIENCE, QUERY, RESTRICTED, TAG, engine, run, wait_for
 
 BASE, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
 COMPOSE = ["podman-compose"] if IS_PODMAN else [ENGINE, "compose"]
+PROJECT = f"albtpu-test-{os.getpid()}"  # None that this machine runs.
 PROMETHEUS = "albtpu-test-prometheus"  # Debian's, where no registry is reached.
 PROMETHEUS_IMAGE = f"""FROM {BASE}
 RUN apt-get -qq update && apt-get -qq install --yes --no-install-recommends prometheus >/dev/null
@@ -54,7 +56,8 @@ class Compose(unittest.TestCase):
 
     @classmethod
     def compose(cls, *command):
-        return run(*COMPOSE, "--file", SOURCE / "docker/compose.yaml", *command, env=cls.environment)
+        return run(*COMPOSE, "--project-name", PROJECT, "--file", SOURCE / "docker/compose.yaml", *command,
+                   env=cls.environment)
 
     def test_the_job_gets_its_answer(self):
         wait_for(lambda: "INTERPOLATED" in self.compose("logs", "query"), "the job")
@@ -84,19 +87,20 @@ class KubePlay(unittest.TestCase):
         kinds = ("kind: ConfigMap", "kind: Deployment")
         played = [part for part in rendered.split("\n---\n") if any(kind in part for kind in kinds)]
         self.assertEqual(len(played), len(kinds))
-        self.manifest.write_text("\n---\n".join(played).replace("replicas: 3", "replicas: 1"))
+        manifest = "\n---\n".join(played).replace("replicas: 3", "replicas: 1")
+        self.manifest.write_text(re.sub(r"(image: albtpu-serve):.*", rf"\1:{TAG}", manifest))
         engine("volume", "create", "albtpu-tables")
         self.addCleanup(engine, "volume", "rm", "--force", "albtpu-tables")
         self.addCleanup(engine, "kube", "down", self.manifest, check=False)
 
     def test_the_deployment_answers_from_the_volume(self):
         engine("run", "--rm", "--user", "root", "--entrypoint", "cp", "--volume", "albtpu-tables:/volume",
-               "albtpu-query", "/tables/survey.h5", "/volume/")
+               QUERY, "/tables/survey.h5", "/volume/")
         engine("kube", "play", self.manifest)
         pod = engine("pod", "ps", "--format", "{{.Name}}", "--filter", "name=albtpu-serve").split()[0]
 
         def ask(*arguments):
-            result = subprocess.run([ENGINE, "run", "--rm", *RESTRICTED, "--pod", pod, "albtpu-query", *arguments,
+            result = subprocess.run([ENGINE, "run", "--rm", *RESTRICTED, "--pod", pod, QUERY, *arguments,
                                      "--server", "127.0.0.1:50051"], capture_output=True, text=True, timeout=PATIENCE)
             return result.stdout
 
