@@ -46,7 +46,7 @@ ctest --preset release --parallel 2 --output-junit "$PWD/$results" --test-output
   | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
 
 for name in "${asked[@]}"; do
-  if ! ${further[$name]} | tee "build/release/$name.log"; then
+  if ! ${further[$name]} 2>&1 | tee "build/release/$name.log"; then
     echo "failed: $name"
     status=1
   fi
@@ -57,7 +57,7 @@ for name in "${!further[@]}"; do
   if [[ " ${asked[*]} " != *" $name "* ]]; then
     echo "skipped: $name: tested by --$name"
   else
-    sed -n '/^skipped: /p' "build/release/$name.log"
+    sed -nE "/^skipped: /p; s/.* \.\.\. skipped ['\"](.+)['\"]\$/skipped: $name: \1/p" "build/release/$name.log" | uniq
   fi
 done
 sed -n '/% tests passed/,$p' "$log"
