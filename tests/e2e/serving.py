@@ -54,11 +54,15 @@ class Server:
         self.logged = threading.Condition()
         first_line = queue.Queue()
         threading.Thread(target=self._read, args=(first_line,), daemon=True).start()
-        line = first_line.get(timeout=PATIENCE)
-        ready = READY.fullmatch(message_of(line))
-        if not ready:
-            self.process.wait(PATIENCE)
-            raise RuntimeError(line)
+        try:
+            line = first_line.get(timeout=PATIENCE)
+            ready = READY.fullmatch(message_of(line))
+            if not ready:
+                self.process.wait(PATIENCE)
+                raise RuntimeError(line)
+        except BaseException:
+            self.__exit__()
+            raise
         self.address = ready[1]
 
     def _read(self, first_line):
