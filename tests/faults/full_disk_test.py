@@ -3,6 +3,7 @@
 Usage: full_disk_test.py NAME=PATH..., see programs.py
 """
 
+import atexit
 import ctypes
 import os
 import pathlib
@@ -27,6 +28,8 @@ def make_small_disk():
     if any(subprocess.run(command, capture_output=True, check=False).returncode for command in commands):
         os.rmdir(folder)
         return None
+    atexit.register(os.rmdir, folder)
+    atexit.register(subprocess.run, ["umount", "--lazy", folder], check=False)  # First: last in, first out.
     return pathlib.Path(folder)
 
 
