@@ -266,19 +266,21 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         programs = dict(program.split("=", 1) for program in arguments.programs)
         load = MixedLoad(types.SimpleNamespace(**programs), pathlib.Path(folder))
-        run = Run(load, 60 * arguments.minutes, rests=arguments.minutes >= FLAT_FROM)
-        code = load.server.stop(signal.SIGTERM)
+        with load.server:
+            run = Run(load, 60 * arguments.minutes, rests=arguments.minutes >= FLAT_FROM)
+            code = load.server.stop(signal.SIGTERM)
+    for name, count, failure in run.failures:
+        print(f"{name}, time {count + 1}: {failure!r}")
     for name, count in sorted(run.counts.items()):
         print(f"{name}: {count}")
-    print(f"resident memory under load: {run.memory_at(EARLY):.1f} MiB after {EARLY * arguments.minutes:g} minutes, "
-          f"{run.memory_at(1):.1f} MiB after {arguments.minutes:g}; the most {max(run.memory):.1f} MiB")
+    if run.memory:  # Of a run that did not fail at once.
+        print(f"resident memory under load: {run.memory_at(EARLY):.1f} MiB after {EARLY * arguments.minutes:g} "
+              f"minutes, {run.memory_at(1):.1f} MiB after {arguments.minutes:g}; the most {max(run.memory):.1f} MiB")
     is_flat = True
     if len(run.memory_at_rest) == 2:
         early, late = run.memory_at_rest
         print(f"at rest: {early:.1f} MiB, then {late:.1f} MiB ({late / early - 1:+.1%})")
         is_flat = late <= MOST_GROWTH * early
-    for name, count, failure in run.failures:
-        print(f"{name}, time {count + 1}: {failure!r}")
     sys.exit(0 if not run.failures and code == 0 and is_flat else 1)
 
 
