@@ -28,7 +28,7 @@ class Python:
     def __init__(self, address, pulses):
         self.answer = self.failure = None
         self.begun, self.enough = threading.Event(), threading.Event()
-        self.thread = threading.Thread(target=self._run, args=(address, pulses))
+        self.thread = threading.Thread(target=self._run, args=(address, pulses), daemon=True)
         self.thread.start()
 
     def _run(self, address, pulses):
@@ -88,6 +88,7 @@ class NetworkCut(faults.FaultTest):
             errors = client.communicate(timeout=LONGEST)[1]
             self.assertEqual(client.returncode, 0, errors)
         self.python.end(LONGEST)
+        self.assertFalse(self.python.thread.is_alive(), "the Python client hangs")
         self.assertIsNone(self.python.failure)
         expected = self.folder / "expected"
         expected.mkdir()
@@ -109,6 +110,7 @@ class NetworkCut(faults.FaultTest):
             self.assertEqual(client.returncode, 1, errors)
             self.assertEqual(len(problems), 1, errors)
         self.python.thread.join(LONGEST)
+        self.assertFalse(self.python.thread.is_alive(), "the Python client hangs")
         print(f"after {time.monotonic() - self.cut_at:.0f} s: {self.python.failure!r}")
         self.assertIsInstance(self.python.failure, albtpu.UnreachableError)
         self.assertLess(time.monotonic() - self.cut_at, LONGEST)
