@@ -1,5 +1,6 @@
 """What a shell sees of albtpu-query: exit codes, messages, outputs, and nothing lost or half written."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -187,7 +188,11 @@ class CommandLineTest(programs.Test):
         """Whether it has begun an output in the folder, with a name or without."""
         links = pathlib.Path(f"/proc/{process.pid}/fd").iterdir()
         folder = os.path.realpath(self.folder)
-        return any(os.readlink(link).startswith((f"{folder}/#", f"{folder}/.albtpu-")) for link in links)
+        for link in links:
+            with contextlib.suppress(FileNotFoundError):  # It closes files meanwhile.
+                if os.readlink(link).startswith((f"{folder}/#", f"{folder}/.albtpu-")):
+                    return True
+        return False
 
     def test_signal_leaves_nothing(self):
         # The input is a pipe that never ends, so the program is surely at work when the signal comes.
