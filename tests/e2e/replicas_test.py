@@ -25,7 +25,7 @@ NAME = "replicas.test"  # A domain that never is (RFC 6761).
 ADDRESSES = ("127.0.0.1", "127.0.0.2")
 SERVE, SYNTHETIC_TABLE, QUERY = sys.argv[1:4]
 PULSES = 10_000_000  # From Python, some tenths of a second.
-LINES = 1_000_000  # Of CSV.
+LINES = 3_000_000  # Of CSV, a second or two.
 
 
 class Replica(Server):
@@ -99,12 +99,14 @@ class Replicas(unittest.TestCase):
     def test_answer_each_pulse_of_a_file_once_when_one_is_killed(self):
         asking = self.csv("killed.csv")
         self.busy_one().stop(signal.SIGKILL)
+        self.assertIsNone(asking.poll(), "the client was faster")
         self.assert_written(asking, "killed.csv")
 
     def test_answer_each_pulse_of_a_file_once_when_one_falls_silent(self):
         asking = self.csv("silent.csv")
         silent = self.busy_one()
         silent.process.send_signal(signal.SIGSTOP)  # As when its machine has lost its network.
+        self.assertIsNone(asking.poll(), "the client was faster")
         self.assert_written(asking, "silent.csv")
         silent.process.send_signal(signal.SIGCONT)
 
@@ -115,6 +117,7 @@ class Replicas(unittest.TestCase):
             asking = threading.Thread(target=lambda: answers.append(service.query(**pulses)))
             asking.start()
             self.busy_one().stop(signal.SIGKILL)
+            self.assertTrue(asking.is_alive(), "the client was faster")
             asking.join(PATIENCE)
             disturbed, = answers
             undisturbed = service.query(**pulses)
