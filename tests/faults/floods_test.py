@@ -147,7 +147,7 @@ class Floods(faults.FaultTest):
     def test_take_neither_memory_nor_the_server(self):
         for flood in FLOODS:
             with self.subTest(flood.__name__):
-                server = self.serve()
+                server = self.serve("--metrics", "127.0.0.1:0")
                 before = faults.memory(server.process)
                 floods = (CONNECTIONS if flood in MANY_CALLS else 1) * [flood]
                 with faults.UnaryWitness(self, server.address), concurrent.futures.ThreadPoolExecutor() as pool:
@@ -155,6 +155,9 @@ class Floods(faults.FaultTest):
                 grown = faults.memory(server.process, "VmHWM") - before
                 print(f"{flood.__name__}: {sent >> 10} KiB sent, memory grew by {grown >> 10} KiB", flush=True)
                 self.assertLess(grown, GROWTH)
+                if flood is unacknowledged:  # Its calls end with their connections alone.
+                    ended = "albtpu_ended_connections_total"
+                    faults.wait_until(lambda: self.metric(server, ended) == CONNECTIONS, "each is ended")
                 with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
                     self.assert_answers(service)  # In a stream: each place was given back.
                 self.assert_drains(server)
