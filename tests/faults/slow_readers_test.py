@@ -113,7 +113,7 @@ class SlowReaders(faults.FaultTest):
         return read
 
     def test_hold_little_and_end(self):
-        server = self.serve()
+        server = self.serve("--metrics", "127.0.0.1:0")
         answer, sent = self.read_answer(server.address), request()
         before = faults.memory(server.process)
         with faults.UnaryWitness(self, server.address):
@@ -123,6 +123,8 @@ class SlowReaders(faults.FaultTest):
             began = time.monotonic()
             silent = [*self.begin(READ_NOTHING // 2, server.address, http2.settings(_4=0)),
                       *self.begin(READ_NOTHING // 2, server.address, OPEN_WINDOW)]
+            under_way = 'albtpu_calls_under_way{method="StreamColumns"}'
+            faults.wait_until(lambda: self.metric(server, under_way) == MAX_BULK_CALLS, "each place is taken")
             with albtpu.connect(server.address, patience=3 * MAX_STREAM_IDLE) as service:
                 self.assert_answers(service)  # A stream too, once others have ended.
             waited = time.monotonic() - began
@@ -171,8 +173,8 @@ class SlowReaders(faults.FaultTest):
         server, content = self.serve("--metrics", "127.0.0.1:0"), question(60000)
         self.assertGreater(len(content), MAX_INLINE_BYTES)
         callers = self.ask_and_read_nothing(server, content, MAX_BULK_CALLS // MAX_CALLS_PER_CONNECTION)
-        under_way = 'albtpu_calls_under_way{method="QueryColumns"}'
-        faults.wait_until(lambda: self.metric(server, under_way) == MAX_BULK_CALLS, "each call has a place")
+        answers = 'albtpu_answer_seconds_count{method="QueryColumns"}'  # They keep their places until they are read.
+        faults.wait_until(lambda: self.metric(server, answers) == MAX_BULK_CALLS, "each call has a place")
         began = time.monotonic()
         with faults.UnaryWitness(self, server.address), \
                 albtpu.connect(server.address, patience=3 * MAX_STREAM_IDLE) as service:
