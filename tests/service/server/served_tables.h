@@ -63,7 +63,8 @@ class ServedTables : public ::testing::Test {
   }
 
   absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
-    return Server::Start(*tables_, {metrics_.calls, metrics_.access, log_}, OrDie(ListenAddress::Parse(address)));
+    return Server::Start(*tables_, {metrics_.calls, metrics_.access, log_},
+                         OrDie(ListenAddress::Parse(address)));
   }
 
   template <typename Method, typename Request, typename Response>
