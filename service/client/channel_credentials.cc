@@ -9,17 +9,17 @@
 namespace albtpu::client {
 namespace {
 
-// What a PEM file of each kind has in its first line.
-constexpr char kCertificate[] = "-----BEGIN CERTIFICATE-----", kPrivateKey[] = "PRIVATE KEY-----";
+// What ends the first line of a PEM file of each kind, before its hyphens.
+constexpr char kCertificate[] = "CERTIFICATE", kPrivateKey[] = "PRIVATE KEY";
 
 // Empty for no file.
 absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path,
                                     const std::string& kind) {
   if (path.empty()) return "";
   absl::StatusOr<std::string> pem = ReadTextFile(flag, path);
-  if (!pem.ok() || absl::StrContains(*pem, kind)) return pem;
+  if (!pem.ok() || absl::StrContains(*pem, kind + "-----")) return pem;
   return absl::InvalidArgumentError(
-      absl::StrCat(flag, ": ", path, ": a PEM file with '", kind, "' is right"));
+      absl::StrCat(flag, ": ", path, ": a PEM file with a ", kind, " is right"));
 }
 
 absl::StatusOr<std::string> ReadToken(const std::string& path) {

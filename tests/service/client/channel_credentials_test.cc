@@ -40,7 +40,8 @@ TEST_F(ChannelCredentials, MeanTlsWhicheverIsGiven) {
 TEST_F(ChannelCredentials, NameTheFileThatIsNotRight) {
   const std::string junk = File("junk", "junk"), two = File("two", "one\ntwo\n"), none = File("none", "\n");
   EXPECT_THAT(Problem({.ca = folder_ / "nowhere"}), HasSubstr("nowhere: No such file"));
-  EXPECT_THAT(Problem({.ca = junk}), HasSubstr("--tls-ca: " + junk + ": a PEM file with '-----BEGIN CERT"));
+  EXPECT_THAT(Problem({.ca = junk}),
+              HasSubstr("--tls-ca: " + junk + ": a PEM file with a CERTIFICATE is right"));
   EXPECT_THAT(Problem({.certificate = junk, .key = junk}), HasSubstr("--tls-key"));
   const std::string key = File("key", "-----BEGIN PRIVATE KEY-----\n");
   EXPECT_THAT(Problem({.certificate = key, .key = key}), HasSubstr("--tls-cert: " + key + ": a PEM file"));
