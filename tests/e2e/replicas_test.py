@@ -3,6 +3,7 @@
 Usage: replicas_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
 
+import contextlib
 import pathlib
 import re
 import shutil
@@ -35,8 +36,11 @@ class Replica(Server):
 
     def count(self, metric):
         """The sum over the labels of a metric."""
-        with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
-            lines = page.read().decode().splitlines()
+        lines = None
+        while lines is None:
+            with contextlib.suppress(ConnectionResetError):  # By a busy server, which waits a second for a question.
+                with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
+                    lines = page.read().decode().splitlines()
         return sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith((metric + "{", metric + " ")))
 
     def is_busy(self):

@@ -66,7 +66,7 @@ class Starting(SecurityTest):
 
     def test_may_listen_beyond_this_machine_with_tls(self):
         server = self.serve(*self.tls(), listen="0.0.0.0:0")
-        server.address = server.address.replace("0.0.0.0", "localhost")
+        server.address = server.address.replace("0.0.0.0", "127.0.0.1")
         self.assert_answers(server, ca=self.ca)
 
 

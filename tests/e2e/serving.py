@@ -53,7 +53,8 @@ class Server:
         self.lines = []
         self.logged = threading.Condition()
         first_line = queue.Queue()
-        threading.Thread(target=self._read, args=(first_line,), daemon=True).start()
+        self._reader = threading.Thread(target=self._read, args=(first_line,), daemon=True)
+        self._reader.start()
         try:
             line = first_line.get(timeout=PATIENCE)
             ready = READY.fullmatch(message_of(line))
@@ -94,4 +95,5 @@ class Server:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
+        self._reader.join()
         self.process.stderr.close()
