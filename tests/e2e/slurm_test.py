@@ -29,6 +29,7 @@ class Jobs(unittest.TestCase):
         cls.environment = dict(PATH=f"{GENERATE.parent}:/usr/bin:/bin:/usr/sbin:/sbin", SOURCE_DATE_EPOCH="1700000000",
                                OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                                OMPI_MCA_rmaps_base_oversubscribe="1",
+                               TSAN_OPTIONS=os.environ.get("TSAN_OPTIONS", ""),
                                # Open MPI loses memory, in parts that it has unloaded when AddressSanitizer looks.
                                ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0")
         subprocess.run([GENERATE, "table", "--campaign", "small.toml", "--output", "one.h5"], check=True,
