@@ -24,8 +24,8 @@ struct Patience {
 //
 // `address` is HOST:PORT, or `dns:///NAME:PORT` where a name has several servers: calls of Answer take turns
 // with them, and what one leaves unanswered when it goes is asked of another. `table` is what to ask for, empty
-// for the server's default. One that refuses from the beginning is asked for less than a
-// second, one that says nothing for six.
+// for the server's default. One that refuses from the beginning is asked for less
+// than a second, one that says nothing for six.
 //
 // Example:
 //   const auto server = OpenServer("127.0.0.1:50051", "");
