@@ -35,7 +35,7 @@ HWY_INLINE V Fold(V azimuth) {
   return hn::Min(rest, hn::Sub(half_turn, rest));
 }
 
-// The node below or at `x`, which is in the domain; the last but one at the last.
+// The node below or at `x`; the last but one at the last and beyond, the first below it and at not-a-number.
 HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   const std::vector<float>& nodes = axis.nodes;
   constexpr std::size_t kFewNodes = 48;  // to compare with each is faster than to search
@@ -110,6 +110,16 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
   }
 }
 
+void AddLowerNodesOfBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::size_t count,
+                          std::int32_t step, std::int32_t* rows) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    V x = hn::LoadU(d, coordinates + i);
+    if (axis.folded) x = Fold(x);
+    hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(LowerNode(axis, x), hn::Set(di, step))), di,
+               rows + i);
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace albtpu
@@ -119,6 +129,7 @@ HWY_AFTER_NAMESPACE();
 namespace albtpu {
 
 HWY_EXPORT(LocateBlock);
+HWY_EXPORT(AddLowerNodesOfBlock);
 
 AxisLookup::AxisLookup(const Axis& axis)
     : nodes_{.nodes = {axis.nodes().begin(), axis.nodes().end()},
@@ -137,6 +148,12 @@ void AxisLookup::Locate(const float* coordinates, std::size_t count, std::int32_
                         float* fractions, std::int32_t* codes) const {
   assert(count % kPadding == 0);
   HWY_DYNAMIC_DISPATCH(LocateBlock)(nodes_, coordinates, count, step, rows, fractions, codes);
+}
+
+void AxisLookup::AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
+                               std::int32_t* rows) const {
+  assert(count % kPadding == 0);
+  HWY_DYNAMIC_DISPATCH(AddLowerNodesOfBlock)(nodes_, coordinates, count, step, rows);
 }
 
 }  // namespace albtpu

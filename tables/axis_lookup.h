@@ -34,6 +34,11 @@ class AxisLookup {
   void Locate(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows,
               float* fractions, std::int32_t* codes) const;
 
+  // Adds `step` times the node below each of `count` coordinates to `rows`; of coordinates that are not inside,
+  // and of azimuths too far from 0, that of any node but the last.
+  void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
+                     std::int32_t* rows) const;
+
   // What the kernels read.
   struct Nodes {
     std::vector<float> nodes;  // as they are

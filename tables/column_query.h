@@ -24,7 +24,7 @@ struct Query {
 // axes, at nodes the same bits, between them the same numbers within 1e-5, relative, and where corners cancel
 // within 4e-7 of the largest. What a pulse is answered depends on this pulse and the instruction set alone: not
 // on its neighbours, its place or the number of pulses. Along a flight line, where neighbours share a cell of
-// the table, answers come some ten times as fast as in random order.
+// the table, answers come some seven times as fast as in no order: thousands in no order are sorted on the way.
 //
 // Example, a flight line in a wind of 5 m/s:
 //   const absl::StatusOr<UncertaintyTable> table = ReadTable("survey.h5");
@@ -47,7 +47,7 @@ class ColumnInterpolator {
   ColumnInterpolator& operator=(ColumnInterpolator&&) noexcept;
 
   // Answers the pulses `begin` to `end`, `end` not included, into the same rows of `answers`, on the thread
-  // that calls. `pulses` must be valid. Allocates nothing.
+  // that calls. `pulses` must be valid. Allocates nothing but, to sort, 7 MB at the most.
   void Answer(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
               const AnswerColumns& answers) const;
 

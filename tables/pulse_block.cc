@@ -107,6 +107,12 @@ void PulseBlock::MoveTo(std::size_t first, std::size_t count) {
   all_inside_ = differences == 0;
 }
 
+bool PulseBlock::IsScattered() const {
+  std::size_t moves = 0;
+  for (std::size_t i = 1; i < count_; ++i) moves += rows_[i] != rows_[i - 1];
+  return 2 * moves > count_;
+}
+
 BlendedPulses PulseBlock::WithoutDepth(Side side) const {
   const auto fractions = [&](AxisId axis) { return fractions_[Index(axis)].begin(); };
   const bool downwind = side == Side::kDownwind;

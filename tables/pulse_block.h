@@ -53,6 +53,9 @@ class PulseBlock {
   const BlockOf<std::int32_t>& codes() const { return codes_; }
   bool all_inside() const { return all_inside_; }
 
+  // Whether most pulses are in another cell than the one before.
+  bool IsScattered() const;
+
   // Among records without depth and with it. Pulses with an azimuth have one side, downwind.
   BlendedPulses WithoutDepth(Side side) const;
   BlendedPulses WithDepth(Side side) const;

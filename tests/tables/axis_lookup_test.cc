@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -20,6 +21,13 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 class AxisLookupTest : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(AxisLookupTest);
 
+std::vector<std::int32_t> LowerNodes(const Axis& axis, const std::vector<float>& coordinates) {
+  std::vector<std::int32_t> rows(coordinates.size(), 100);
+  AxisLookup(axis).AddLowerNodes(coordinates.data(), coordinates.size(), 3, rows.data());
+  for (std::int32_t& row : rows) row = (row - 100) / 3;
+  return rows;
+}
+
 // What both make of each coordinate, at two pulses a node.
 void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
   coordinates.resize((coordinates.size() + AxisLookup::kPadding - 1) / AxisLookup::kPadding *
@@ -28,11 +36,13 @@ void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
   std::vector<float> fractions(coordinates.size(), -1);
   AxisLookup(axis).Locate(coordinates.data(), coordinates.size(), 2, rows.data(), fractions.data(),
                           codes.data());
+  const std::vector<std::int32_t> lower_nodes = LowerNodes(axis, coordinates);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     SCOPED_TRACE(coordinates[i]);
     const std::optional<Bracket> bracket = axis.Locate(coordinates[i]);
     ASSERT_EQ(codes[i] == outcome_code::kInside, bracket.has_value());
     ASSERT_EQ(rows[i], 7 + 2 * static_cast<std::int32_t>(bracket.value_or(Bracket{}).lower));
+    ASSERT_TRUE(!bracket.has_value() || 7 + 2 * lower_nodes[i] == rows[i]);
     const double fraction = bracket.value_or(Bracket{}).fraction;
     ASSERT_NEAR(fractions[i], fraction, 1e-6);
     const bool too_small = fraction > 0 && fraction < std::numeric_limits<float>::min();
@@ -97,6 +107,24 @@ TEST_P(AxisLookupTest, FoldsAzimuthsExactly) {
   }
   ExpectEqual(MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}), azimuths);
   ExpectEqual(MakeAxis(AxisId::kAzimuth, {10, 80}), azimuths);
+}
+
+TEST_P(AxisLookupTest, FindsANodeBelowWhateverIsAsked) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kMost = std::numeric_limits<float>::max();
+  const std::vector<float> odd = {kNaN, -kNaN, kInfinity, -kInfinity, kMost, -kMost,
+                                  1e7f, -1e7f, 4e9f,      -0.0f,      1e-40f};
+  std::vector<double> many;
+  for (int i = 0; i < 60; ++i) many.push_back(i);
+  for (const Axis& axis : {MakeAxis(AxisId::kAzimuth, {0, 30, 60, 90}), MakeAxis(AxisId::kAzimuth, {45}),
+                           MakeAxis(AxisId::kFetch, {1e3, 1e4, 1e5}), MakeAxis(AxisId::kDepth, many)}) {
+    std::vector<float> coordinates(16, 5);
+    std::copy(odd.begin(), odd.end(), coordinates.begin());
+    const auto last = static_cast<std::int32_t>(axis.size()) - 2;
+    for (const std::int32_t node : LowerNodes(axis, coordinates)) {
+      EXPECT_GE(node, 0);
+      EXPECT_LE(node, std::max(last, 0));
+    }
+  }
 }
 
 TEST_P(AxisLookupTest, KeepsTheLeastCode) {
