@@ -84,13 +84,17 @@ void AskRaw(const Load& load, Record& record) {
 void AskInCalls(const Load& load, Record& record, const std::string& method,
                 const std::function<grpc::ByteBuffer(const PulseColumns&)>& request,
                 const std::function<void(grpc::ByteBuffer& response, const AnswerColumns&)>& read) {
-  grpc::GenericStub stub(ChannelTo(load.address));
+  std::vector<std::unique_ptr<grpc::GenericStub>> stubs;
+  while (stubs.size() < load.connections) {
+    stubs.push_back(std::make_unique<grpc::GenericStub>(ChannelTo(load.address)));
+  }
   grpc::CompletionQueue finished;
   std::size_t started = 0;
   const auto start = [&] {
     auto* call = new UnaryCall;
     call->begin = Clock::now();
-    call->place = started++ * load.batch % load.line.size();
+    call->place = started * load.batch % load.line.size();
+    grpc::GenericStub& stub = *stubs[started++ % stubs.size()];
     call->reader = stub.PrepareUnaryCall(&call->context, "/albtpu.v1.UncertaintyService/" + method,
                                          request(load.line.pulses(call->place, load.batch)), &finished);
     call->reader->StartCall();

@@ -18,8 +18,9 @@ struct Load {
   const std::string& address;
   const FlightLine& line;
   AnswerMemory& answers;
-  std::size_t batch;      // Pulses of one message.
-  std::size_t in_flight;  // Messages that one caller has under way.
+  std::size_t batch;        // Pulses of one message.
+  std::size_t in_flight;    // Messages that one caller has under way.
+  std::size_t connections;  // Over which its calls go in turn; streams and bare connections have one.
 };
 
 // Many pulses a message. Over a bare TCP connection, one message in flight: two callers keep two cores busy.
@@ -36,8 +37,7 @@ void AskStreamSingle(const Load& load, Record& record);  // `StreamColumns`.
 // A connection of its own, as a bare TCP connection is; channels to one server share one otherwise.
 std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address);
 
-// Unary calls of a method of the service, `in_flight` at a time on one connection, each for the next `batch`
-// pulses: `request` writes a message, `read` takes the answer.
+// Unary calls of a method of the service, `in_flight` at a time, each for the next `batch` pulses: `request` writes a message, `read` takes the answer.
 void AskInCalls(const Load& load, Record& record, const std::string& method,
                 const std::function<grpc::ByteBuffer(const PulseColumns&)>& request,
                 const std::function<void(grpc::ByteBuffer& response, const AnswerColumns&)>& read);

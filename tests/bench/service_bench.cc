@@ -1,6 +1,6 @@
 // service_bench serve-raw TABLE.h5
 // service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
-//               [--seconds S] [--beside N]
+//               [--connections N] [--seconds S] [--beside N]
 //
 // Asks a server for a time, checks the answers against the table, and prints one JSON object: pulses and calls
 // a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
@@ -34,7 +34,7 @@ constexpr std::size_t kStreamBatch = 65536;  // What a stream sends in one messa
 struct Options {
   std::string peer, address, table;
   int server_pid = 0;
-  std::size_t batch = kStreamBatch, callers = 1, in_flight = 1, beside = 0;
+  std::size_t batch = kStreamBatch, callers = 1, in_flight = 1, connections = 1, beside = 0;
   double seconds = 2;
 };
 
@@ -66,11 +66,13 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
   Record record(options.seconds), bulk(options.seconds);
   std::vector<std::thread> threads;
   for (AnswerMemory& memory : answers) {
-    threads.emplace_back(peer->second, Load{options.address, line, memory, options.batch, options.in_flight},
-                         std::ref(record));
+    threads.emplace_back(
+        peer->second,
+        Load{options.address, line, memory, options.batch, options.in_flight, options.connections},
+        std::ref(record));
   }
   for (AnswerMemory& memory : bulk_answers) {
-    threads.emplace_back(AskStream, Load{options.address, bulk_line, memory, kStreamBatch, 1},
+    threads.emplace_back(AskStream, Load{options.address, bulk_line, memory, kStreamBatch, 1, 1},
                          std::ref(bulk));
   }
   for (std::thread& thread : threads) thread.join();
@@ -102,6 +104,8 @@ int Main(int argc, char** argv) {
   app.add_option("--callers", options.callers, "Threads that ask");
   app.add_option("--in-flight", options.in_flight,
                  "Messages that a caller has under way (raw and stream: see load.h)");
+  app.add_option("--connections", options.connections, "Over which a caller's calls go in turn")
+      ->check(CLI::PositiveNumber);
   app.add_option("--beside", options.beside, "Further threads that stream, not counted");
   app.add_option("--seconds", options.seconds, "For how long");
   CLI11_PARSE(app, argc, argv);

@@ -2,7 +2,7 @@
 
 Usage: service_ratios.py BUILD_FOLDER [--repetitions N] [--seconds S]
 Everything runs in turn, again and again, on this machine, client and server beside each other; figures are medians.
-Of each peer the best number of callers and of messages in flight counts.
+Of each peer the best way to ask counts: how many callers, messages in flight and connections.
 """
 
 import argparse
@@ -17,10 +17,13 @@ import sys
 from ratios import compiler, processor
 
 TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "survey.h5"
-# Bulk: peer, pulses a message, of how many ways to have messages in flight. A bare connection with one message in
-# flight, two callers, keeps both cores busy; a stream has two under way by itself.
-BULK = [("raw", 10000, 1), ("raw", 65536, 1), ("columns", 10000, 2), ("columns", 65536, 2), ("rows", 10000, 2),
-        ("stream", 65536, 1)]
+# Ways to ask in bulk: callers, messages that each has in flight, connections over which they go in turn. Calls come
+# from few callers, or from many whom one thread stands for; a bare connection and a stream have one each.
+CALLS = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (1, 4, 1), (2, 4, 1), (4, 4, 1), (1, 24, 24)]
+BARE = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (24, 1, 1)]
+STREAMS = [(1, 1, 1), (2, 1, 1), (4, 1, 1)]
+BULK = [("raw", 10000, BARE), ("raw", 65536, BARE), ("columns", 10000, CALLS), ("columns", 65536, CALLS),
+        ("rows", 10000, CALLS), ("stream", 65536, STREAMS)]
 
 
 @contextlib.contextmanager
@@ -62,9 +65,9 @@ def median(runs, *path):
 
 
 def measure(peers, repetitions):
-    """Runs by (peer, batch, callers or what else)."""
-    cases = {(peer, batch, (callers, in_flight)): {"batch": batch, "callers": callers, "in-flight": in_flight}
-             for peer, batch, most in BULK for callers in (1, 2, 4) for in_flight in (1, 4)[:most]}
+    """Runs by (peer, batch, way to ask)."""
+    cases = {(peer, batch, way): {"batch": batch} | dict(zip(("callers", "in-flight", "connections"), way))
+             for peer, batch, ways in BULK for way in ways}
     cases |= {(peer, 1, 64): {"batch": 1, "in-flight": 64} for peer in ("raw-single", "rows", "stream-single")}
     cases |= {("rows", 1, "alone"): {"batch": 1}, ("rows", 1, "under bulk"): {"batch": 1, "beside": 2}}
     runs = {case: [] for case in cases}
@@ -76,7 +79,7 @@ def measure(peers, repetitions):
 
 
 def best(runs, peer, batch):
-    """The runs of the number of callers, and of messages in flight, that brings most pulses a second."""
+    """The runs of the way to ask that brings most pulses a second."""
     return max((of for (name, size, _), of in runs.items() if (name, size) == (peer, batch)),
                key=lambda of: median(of, "pulses_per_second"))
 
