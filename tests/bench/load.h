@@ -37,7 +37,8 @@ void AskStreamSingle(const Load& load, Record& record);  // `StreamColumns`.
 // A connection of its own, as a bare TCP connection is; channels to one server share one otherwise.
 std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address);
 
-// Unary calls of a method of the service, `in_flight` at a time, each for the next `batch` pulses: `request` writes a message, `read` takes the answer.
+// Unary calls of a method of the service, `in_flight` at a time, each for the next `batch` pulses: `request` writes
+// a message, `read` takes the answer.
 void AskInCalls(const Load& load, Record& record, const std::string& method,
                 const std::function<grpc::ByteBuffer(const PulseColumns&)>& request,
                 const std::function<void(grpc::ByteBuffer& response, const AnswerColumns&)>& read);

@@ -62,8 +62,9 @@ def replicas(serve, count, share):
 
 
 def rate(bench, address, process):
-    command = [bench, "stream", "--callers", "16", "--table", TABLES / "survey.h5", "--address", address,
-               "--server-pid", str(process), "--seconds", "10"]
+    # Lines of 16 x 16384 pulses, a call each: the last calls of a run are short and leave no replica without work.
+    command = [bench, "stream", "--callers", "16", "--batch", "16384", "--table", TABLES / "survey.h5",
+               "--address", address, "--server-pid", str(process), "--seconds", "10"]
     return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["pulses_per_second"]
 
 
