@@ -35,7 +35,7 @@ class AxisLookup {
               float* fractions, std::int32_t* codes) const;
 
   // Adds `step` times the node below each of `count` coordinates to `rows`; of coordinates that are not inside,
-  // and of azimuths too far from 0, that of any node but the last.
+  // and of azimuths too far from 0, that of any node but the last, or of the only one.
   void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
                      std::int32_t* rows) const;
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <thread>
 
 #include "tables/answer_writer.h"
@@ -15,33 +14,21 @@
 #include "tables/sorted_pulses.h"
 
 namespace albtpu {
-namespace {
-
-constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
-
-}  // namespace
 
 struct ColumnInterpolator::Layout {
   explicit Layout(const UncertaintyTable& table)
-      : grid(table), records(table), least_to_sort(LeastToSort(records.displacement.size() / kRecordSize)) {}
+      : grid(table),
+        records(table),
+        fewest_to_sort(SortedPulses::Fewest(records.displacement.size() / kRecordSize)) {}
 
-  // Answers block by block, to the end or to where `least` pulses or more are left and the last block was in no
+  // Answers block by block, to the end or to where `fewest` pulses or more are left and the last block was in no
   // order. Returns where it stopped.
   std::size_t AnswerBlocks(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
-                           const AnswerColumns& answers, std::size_t least) const;
+                           const AnswerColumns& answers, std::size_t fewest) const;
 
   Grid grid;
   RecordLayout records;
-  std::size_t least_to_sort;
-
- private:
-  // To sort takes a fifth of the time of answers in no order. It pays where a table does not stay in the second
-  // cache and there are pulses enough, each reading 64 records, to read each record once or more.
-  static std::size_t LeastToSort(std::size_t records) {
-    constexpr std::size_t kFewRecords = 1 << 16, kReadByPulse = 64;
-    if (records < kFewRecords) return kNever;
-    return std::min(records / kReadByPulse, SortedPulses::kMost);
-  }
+  std::size_t fewest_to_sort;
 };
 
 ColumnInterpolator::ColumnInterpolator(const UncertaintyTable& table)
@@ -55,13 +42,13 @@ void ColumnInterpolator::Answer(const Query& query, const PulseColumns& pulses, 
   assert(CheckLengths(pulses).ok() && begin <= end && end <= pulses.size);
   std::size_t first = begin;
   while (true) {
-    first = layout_->AnswerBlocks(query, pulses, first, end, answers, layout_->least_to_sort);
+    first = layout_->AnswerBlocks(query, pulses, first, end, answers, layout_->fewest_to_sort);
     if (first == end) return;
-    // What follows pulses in no order is likely in none.
+    // What follows pulses in no order is likely in no order either.
     const std::size_t count =
         std::min(end - first, SortedPulses::kMost) / AxisLookup::kPadding * AxisLookup::kPadding;
     SortedPulses sorted(layout_->grid, pulses, first, count, answers);
-    layout_->AnswerBlocks(query, sorted.pulses(), 0, count, sorted.answers(), kNever);
+    layout_->AnswerBlocks(query, sorted.pulses(), 0, count, sorted.answers(), SortedPulses::kNever);
     sorted.CopyAnswers();
     first += count;
   }
@@ -69,7 +56,7 @@ void ColumnInterpolator::Answer(const Query& query, const PulseColumns& pulses, 
 
 std::size_t ColumnInterpolator::Layout::AnswerBlocks(const Query& query, const PulseColumns& pulses,
                                                      std::size_t begin, std::size_t end,
-                                                     const AnswerColumns& answers, std::size_t least) const {
+                                                     const AnswerColumns& answers, std::size_t fewest) const {
   if (begin == end) return end;
   const AnswerWriter writer(query, records, answers);
   PulseBlock block(grid, pulses, std::min(kBlock, end - begin));
@@ -79,7 +66,7 @@ std::size_t ColumnInterpolator::Layout::AnswerBlocks(const Query& query, const P
     numbers.Find(block);
     writer.Write(block, numbers);
     begin += block.count();
-    if (end - begin >= least && block.IsScattered()) break;
+    if (end - begin >= fewest && block.IsScattered()) break;
   }
   return begin;
 }

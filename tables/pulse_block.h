@@ -53,7 +53,7 @@ class PulseBlock {
   const BlockOf<std::int32_t>& codes() const { return codes_; }
   bool all_inside() const { return all_inside_; }
 
-  // Whether most pulses are in another cell than the one before.
+  // Whether most pulses are in another cell than the one before, depth aside.
   bool IsScattered() const;
 
   // Among records without depth and with it. Pulses with an azimuth have one side, downwind.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "tables/pulse_block.h"
@@ -15,6 +16,11 @@ class SortedPulses {
   // At most so many at a time: a column of them stays in the second cache while it is sorted. With their answers
   // they take some 100 bytes a pulse at the most.
   static constexpr std::size_t kMost = std::size_t{1} << 16;
+
+  // From how many pulses in no order on it is faster to sort them, in a table of so many records: kMost or fewer, or
+  // kNever.
+  static std::size_t Fewest(std::size_t records);
+  static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
   // The pulses `begin` to `begin + count`, the latter not included, and room for the answers that are wanted.
   // `count` is a multiple of AxisLookup::kPadding. Constant columns stay where they are.

@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxInlineBytes = std::size_t{192} << 10;
 // Calls under way that may wait for a worker, all connections together: beyond them calls fail with
 // RESOURCE_EXHAUSTED. A stream counts as long as it is open; calls that are answered at once do not. A call
 // holds up to 12 MiB (a stream: the request that is answered, the one after it and an answer), all of them
-// 1.5 GiB; a worker holds 8 MiB more.
+// 1.5 GiB; a worker holds 8 MiB more, 20 MiB where pulses come in rows.
 inline constexpr int kMaxBulkCalls = 128;
 
 // Calls under way on one connection; further ones wait in the client. A connection that sends them all the same

@@ -103,7 +103,7 @@ void ServeRaw(const ColumnInterpolator& interpolator) {
   sockaddr_in address = Loopback(0);
   socklen_t length = sizeof address;
   Check(bind(listener, reinterpret_cast<sockaddr*>(&address), length) == 0, "bind");
-  Check(listen(listener, 16) == 0, "listen");
+  Check(listen(listener, SOMAXCONN) == 0, "listen");
   Check(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &length) == 0, "getsockname");
   std::cout << ntohs(address.sin_port) << std::endl;
   for (;;) {

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "tables/block.h"
 #include "tables/column_query.h"
+#include "tables/sorted_pulses.h"
 #include "tests/instruction_sets.h"
 #include "tests/tables/asked_columns.h"
 #include "tests/tables/synthetic_table.h"
@@ -25,8 +27,8 @@ using ::albtpu::testing::RandomColumns;
 using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TablesOfEachKind;
 
-// 81 920 nodes, more than a second cache holds.
-UncertaintyTable LargeTable() {
+// 81 920 nodes: pulses in no order are sorted.
+UncertaintyTable LargeTable(Scale scale, bool errors) {
   std::vector<double> depths;
   for (int i = 0; i < 16; ++i) depths.push_back(2 * i);
   UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {1, 2, 3, 5, 7, 9, 12, 15}),
@@ -41,7 +43,9 @@ UncertaintyTable LargeTable() {
   for (Quantity quantity : kQuantities) {
     std::vector<float> values(ValueCount(axes, quantity));
     for (float& value : values) value = number(random);
-    variables[Index(quantity)] = Variable{values, values, Scale::kLinear};
+    const std::vector<float> standard_errors = errors ? values : std::vector<float>();
+    const Scale of_quantity = Describe(quantity).is_bias ? Scale::kLinear : scale;
+    variables[Index(quantity)] = Variable{values, standard_errors, of_quantity};
   }
   return *UncertaintyTable::Create(std::move(axes), std::move(variables), SyntheticTable().provenance());
 }
@@ -92,31 +96,44 @@ TEST_P(ColumnOrder, AnswersInAnyOrderAndInPiecesBitByBit) {
   }
 }
 
-// Pulses in no order are sorted where there are many of them and the table is large: more than 65 536 nodes.
+// More than are sorted at a time.
+constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2;
+
+// A block at a time, too few to be sorted.
+Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
+  Answers answers(kSize);
+  for (std::size_t first = kBegin; first < kEnd; first += kBlock) {
+    interpolator.Answer(query, pulses, first, std::min(first + kBlock, kEnd), answers.columns());
+  }
+  return answers;
+}
+
 TEST_P(ColumnOrder, AnswersManyInNoOrderAsFewBitByBit) {
-  const UncertaintyTable table = LargeTable();
-  const ColumnInterpolator interpolator(table);
-  constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2, kFew = 1000;
+  ASSERT_LT(SortedPulses::Fewest(81'920), SortedPulses::kMost);
   const Query query{.coverage = Coverage::kP95, .s44_order = S44Order::kSpecial};
-  Columns columns = RandomColumns(table, kSize, 8);
+  Columns columns = RandomColumns(LargeTable(Scale::kLinear, false), kSize, 8);
   columns[Index(AxisId::kAzimuth)][300] = 4e9f;
   Columns constants = columns;
   constants[Index(AxisId::kWindSpeed)].resize(1);
   constants[Index(AxisId::kAzimuth)].clear();
   for (const Columns& asked : {columns, constants}) {
     const PulseColumns pulses = Pulses(asked, kSize);
-    Answers many(kSize), few(kSize);
-    interpolator.Answer(query, pulses, kBegin, kEnd, many.columns());
-    for (std::size_t first = kBegin; first < kEnd; first += kFew) {
-      interpolator.Answer(query, pulses, first, std::min(first + kFew, kEnd), few.columns());
-    }
-    for (std::size_t i = 0; i < kSize; ++i) ASSERT_EQ(many.BitsAt(i), few.BitsAt(i)) << i;
+    for (const bool errors : {true, false}) {
+      for (const Scale scale : {Scale::kLinear, Scale::kLog}) {
+        const ColumnInterpolator interpolator(LargeTable(scale, errors));
+        const Answers few = AskInBlocks(interpolator, query, pulses);
+        Answers many(kSize);
+        interpolator.Answer(query, pulses, kBegin, kEnd, many.columns());
+        for (std::size_t i = 0; i < kSize; ++i) ASSERT_EQ(many.BitsAt(i), few.BitsAt(i)) << i;
 
-    std::vector<float> thu(kSize);
-    AnswerColumns one_column;
-    one_column.values[Index(Quantity::kThu)] = thu.data();
-    interpolator.Answer(query, pulses, kBegin, kEnd, one_column);
-    EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)), 0);
+        std::vector<float> thu(kSize);
+        AnswerColumns one_column;
+        one_column.values[Index(Quantity::kThu)] = thu.data();
+        interpolator.Answer(query, pulses, kBegin, kEnd, one_column);
+        EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)),
+                  0);
+      }
+    }
   }
 }
 

@@ -48,6 +48,19 @@ class SortedPulsesTest : public testing::OnInstructionSet {
 };
 ALBTPU_ON_EACH_INSTRUCTION_SET(SortedPulsesTest);
 
+// AnswerOnAllCores cuts a message of 65 536 pulses into pieces of 8192, of which a block comes first.
+TEST(FewestPulsesToSort, AreFewerThanAPieceInTheTablesThatWeShip) {
+  constexpr std::size_t kSurvey = 721'280, kPiece = 8192 - kBlock;
+  EXPECT_LE(SortedPulses::Fewest(kSurvey), kPiece);
+  EXPECT_GT(SortedPulses::Fewest(kSurvey), kBlock);
+}
+
+TEST(FewestPulsesToSort, AreMoreThanThereAreInTablesThatStayInTheCacheOrAreTooLarge) {
+  EXPECT_EQ(SortedPulses::Fewest(0), SortedPulses::kNever);
+  EXPECT_EQ(SortedPulses::Fewest(50'000), SortedPulses::kNever);
+  EXPECT_EQ(SortedPulses::Fewest(20'000'000), SortedPulses::kNever);
+}
+
 TEST_P(SortedPulsesTest, NeighboursShareACell) {
   EXPECT_TRUE(IsScattered(pulses_));
   const SortedPulses sorted(grid_, pulses_, 0, kSize, wanted_);
