@@ -79,13 +79,18 @@ def measure(peers, repetitions):
 
 
 def best(runs, peer, batch):
-    """The runs of the way to ask that brings most pulses a second."""
-    return max((of for (name, size, _), of in runs.items() if (name, size) == (peer, batch)),
-               key=lambda of: median(of, "pulses_per_second"))
+    """The way to ask that brings most pulses a second, in words, and its runs."""
+    (_, _, (callers, in_flight, connections)), of = max(
+        ((case, of) for case, of in runs.items() if case[:2] == (peer, batch)),
+        key=lambda case_and_runs: median(case_and_runs[1], "pulses_per_second"))
+    way = f"{connections} connections" if connections > 1 else f"{callers} × {in_flight}"
+    return way, of
 
 
 def rows_of(runs):
     def row(what, ours, peer):
+        (way, ours), (way_of_peer, peer) = ours, peer
+        what += f" ({way}; {way_of_peer})" if way else ""
         rate, of_peer = median(ours, "pulses_per_second"), median(peer, "pulses_per_second")
         return (what, f"{rate / 1e6:.3g} M/s", f"{of_peer / 1e6:.3g} M/s", f"{rate / of_peer:.2f}",
                 f"{median(ours, 'client_cpu_per_pulse') * 1e9:.3g} + {median(ours, 'server_cpu_per_pulse') * 1e9:.3g}",
@@ -97,8 +102,8 @@ def rows_of(runs):
     yield row("`QueryColumns` against `QueryPulses`, 10000 a message", best(runs, "columns", 10000),
               best(runs, "rows", 10000))
     for peer, kind in (("stream-single", "messages of a stream"), ("rows", "calls")):
-        yield row(f"single pulses as {kind}, 64 in flight, against raw TCP messages", runs[peer, 1, 64],
-                  runs["raw-single", 1, 64])
+        yield row(f"single pulses as {kind}, 64 in flight, against raw TCP messages", ("", runs[peer, 1, 64]),
+                  ("", runs["raw-single", 1, 64]))
 
 
 def main():
@@ -114,7 +119,8 @@ def main():
     with server(ours, r"ready on (\S+),") as service, server(theirs, r"^(\d+)$") as raw:
         runs = measure(Peers(program, service, raw, arguments.seconds), arguments.repetitions)
     print(f"{processor()}, shared by client and server; {compiler(arguments.build)}. Table `survey`, 4 columns of "
-          "each pulse asked, 4 quantities answered; processor time a pulse, client + server, in ns.\n")
+          "each pulse asked, 4 quantities answered; processor time a pulse, client + server, in ns. In "
+          "brackets, of ours and of the peer: callers × messages in flight.\n")
     print("| what | ours | peer | ratio | ours, CPU | peer, CPU | ratio |\n|---|---:|---:|---:|---:|---:|---:|")
     for row in rows_of(runs):
         print("| " + " | ".join(row) + " |")
