@@ -35,7 +35,6 @@ struct UnaryCall {
   grpc::Status status;
   Clock::time_point begin;
   std::size_t place;
-  grpc::GenericStub* stub;
   std::unique_ptr<grpc::GenericClientAsyncResponseReader> reader;
 };
 
@@ -91,17 +90,17 @@ void AskInCalls(const Load& load, Record& record, const std::string& method,
   }
   grpc::CompletionQueue finished;
   std::size_t started = 0;
-  const auto start = [&](grpc::GenericStub* stub) {
+  const auto start = [&] {
     auto* call = new UnaryCall;
     call->begin = Clock::now();
-    call->place = started++ * load.batch % load.line.size();
-    call->stub = stub;
-    call->reader = stub->PrepareUnaryCall(&call->context, "/albtpu.v1.UncertaintyService/" + method,
-                                          request(load.line.pulses(call->place, load.batch)), &finished);
+    call->place = started * load.batch % load.line.size();
+    grpc::GenericStub& stub = *stubs[started++ % stubs.size()];
+    call->reader = stub.PrepareUnaryCall(&call->context, "/albtpu.v1.UncertaintyService/" + method,
+                                         request(load.line.pulses(call->place, load.batch)), &finished);
     call->reader->StartCall();
     call->reader->Finish(&call->response, &call->status, call);
   };
-  while (started < load.in_flight) start(stubs[started % stubs.size()].get());
+  while (started < load.in_flight) start();
   std::vector<double> latencies;
   while (latencies.size() < started) {
     void* tag;
@@ -109,7 +108,7 @@ void AskInCalls(const Load& load, Record& record, const std::string& method,
     finished.Next(&tag, &ok);
     const std::unique_ptr<UnaryCall> call(static_cast<UnaryCall*>(tag));
     Check(call->status.ok(), call->status.error_message());
-    if (record.going_on() || started * load.batch < load.line.size()) start(call->stub);
+    if (record.going_on() || started * load.batch < load.line.size()) start();
     read(call->response, load.answers.columns(call->place));
     latencies.push_back(Seconds(Clock::now() - call->begin));
   }

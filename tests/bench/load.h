@@ -20,7 +20,7 @@ struct Load {
   AnswerMemory& answers;
   std::size_t batch;        // Pulses of one message.
   std::size_t in_flight;    // Messages that one caller has under way.
-  std::size_t connections;  // Which its calls share; streams and bare connections have one.
+  std::size_t connections;  // Over which its calls go in turn; streams and bare connections have one.
 };
 
 // Many pulses a message. Over a bare TCP connection, one message in flight: two callers keep two cores busy.

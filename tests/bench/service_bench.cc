@@ -104,7 +104,7 @@ int Main(int argc, char** argv) {
   app.add_option("--callers", options.callers, "Threads that ask");
   app.add_option("--in-flight", options.in_flight,
                  "Messages that a caller has under way (raw and stream: see load.h)");
-  app.add_option("--connections", options.connections, "Which a caller's calls share")
+  app.add_option("--connections", options.connections, "Over which a caller's calls go in turn")
       ->check(CLI::PositiveNumber);
   app.add_option("--beside", options.beside, "Further threads that stream, not counted");
   app.add_option("--seconds", options.seconds, "For how long");

@@ -17,7 +17,7 @@ import sys
 from ratios import compiler, processor
 
 TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "survey.h5"
-# Ways to ask in bulk: callers, messages that each has in flight, connections that these share. Calls come
+# Ways to ask in bulk: callers, messages that each has in flight, connections over which they go in turn. Calls come
 # from few callers, or from many whom one thread stands for; a bare connection and a stream have one each.
 CALLS = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (1, 4, 1), (2, 4, 1), (4, 4, 1), (1, 24, 24)]
 BARE = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (24, 1, 1)]

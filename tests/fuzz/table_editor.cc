@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "tables/dataset_storage.h"
 #include "tables/format.h"
 #include "tables/hdf5.h"
 #include "tables/schema.h"
@@ -71,6 +72,10 @@ void ChangeNumbers(hid_t file, std::mt19937& random) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 1 || static_cast<std::size_t>(count) > kMostNumbers) return;
+  std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  // Of a piece that is too short HDF5 would read on behind it.
+  if (!hdf5::CheckStorage(dataset, shape).ok()) return;
   std::vector<float> numbers(static_cast<std::size_t>(count));
   if (H5Dread(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0) return;
   for (std::uint32_t i = 0; i <= random() % 3; ++i) numbers[random() % numbers.size()] = AnyNumber(random);

@@ -185,6 +185,25 @@ TEST(ForeignStorage, IsRefusedWhereNothingIsStored) {
             "axis 'depth' has 60000 values in 0 bytes: it should have 240000");
 }
 
+// HDF5 1.10 would read on behind the piece, in memory that is not its own.
+TEST(ForeignStorage, IsRefusedInAPieceOfTheHeaderThatIsTooShort) {
+  const std::vector<float> values(16, 42.5f);
+  std::string file = testing::Forge([&](hid_t root) {
+    const Handle creation = Creation();
+    H5Pset_layout(creation, H5D_COMPACT);
+    ReplaceThu(root, creation);
+    const Handle thu(H5Dopen2(root, "thu", H5P_DEFAULT), H5Dclose);
+    H5Dwrite(thu, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  std::string piece = {64, 0};  // Its length, two bytes, comes first.
+  piece.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  const std::size_t at = file.find(piece);
+  ASSERT_NE(at, std::string::npos);
+  file[at] = 21;
+  seal::Apply(file);
+  EXPECT_EQ(testing::Problem(file), "variable 'thu' has 16 values in 21 bytes: it should have 64");
+}
+
 TEST(ForeignStorage, IsRefusedInAttributesWithoutEnd) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
