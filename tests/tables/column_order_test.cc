@@ -137,13 +137,16 @@ TEST_P(ColumnOrder, AnswersManyInNoOrderAsFewBitByBit) {
   }
 }
 
+// Enough for several pieces, those in no order long enough to be sorted.
 TEST_P(ColumnOrder, OnAllCoresAnswersBitByBitAsOnOne) {
-  const ColumnInterpolator interpolator(SyntheticTable());
-  const Columns columns = LineColumns(20001);
-  const Answers one = Ask(interpolator, {}, Pulses(columns, 20001));
-  Answers all(20001);
-  AnswerOnAllCores(interpolator, {}, Pulses(columns, 20001), all.columns());
-  for (std::size_t i = 0; i < 20001; ++i) ASSERT_EQ(all.BitsAt(i), one.BitsAt(i));
+  const UncertaintyTable table = LargeTable(Scale::kLinear, true);
+  const ColumnInterpolator interpolator(table);
+  for (const Columns& columns : {LineColumns(kSize), RandomColumns(table, kSize, 4)}) {
+    const Answers one = Ask(interpolator, {}, Pulses(columns, kSize));
+    Answers all(kSize);
+    AnswerOnAllCores(interpolator, {}, Pulses(columns, kSize), all.columns());
+    for (std::size_t i = 0; i < kSize; ++i) ASSERT_EQ(all.BitsAt(i), one.BitsAt(i));
+  }
 }
 
 }  // namespace
