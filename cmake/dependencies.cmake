@@ -20,6 +20,9 @@ find_package(HDF5 REQUIRED COMPONENTS C HL)
 # FFTW has no CMake configuration file in Debian.
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 
+# jemalloc has none, either.
+pkg_check_modules(JEMALLOC REQUIRED IMPORTED_TARGET jemalloc)
+
 # The configuration file of prometheus-cpp wants CURL for a part that is not used here.
 pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
 

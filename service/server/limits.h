@@ -110,10 +110,6 @@ inline constexpr std::chrono::seconds kMaxStreamIdle{60};
 // half a gigabyte for tens of thousands of connections. Near it calls are refused, idle connections closed.
 inline constexpr std::size_t kMaxConnectionBytes = std::size_t{2} << 30;
 
-// After so long free memory goes back to the system: it costs milliseconds, and what one busy minute took is not
-// kept for ever.
-inline constexpr std::chrono::minutes kMemoryReturn{1};
-
 // How long calls under way may go on after SIGTERM, within the 30 s of grace that Kubernetes gives.
 inline constexpr std::chrono::seconds kDrainTime{10};
 

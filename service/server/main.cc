@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -16,7 +15,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
-#include "service/kept_memory.h"
 #include "service/server/call_log.h"
 #include "service/server/credential_flags.h"
 #include "service/server/limits.h"
@@ -77,22 +75,15 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-// Returns the signal that asks to stop; meanwhile each SIGHUP reloads the tables, and each minute free memory goes
-// back to the system.
+// Returns the signal that asks to stop; meanwhile each SIGHUP reloads the tables.
 int WaitForStop(const sigset_t& signals, LiveTables& tables) {
-  using Clock = std::chrono::steady_clock;
-  constexpr timespec kSecond = {1, 0};
-  Clock::time_point returned = Clock::now();
   while (true) {
-    const int signal = sigtimedwait(&signals, nullptr, &kSecond);
+    const int signal = sigwaitinfo(&signals, nullptr);
     if (signal == SIGHUP) {
       tables.Reload([](const LiveTables::Outcome&) {});
     } else if (signal > 0) {
       return signal;
     }
-    if (Clock::now() - returned < kMemoryReturn) continue;
-    ReturnFreedMemory();
-    returned = Clock::now();
   }
 }
 
@@ -207,7 +198,6 @@ int ParseAndRun(int argc, char** argv) {
 }  // namespace albtpu::server
 
 int main(int argc, char** argv) try {
-  albtpu::KeepFreedMemory();
   // Debian's Abseil looks for cycles of locks at every lock that gRPC takes, some percent of a short call.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   spdlog::set_default_logger(

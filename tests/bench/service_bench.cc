@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
-#include "service/kept_memory.h"
 #include "tables/table_io.h"
 #include "tests/bench/flight_line.h"
 #include "tests/bench/load.h"
@@ -121,7 +120,6 @@ int Main(int argc, char** argv) {
 }  // namespace albtpu::bench
 
 int main(int argc, char** argv) {
-  albtpu::KeepFreedMemory();
   // As albtpu-serve and albtpu-query do.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   return albtpu::bench::Main(argc, argv);

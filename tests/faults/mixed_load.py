@@ -39,7 +39,7 @@ MOST_GROWTH = 1.05
 PAUSES = {"exchange": 2, "silent_connections": 0.5, "strange_connections": 0.5, "wrong_requests": 0.1}  # s
 FLAT_FROM = 10  # Minutes: a shorter run has seen too little of each kind to say that memory is flat.
 EARLY = 0.1  # Of the time.
-GIVEN_BACK = 70  # s until the server has given back what is free (kMemoryReturn of limits.h).
+GIVEN_BACK = 10  # s until the server has given back what is free: service/allocator.cc.
 
 
 class Wrong(Exception):

@@ -1,0 +1,42 @@
+"""What a busy moment took of memory is given back when it is over, each time."""
+
+import concurrent.futures
+
+import albtpu
+import faults
+import programs
+import serving
+
+CALLERS, PULSES = 16, 500_000
+BURSTS = 3
+# Of what the moment took: what it leaves at most, each time.
+SHARE_LEFT = 0.2
+
+
+class Memory(faults.FaultTest):
+    def setUp(self):
+        super().setUp()
+        self.many = faults.random_pulses(PULSES)
+
+    def ask_for_all(self, server):
+        with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
+            return len(service.query(**self.many))
+
+    def test_is_given_back(self):
+        server = self.serve()
+        with albtpu.connect(server.address) as service:
+            self.assert_answers(service)
+        before = faults.memory(server.process)
+        with concurrent.futures.ThreadPoolExecutor(CALLERS) as callers:
+            for burst in range(BURSTS):
+                answered = list(callers.map(self.ask_for_all, [server] * CALLERS))
+                self.assertEqual(answered, [PULSES] * CALLERS)
+                took = faults.memory(server.process, "VmHWM") - before
+                faults.wait_until(lambda: faults.memory(server.process) - before < SHARE_LEFT * took, "given back")
+                print(f"burst {burst + 1}: {took / 2**20:.0f} MiB more than before, then "
+                      f"{(faults.memory(server.process) - before) / 2**20:.0f}")
+        self.assert_drains(server)
+
+
+if __name__ == "__main__":
+    programs.main()
