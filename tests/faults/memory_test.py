@@ -20,7 +20,7 @@ class Memory(faults.FaultTest):
 
     def ask_for_all(self, server):
         with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
-            return len(service.query(**self.many))
+            return service.query(**self.many).thu.size
 
     def test_is_given_back(self):
         server = self.serve()
