@@ -46,7 +46,7 @@ else
   echo "There is no $sample: the flight line is simulated."
   input=$simulated
   conditions+=(--water-level 0 --wind-from 250 --flight-direction 0)
-  build/release/tests/service/client/albtpu_simulated_flight "$input"
+  build/release/tests/survey/albtpu_simulated_flight "$input"
 fi
 echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite

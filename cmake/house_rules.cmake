@@ -26,6 +26,12 @@ function(albtpu_target target)
   albtpu_sanitize(${target})
 endfunction()
 
+# A program that is installed. In the build tree it lies in bin/ as well, so that it finds share/ the same way.
+function(albtpu_program target)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
 # Kernels that are compiled once for each of Highway's instruction sets but AVX-512 and those without a fixed
 # width, and chosen when the program runs: albtpu_kernels(NAME PRIVATE|PUBLIC) is called for each target that has or
 # tests any.

@@ -1,16 +1,16 @@
 # What is installed beside the programs and the protos: each program finds the tables relative to itself.
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
-file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/*.h5)
+file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/shipped/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
 install(FILES LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
-install(FILES service/client/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
+install(FILES docs/client.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Python package as it is: for pip, or for PYTHONPATH.
 install(DIRECTORY clients/python DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients PATTERN "__pycache__" EXCLUDE
         PATTERN "*.egg-info" EXCLUDE PATTERN "build" EXCLUDE PATTERN ".mypy_cache" EXCLUDE)
-install(DIRECTORY generator/validation/paper generator/validation/plots DESTINATION ${data}/validation
+install(DIRECTORY validation/paper validation/plots DESTINATION ${data}/validation
         PATTERN "__pycache__" EXCLUDE)
 
 # What C++ programs of others link.

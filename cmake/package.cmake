@@ -15,9 +15,9 @@ install(FILES ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
 #   albtpu_package(TARGET COMPONENT [NAME name] [HEADERS ...])
 # It is albtpu::NAME there, albtpu::COMPONENT unless named, and may be linked into shared objects.
 #
-# Installed headers are <albtpu/tables/axis.h>, in the tree "tables/axis.h": a folder `tables` on the include
-# path of another project would hide headers of its own, or be hidden by them. What they include is respelled
-# as they are installed.
+# Installed headers are <albtpu/tables/table_io.h>, in the tree "tables/file/table_io.h": a folder `tables` on the
+# include path of another project would hide headers of its own, or be hidden by them, and users need not follow
+# the rooms of the tree. What the headers include is respelled as they are installed.
 function(albtpu_package target component)
   cmake_parse_arguments(ARG "" "NAME" "HEADERS" ${ARGN})
   if(NOT ARG_NAME)
@@ -32,6 +32,7 @@ function(albtpu_package target component)
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set(folder ${CMAKE_INSTALL_INCLUDEDIR}/albtpu/${room})
   install(FILES ${ARG_HEADERS} DESTINATION ${folder})
+  list(TRANSFORM ARG_HEADERS REPLACE ".*/" "")
   install(CODE "set(folder \"${folder}\")\nset(headers \"${ARG_HEADERS}\")")
   install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/respell_includes.cmake)
 endfunction()

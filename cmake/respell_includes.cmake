@@ -1,8 +1,9 @@
-# Run by the installation: in the installed `headers` of `folder`, "tables/axis.h" becomes "albtpu/tables/axis.h".
+# Run by the installation: in the installed `headers` of `folder`, "tables/file/table_io.h" becomes
+# "albtpu/tables/table_io.h".
 foreach(header IN LISTS headers)
   cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" OUTPUT_VARIABLE installed)
   set(installed "$ENV{DESTDIR}${installed}/${header}")
   file(READ "${installed}" text)
-  string(REGEX REPLACE "(#include \")(tables|service)/" "\\1albtpu/\\2/" text "${text}")
+  string(REGEX REPLACE "(#include \")(tables|service/client)/([a-z]+/)?" "\\1albtpu/\\2/" text "${text}")
   file(WRITE "${installed}" "${text}")
 endforeach()

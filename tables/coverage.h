@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tables/interpolation.h"
+#include "tables/pulse.h"
 
 namespace albtpu {
 

@@ -2,15 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "tables/axis.h"
+#include "tables/provenance.h"
 #include "tables/schema.h"
 
 namespace albtpu {
@@ -22,19 +20,6 @@ struct Variable {
   std::vector<float> standard_errors;  // The same shape; so too, not negative. Empty: not known.
   Scale scale =
       Scale::kLinear;  // kLog only where all values are positive. Standard errors are always linear.
-};
-
-using AttributeValue = std::variant<std::string, std::int64_t, double, std::vector<double>>;
-
-// What is needed to trust a table and to make it again. `id` names what the table is, `version` which making
-// of it; neither is the name of its file.
-struct Provenance {
-  std::string id;        // [a-z0-9][a-z0-9_-]*
-  std::string version;   // not empty
-  std::string title;     // one line
-  std::string campaign;  // the TOML text that made it; empty for published tables
-  // All other global attributes, by name (FORMAT.md).
-  std::map<std::string, AttributeValue> attributes;
 };
 
 // Immutable; a valid table by construction.

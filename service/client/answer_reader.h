@@ -9,8 +9,8 @@
 
 #include "absl/status/statusor.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "tables/column_query.h"
-#include "tables/pulse_columns.h"
+#include "tables/query/column_query.h"
+#include "tables/query/pulse_columns.h"
 
 namespace albtpu::client {
 

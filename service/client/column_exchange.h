@@ -7,8 +7,8 @@
 #include <string>
 
 #include "absl/status/status.h"
-#include "tables/column_query.h"
-#include "tables/pulse_columns.h"
+#include "tables/query/column_query.h"
+#include "tables/query/pulse_columns.h"
 
 namespace albtpu::client {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "service/server/call_log.h"
-#include "service/server/limits.h"
-#include "service/server/listening_sockets.h"
+#include "service/server/ground/limits.h"
+#include "service/server/ground/listening_sockets.h"
+#include "service/server/observe/call_log.h"
 
 namespace albtpu::server {
 namespace {

@@ -8,14 +8,14 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "service/server/admin_service.h"
-#include "service/server/call_record.h"
-#include "service/server/connection_gate.h"
-#include "service/server/connection_watch.h"
-#include "service/server/health_service.h"
-#include "service/server/listen_address.h"
-#include "service/server/live_tables.h"
-#include "service/server/uncertainty_service.h"
+#include "service/server/calls/admin_service.h"
+#include "service/server/calls/health_service.h"
+#include "service/server/calls/uncertainty_service.h"
+#include "service/server/connections/connection_gate.h"
+#include "service/server/connections/connection_watch.h"
+#include "service/server/ground/listen_address.h"
+#include "service/server/observe/call_record.h"
+#include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
 

@@ -36,7 +36,7 @@ def rates(programs, order):
     ours = {run["run_name"].split("/")[0]: run["items_per_second"]
             for run in report["benchmarks"] if run["aggregate_name"] == "median"}
     scipy = json.loads(subprocess.run(
-        [sys.executable, "-B", HERE / "scipy_interpolation.py", programs / "interpolation_case_files",
+        [sys.executable, "-B", HERE / "interpolation" / "scipy_interpolation.py", programs / "interpolation_case_files",
          str(MEGABYTES), order, str(PULSES)], check=True, stdout=subprocess.PIPE).stdout)
     return {**ours, **scipy}
 

@@ -97,21 +97,21 @@ def main():
     parser.add_argument("--sample", type=pathlib.Path)
     parser.add_argument("--classes", default="26")
     parser.add_argument("--water-level", default="-23.09")
-    parser.add_argument("--table", type=pathlib.Path, default=SOURCE / "tables" / "survey.h5")
+    parser.add_argument("--table", type=pathlib.Path, default=SOURCE / "tables" / "shipped" / "survey.h5")
     parser.add_argument("--folder", help="Where the files are made; they need three times their size")
     options = parser.parse_args()
-    programs = options.build / "service"
+    programs = options.build / "bin"
     points = int(options.millions * 1e6)
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
         folder = pathlib.Path(folder)
         sample, classes, level = options.sample or SURVEY, options.classes, options.water_level
         if options.sample is None and not SURVEY.exists():
             sample, classes, level = folder / "flight.las", "40", "0"
-            subprocess.run([options.build / "tests/service/client/albtpu_simulated_flight", sample], check=True)
+            subprocess.run([options.build / "tests/survey/albtpu_simulated_flight", sample], check=True)
         source, target = folder / "in.las", folder / "out.las"
         repeat(sample, source, points)
         flags = ("--classes", classes, "--water-level", level, *FLAGS)
-        query = (programs / "client" / "albtpu-query", "las", source, target, *flags)
+        query = (programs / "albtpu-query", "las", source, target, *flags)
         print("| what | million points/s | s | CPU s, client | CPU s, server | MB, client | MB, server |\n"
               "|---|---|---|---|---|---|---|")
         copy = ("dd", f"if={source}", f"of={folder / 'copy.las'}", "bs=4M", "conv=fsync")
@@ -122,7 +122,7 @@ def main():
         tables = folder / "tables"
         tables.mkdir()
         (tables / "survey.h5").symlink_to(options.table.resolve())
-        with serving.Server(programs / "server" / "albtpu-serve", "--tables", tables) as server:
+        with serving.Server(programs / "albtpu-serve", "--tables", tables) as server:
             before = processor_seconds(server.process.pid)
             seconds, client, memory = run((*query, "--server", server.address))
             row("through a server", points, seconds, client, memory,

@@ -134,7 +134,7 @@ def main():
     arguments = parser.parse_args()
     programs = arguments.build / "tests" / "bench"
     numpy = json.loads(subprocess.run(
-        [sys.executable, "-B", HERE / "numpy_realization.py", programs / "beam_case_surface"],
+        [sys.executable, "-B", HERE / "monte_carlo" / "numpy_realization.py", programs / "beam_case_surface"],
         check=True, stdout=subprocess.PIPE).stdout)
     table = Table()
     add_rays(table, programs / "rays_bench", arguments)

@@ -77,7 +77,7 @@ def main():
     rates = {1: [], 2: []}
     for _ in range(arguments.repetitions):
         for count in rates:
-            with replicas(arguments.build / "service/server/albtpu-serve", count, arguments.share) as (address, first):
+            with replicas(arguments.build / "bin/albtpu-serve", count, arguments.share) as (address, first):
                 rates[count].append(rate(arguments.build / "tests/bench/service_bench", address, first))
     one, two = (statistics.median(rates[count]) / 1e6 for count in (1, 2))
     print(f"Replicas with {arguments.share} of a core each: one {one:.3g}, two {two:.3g} million pulses a second, "

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-GENERATE = pathlib.Path(sys.argv[1]) / "generator/albtpu-generate"
+GENERATE = pathlib.Path(sys.argv[1]) / "bin/albtpu-generate"
 MODERATE = {"wind_speed": [6, 8], "fetch": ["20000", "inf"], "incidence": [0, 5, 15, 25], "azimuth": [0, 45, 90],
             "footprint": [0.5, 1], "depth": [0, 1, 60], "relative_error": None, "most": 64}
 

@@ -16,7 +16,7 @@ import sys
 
 from ratios import compiler, processor
 
-TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "survey.h5"
+TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "shipped" / "survey.h5"
 # Ways to ask in bulk: callers, messages that each has in flight, connections over which they go in turn. Calls come
 # from few callers, or from many whom one thread stands for; a bare connection and a stream have one each.
 CALLS = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (1, 4, 1), (2, 4, 1), (4, 4, 1), (1, 24, 24)]
@@ -113,7 +113,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=1)
     arguments = parser.parse_args()
     program = arguments.build / "tests" / "bench" / "service_bench"
-    ours = [arguments.build / "service" / "server" / "albtpu-serve", "--tables", TABLE.parent, "--listen",
+    ours = [arguments.build / "bin" / "albtpu-serve", "--tables", TABLE.parent, "--listen",
             "127.0.0.1:0"]
     theirs = [program, "serve-raw", "--table", TABLE]
     with server(ours, r"ready on (\S+),") as service, server(theirs, r"^(\d+)$") as raw:

@@ -25,8 +25,8 @@ from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub  # noq
 from authority import Authority  # noqa: E402
 from serving import Server  # noqa: E402
 
-SERVE = pathlib.Path(sys.argv[1], "service/server/albtpu-serve")
-TABLE = ROOT / "tables/survey.h5"
+SERVE = pathlib.Path(sys.argv[1], "bin/albtpu-serve")
+TABLE = ROOT / "tables/shipped/survey.h5"
 REPETITIONS, PULSES, CALLS, COPIES, CONNECTIONS = 5, 10_000_000, 5000, 9, 400
 TICKS = os.sysconf("SC_CLK_TCK")
 OWN_CONNECTION = (("grpc.enable_http_proxy", 0), ("grpc.use_local_subchannel_pool", 1))

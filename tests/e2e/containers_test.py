@@ -25,7 +25,7 @@ from authority import Authority
 from containers import GENERATE, PATIENCE, QUERY, RESTRICTED, SERVE, ContainerTest, engine, inspect, run, wait_for
 
 BASE, BUILD, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve(), pathlib.Path(sys.argv[4]).resolve()
-GENERATOR, CLIENT = BUILD / "generator/albtpu-generate", BUILD / "service/client/albtpu-query"  # Outside.
+GENERATOR, CLIENT = BUILD / "bin/albtpu-generate", BUILD / "bin/albtpu-query"  # Outside.
 CAMPAIGN = SOURCE / "tests/generator/six_seas.toml"
 IMAGES = (SERVE, QUERY, GENERATE)
 PULSE = dict(wind_speed=7, incidence=12, footprint=0.5, depth=8)
@@ -88,7 +88,7 @@ class Images(unittest.TestCase):
 class Service(ContainerTest):
     def test_answers_through_a_published_port_what_its_table_says(self):
         server = self.serve()
-        self.assertEqual(query("--server", server.address()), query("--table", SOURCE / "tables/survey.h5"))
+        self.assertEqual(query("--server", server.address()), query("--table", SOURCE / "tables/shipped/survey.h5"))
 
     def test_answers_the_query_image(self):
         server = self.serve()
@@ -107,10 +107,10 @@ class Service(ContainerTest):
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
         folder.chmod(0o755)
-        shutil.copy(SOURCE / "tables/birkebak2018_model.h5", folder / "mine.h5")
+        shutil.copy(SOURCE / "tables/shipped/birkebak2018_model.h5", folder / "mine.h5")
         server = self.serve(flags=("--volume", f"{folder}:/tables:ro"))
         self.assertIn("mine (default)", run(CLIENT, "tables", "--server", server.address()))
-        shutil.copy(SOURCE / "tables/survey.h5", folder / ".survey.new")
+        shutil.copy(SOURCE / "tables/shipped/survey.h5", folder / ".survey.new")
         os.rename(folder / ".survey.new", folder / "survey.h5")
         engine("kill", "--signal", "HUP", server.name)
         wait_for(lambda: "survey (default)" in run(CLIENT, "tables", "--server", server.address()), "the new table")

@@ -150,7 +150,7 @@ class Metrics(unittest.TestCase):
             self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
 
     def test_are_compared_with_the_limit_that_the_server_has(self):
-        limits = (MONITORING.parents[1] / "service/server/limits.h").read_text()
+        limits = (MONITORING.parents[1] / "service/server/ground/limits.h").read_text()
         most = sum(int(re.search(rf"int {name} = (\d+);", limits)[1])
                    for name in ("kMaxConnections", "kOwnDescriptors"))
         self.assertIn(f'clamp_max(process_max_fds{{job="albtpu"}}, {most})', (MONITORING / "alerts.yaml").read_text())

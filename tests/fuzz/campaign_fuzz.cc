@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "generator/campaign.h"
+#include "generator/campaign/campaign.h"
 #include "tables/format.h"
 #include "tests/fuzz/fuzz_target.h"
 

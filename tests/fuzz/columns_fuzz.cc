@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/server/byte_answers.h"
-#include "service/server/limits.h"
-#include "tables/table_io.h"
+#include "service/server/calls/byte_answers.h"
+#include "service/server/ground/limits.h"
+#include "tables/file/table_io.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/twin.h"
 #include "tests/tables/synthetic_table.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "absl/strings/match.h"
-#include "service/client/csv_pulses.h"
-#include "service/client/csv_reader.h"
-#include "service/client/number_text.h"
+#include "survey/csv/csv_pulses.h"
+#include "survey/csv/csv_reader.h"
+#include "survey/number_text.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

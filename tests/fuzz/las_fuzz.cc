@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "service/client/las_chunk.h"
-#include "service/client/las_crs.h"
-#include "service/client/las_extra_bytes.h"
-#include "service/client/las_reader.h"
-#include "service/client/las_writer.h"
 #include "service/client/local_source.h"
+#include "survey/las/las_chunk.h"
+#include "survey/las/las_crs.h"
+#include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_reader.h"
+#include "survey/las/las_writer.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/tables/synthetic_table.h"

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "service/client/las_crs.h"
-#include "service/client/las_extra_bytes.h"
-#include "service/client/las_header.h"
-#include "service/client/las_vlr.h"
+#include "survey/las/las_crs.h"
+#include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_header.h"
+#include "survey/las/las_vlr.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

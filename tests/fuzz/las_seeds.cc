@@ -1,5 +1,5 @@
 #include "tests/fuzz/seeds.h"
-#include "tests/service/client/las_builder.h"
+#include "tests/survey/las/las_builder.h"
 
 namespace albtpu::fuzz {
 

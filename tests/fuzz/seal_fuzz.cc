@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string>
 
-#include "tables/seal.h"
+#include "tables/file/seal.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <map>
 
-#include "tables/seal.h"
-#include "tables/table_encoding.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/tables/synthetic_table.h"
 

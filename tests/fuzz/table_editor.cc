@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
-#include "tables/dataset_storage.h"
+#include "tables/file/dataset_storage.h"
+#include "tables/file/hdf5.h"
+#include "tables/file/seal.h"
 #include "tables/format.h"
-#include "tables/hdf5.h"
 #include "tables/schema.h"
-#include "tables/seal.h"
 
 namespace albtpu::fuzz {
 namespace {

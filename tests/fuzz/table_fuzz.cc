@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "absl/strings/string_view.h"
-#include "tables/column_query.h"
-#include "tables/hdf5.h"
-#include "tables/seal.h"
-#include "tables/table_encoding.h"
+#include "tables/file/hdf5.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
+#include "tables/query/column_query.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/twin.h"
 #include "tests/tables/synthetic_table.h"

@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-#include "tables/seal.h"
-#include "tables/table_encoding.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/table_editor.h"
 

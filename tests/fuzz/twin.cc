@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tables/interpolation.h"
+#include "tables/query/interpolation.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace albtpu::fuzz {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "tables/column_query.h"
-#include "tables/pulse_columns.h"
+#include "tables/query/column_query.h"
+#include "tables/query/pulse_columns.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu::fuzz {

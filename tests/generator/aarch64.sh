@@ -13,13 +13,9 @@ root=$build/root
 libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev libhwy1 librandom123-dev)
 
 # What one sea under one beam takes, in heights and in rays. The rest of the generator needs more libraries.
-sources=(generator/{apel_spectrum,beam,discretization,elfouhaily_spectrum,float_normals,forward_fft,height_field}.cc
-         generator/{height_window,inverse_fft,lane_fft,long_waves,packet_sums,packet_tracer,patch_window}.cc
-         generator/{height_slope_product,random_stream,ray_bundle,ray_tracer,refraction,rounding,sea_state}.cc
-         generator/{sea_surface,slope_moments,spreading,statistics,surface_correlation,unresolved_waves}.cc
-         generator/{wave_patch,wind_profile,window_plan}.cc
-         tests/generator/{beam,float_normals,height_field,inverse_fft,packet_tracer,patch_window}_test.cc
-         tests/generator/{random_stream,ray_tracer,refraction}_test.cc)
+sources=(sea/*.cc sea/*/*.cc generator/{math,surface,kernels}/*.cc
+         generator/monte_carlo/{height_slope_product,slope_moments,surface_correlation}.cc
+         tests/generator/{math,surface,kernels}/*_test.cc tests/sea/response/refraction_test.cc)
 
 # Needs no root: apt-get keeps its lists of another architecture in a folder of ours.
 unpack_libraries() {

@@ -21,7 +21,7 @@ def text(attribute):
 class ShippedTables(unittest.TestCase):
     def test_are_made_from_the_campaigns_of_their_names(self):
         made = 0
-        for path in sorted((SOURCE / "tables").glob("*.h5")):
+        for path in sorted((SOURCE / "tables" / "shipped").glob("*.h5")):
             with h5py.File(path) as table:
                 campaign = text(table.attrs["campaign"])
                 if not campaign:  # published numbers
@@ -34,7 +34,7 @@ class ShippedTables(unittest.TestCase):
 
 class TheSurveyTable(unittest.TestCase):
     def setUp(self):
-        self.path = SOURCE / "tables/survey.h5"
+        self.path = SOURCE / "tables/shipped/survey.h5"
         self.table = h5py.File(self.path)
         self.addCleanup(self.table.close)
 

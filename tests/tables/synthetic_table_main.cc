@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tables/table_io.h"
+#include "tables/file/table_io.h"
 #include "tests/tables/synthetic_table.h"
 
 int main(int argc, char** argv) {

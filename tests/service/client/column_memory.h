@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "tables/pulse_columns.h"
+#include "tables/query/pulse_columns.h"
 
 namespace albtpu::client {
 

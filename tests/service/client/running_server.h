@@ -10,9 +10,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "service/server/observe/server_metrics.h"
 #include "service/server/server.h"
-#include "service/server/server_metrics.h"
-#include "tables/table_io.h"
+#include "tables/file/table_io.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "service/server/admin_service.h"
+#include "service/server/calls/admin_service.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "service/server/connection_calls.h"
+#include "service/server/connections/connection_calls.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "service/server/connection_watch.h"
+#include "service/server/connections/connection_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

@@ -1,11 +1,11 @@
-#include "service/server/field_violations.h"
+#include "service/server/tables/field_violations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "google/rpc/status.pb.h"
-#include "service/server/limits.h"
-#include "service/server/status.h"
+#include "service/server/ground/limits.h"
+#include "service/server/ground/status.h"
 
 namespace albtpu::server {
 namespace {

@@ -1,4 +1,4 @@
-#include "service/server/file_value.h"
+#include "service/server/ground/file_value.h"
 
 #include <gtest/gtest.h>
 

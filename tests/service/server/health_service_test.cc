@@ -1,10 +1,10 @@
-#include "service/server/health_service.h"
+#include "service/server/calls/health_service.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

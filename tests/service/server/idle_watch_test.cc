@@ -1,4 +1,4 @@
-#include "service/server/idle_watch.h"
+#include "service/server/ground/idle_watch.h"
 
 #include <gtest/gtest.h>
 

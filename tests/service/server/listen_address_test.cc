@@ -1,4 +1,4 @@
-#include "service/server/listen_address.h"
+#include "service/server/ground/listen_address.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "service/server/live_tables.h"
+#include "service/server/tables/live_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "service/server/log.h"
+#include "service/server/observe/log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "service/server/call_log.h"
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
+#include "service/server/observe/call_log.h"
 
 namespace albtpu::server {
 namespace {

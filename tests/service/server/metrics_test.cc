@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "service/server/metrics_endpoint.h"
-#include "service/server/table_metrics.h"
+#include "service/server/observe/metrics_endpoint.h"
+#include "service/server/observe/table_metrics.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

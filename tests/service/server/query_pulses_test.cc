@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 #include "tables/coverage.h"
 #include "tables/s44.h"
 #include "tests/service/server/served_tables.h"

@@ -1,4 +1,4 @@
-#include "service/server/repeated.h"
+#include "service/server/ground/repeated.h"
 
 #include <gtest/gtest.h>
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "service/server/observe/server_metrics.h"
 #include "service/server/server.h"
-#include "service/server/server_metrics.h"
-#include "service/server/table_catalog.h"
-#include "tables/interpolation.h"
-#include "tables/table_io.h"
+#include "service/server/tables/table_catalog.h"
+#include "tables/file/table_io.h"
+#include "tables/query/interpolation.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
 

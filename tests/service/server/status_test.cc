@@ -1,10 +1,10 @@
-#include "service/server/status.h"
+#include "service/server/ground/status.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "absl/strings/cord.h"
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 
 namespace albtpu::server {
 namespace {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <future>
 
-#include "service/server/limits.h"
+#include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

@@ -1,4 +1,4 @@
-#include "service/server/table_catalog.h"
+#include "service/server/tables/table_catalog.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "service/server/tokens.h"
+#include "service/server/access/tokens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

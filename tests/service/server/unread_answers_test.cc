@@ -1,11 +1,11 @@
-#include "service/server/unread_answers.h"
+#include "service/server/calls/unread_answers.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "service/server/limits.h"
-#include "service/server/server_metrics.h"
+#include "service/server/ground/limits.h"
+#include "service/server/observe/server_metrics.h"
 
 namespace albtpu::server {
 namespace {

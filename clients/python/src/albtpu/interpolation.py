@@ -1,4 +1,4 @@
-"""Multilinear interpolation in a table, each axis in its own scale. The twin of tables/interpolation.h."""
+"""Multilinear interpolation in a table, each axis in its own scale. The twin of tables/query/interpolation.h."""
 
 from __future__ import annotations
 

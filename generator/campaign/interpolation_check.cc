@@ -1,0 +1,107 @@
+#include "generator/campaign/interpolation_check.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "generator/math/random_stream.h"
+#include "generator/monte_carlo/monte_carlo.h"
+#include "sea/angle.h"
+
+namespace albtpu {
+namespace {
+
+constexpr std::uint32_t kDraws = 0xffffffff;  // the cell of their random numbers, apart from all others
+constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
+
+// `t` from 0 to 1 along an axis, in its scale.
+float AlongAxis(const Axis& axis, double t) {
+  const double first = axis.nodes().front(), last = axis.nodes().back();
+  const double x =
+      axis.scale() == Scale::kLog ? first * std::pow(last / first, t) : first + t * (last - first);
+  return static_cast<float>(std::clamp(x, first, last));
+}
+
+Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
+  const auto in_degrees = [](const Estimate& radians) {
+    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+  };
+  switch (quantity) {
+    case Quantity::kRefractionAlongWind:
+      return in_degrees(beam.refraction_along_wind);
+    case Quantity::kRefractionCrossWind:
+      return in_degrees(beam.refraction_cross_wind);
+    case Quantity::kThu:
+      return beam.thu[0];
+    case Quantity::kTvu:
+      return beam.tvu[0];
+    default:
+      assert(false);
+      return {};
+  }
+}
+
+}  // namespace
+
+Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
+  std::array<double, kAxisCount + 2> normals;  // a multiple of four
+  NormalStream(campaign.seed, kDraws, static_cast<std::uint32_t>(index)).Fill(normals);
+  const auto coordinate = [&](AxisId axis) {
+    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));
+    return AlongAxis(campaign.axes[Index(axis)], uniform);
+  };
+  return {.wind_speed = coordinate(AxisId::kWindSpeed),
+          .fetch = coordinate(AxisId::kFetch),
+          .incidence = coordinate(AxisId::kIncidence),
+          .azimuth = coordinate(AxisId::kAzimuth),
+          .footprint = coordinate(AxisId::kFootprint),
+          .depth = coordinate(AxisId::kDepth)};
+}
+
+std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse) {
+  Encounter encounter = EncounterOf(campaign, 0);  // for what all have in common
+  encounter.sea.wind_speed_10m = pulse.wind_speed;
+  encounter.sea.fetch = pulse.fetch;
+  encounter.depths = {pulse.depth};
+  const BeamOptions beam{.incidence = RadiansOfDegrees(pulse.incidence),
+                         .azimuth = RadiansOfDegrees(*pulse.azimuth),
+                         .footprint = pulse.footprint,
+                         .profile = campaign.profile,
+                         .source_height = campaign.source_height};
+  // The widest beam of an encounter decides on grid, patch and rays: it comes along, as at the nodes.
+  BeamOptions widest = beam;
+  widest.incidence = RadiansOfDegrees(campaign.nodes(AxisId::kIncidence).back());
+  encounter.beams = {beam, widest};
+  const EncounterResult result = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
+  std::vector<Estimate> answers;
+  for (const Quantity quantity : kChecked) answers.push_back(ValueOf(result.beams[0], quantity));
+  return answers;
+}
+
+InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
+                                    const std::vector<std::vector<Estimate>>& answers, std::size_t checked) {
+  const Quantity quantity = kChecked[checked];
+  const double least = Describe(quantity).over_depth ? kLeastLength : kLeastAngle;
+  InterpolationError summary;
+  std::vector<double> errors;  // relative magnitudes
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const Estimate& direct = answers[i][checked];
+    if (direct.value < least) continue;
+    const PulseUncertainty interpolated = Interpolate(table, CheckedPulse(campaign, i));
+    assert(interpolated.outcome == Outcome::kInterpolated);
+    errors.push_back(std::abs(interpolated[quantity] / direct.value - 1));
+    summary.rms += errors.back() * errors.back();
+    summary.noise += std::pow(direct.standard_error / direct.value, 2);
+  }
+  if (errors.empty()) return summary;
+  const double count = static_cast<double>(errors.size());
+  std::sort(errors.begin(), errors.end());
+  summary.pulses = static_cast<int>(errors.size());
+  summary.rms = std::sqrt(summary.rms / count);
+  summary.noise = std::sqrt(summary.noise / count);
+  summary.percentile_99 = errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1];
+  summary.greatest = errors.back();
+  return summary;
+}
+
+}  // namespace albtpu

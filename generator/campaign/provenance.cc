@@ -1,0 +1,140 @@
+#include "generator/campaign/provenance.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+#include "absl/strings/str_cat.h"
+#include "generator/math/instruction_set.h"
+#include "generator/math/rounding.h"
+#include "tables/version.h"
+
+namespace albtpu {
+namespace {
+
+// The least and the greatest of a number over the encounters.
+template <typename Number>
+std::vector<double> Range(const std::vector<EncounterResult>& results, Number EncounterResult::*member) {
+  std::vector<double> range = {static_cast<double>(results.front().*member),
+                               static_cast<double>(results.front().*member)};
+  for (const EncounterResult& result : results) {
+    range[0] = std::min(range[0], static_cast<double>(result.*member));
+    range[1] = std::max(range[1], static_cast<double>(result.*member));
+  }
+  return range;
+}
+
+// What is known of a spectrum: its name, its source, and where it departs from the sea.
+struct SpectrumDescription {
+  std::string name, reference, departures;
+};
+
+SpectrumDescription ApelsDescription() {
+  return {"Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading",
+          "Apel (1994), doi:10.1029/94JC00846",
+          "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz (0.0214 s2/m times the "
+          "square of the wind at 10 m), the mean square slope 1.6 to 2.7 times Cox and Munk (1954). Below "
+          "some 10 km of fetch waves are 2 to 3 times "
+          "lower than JONSWAP: values at short fetch are not conservative."};
+}
+
+SpectrumDescription ElfouhailysDescription() {
+  return {"Elfouhaily et al. (1997) with its own spreading, drag law of Wu (1982)",
+          "Elfouhaily et al. (1997), doi:10.1029/97JC00467; Wu (1982), doi:10.1029/JC087iC12p09704",
+          "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz (0.0214 s2/m "
+          "times the square of the wind at 10 m), the mean square slope 1.0 to 1.25 times Cox and Munk "
+          "(1954) from 3 m/s on, 1.5 times at 2 m/s and 2.2 "
+          "times at 1 m/s. Below 2.75 m/s the model has no short waves: all slope is in its long ones."};
+}
+
+SpectrumDescription Describe(const SeaOptions& sea) {
+  SpectrumDescription description =
+      sea.spectrum == SpectrumKind::kApel ? ApelsDescription() : ElfouhailysDescription();
+  if (std::isfinite(sea.corrected_above)) {
+    description.name += absl::StrCat("; waves longer than ", sea.corrected_above,
+                                     " m left out, as corrected for by the local slope of the surface");
+  }
+  return description;
+}
+
+}  // namespace
+
+Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results) {
+  const SpectrumDescription spectrum = Describe(campaign.sea);
+  Provenance provenance;
+  provenance.id = campaign.id;
+  provenance.version = campaign.version;
+  provenance.title = campaign.title;
+  provenance.campaign = campaign.text;
+  provenance.attributes = {
+      {"source", "Monte Carlo ray tracing through a random sea surface, albtpu-generate"},
+      {"references", "Birkebak et al. (2018), doi:10.3390/rs10030453; " + spectrum.reference},
+      {"component", "sea surface only: no water column, air side, platform or system"},
+      {"program_version", std::string(Version())},
+      {"commit", std::string(Commit())},
+      {"instruction_set", InstructionSet()},
+      {"date_created", DateCreated()},
+      {"seed", static_cast<std::int64_t>(campaign.seed)},
+      {"refractive_index", campaign.refractive_index},
+      {"beam_profile", std::string(Name(campaign.profile))},
+      {"spectrum", spectrum.name},
+      {"spectrum_departures", spectrum.departures},
+      {"discretization",
+       "Short waves by FFT on a periodic grid, longer ones as plane waves; waves shorter than the grid by "
+       "the mean "
+       "of refraction over their slopes. Ranges are the least and the greatest over winds, fetches and "
+       "footprints."},
+      {"estimator", std::string(Name(campaign.effort.estimator))},
+      {"rounding",
+       absl::StrCat(
+           "Values to a power of two, the largest not above a quarter of their standard error, and to ",
+           kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
+           " significant bits")},
+      {"node_values", campaign.balanced_nodes ? "less a twelfth of their second difference along each axis "
+                                                "but depth, ends aside, which nearly halves "
+                                                "the error of interpolation in the root mean square"
+                                              : "as computed at the nodes"},
+      {"realizations", Range(results, &EncounterResult::realizations)},
+      {"encounters_above_relative_error",
+       std::int64_t{std::count_if(results.begin(), results.end(),
+                                  [](const EncounterResult& result) { return !result.converged; })}},
+      {"rays", Range(results, &EncounterResult::rays)},
+      {"domain", Range(results, &EncounterResult::patch_length)},
+      {"spacing", Range(results, &EncounterResult::spacing)},
+      {"footprint_slope_variance_fraction", Range(results, &EncounterResult::footprint_slope_fraction)},
+      {"resolved_slope_variance_fraction", Range(results, &EncounterResult::resolved_slope_fraction)},
+  };
+  return provenance;
+}
+
+void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance) {
+  provenance.attributes["interpolation_error"] =
+      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, by "
+      "the random "
+      "numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: root mean square, 99th "
+      "percentile, "
+      "greatest, rms standard error of the direct values, number of pulses";
+  for (std::size_t q = 0; q < errors.size(); ++q) {
+    const InterpolationError& error = errors[q];
+    provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] =
+        std::vector<double>{error.rms, error.percentile_99, error.greatest, error.noise,
+                            static_cast<double>(error.pulses)};
+  }
+}
+
+std::string DateCreated() {
+  std::time_t time = std::time(nullptr);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+    std::from_chars(epoch, epoch + std::strlen(epoch), time);
+  }
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace albtpu

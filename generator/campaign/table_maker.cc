@@ -1,0 +1,159 @@
+#include "generator/campaign/table_maker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "generator/campaign/interpolation_check.h"
+#include "generator/campaign/node_balance.h"
+#include "generator/campaign/provenance.h"
+#include "generator/campaign/unit_content.h"
+#include "generator/campaign/unit_work.h"
+#include "generator/math/rounding.h"
+#include "generator/ranks/ranks.h"
+#include "sea/angle.h"
+
+namespace albtpu {
+namespace {
+
+// Variables of a table while they are filled in, one beam after another.
+class VariableGrid {
+ public:
+  explicit VariableGrid(const Campaign& campaign) : campaign_(campaign) {
+    for (const Quantity quantity : kQuantities) {
+      Variable& variable = variables_[Index(quantity)].emplace();
+      variable.values.resize(ValueCount(campaign.axes, quantity));
+      variable.standard_errors.resize(variable.values.size());
+    }
+  }
+
+  // `beam` counts the beams of the encounter, `depth` the nodes of its axis: 0 for quantities without depth.
+  void Set(Quantity quantity, std::size_t encounter, std::size_t beam, std::size_t depth,
+           const Estimate& estimate) {
+    Variable& variable = *variables_[Index(quantity)];
+    const std::size_t footprints = campaign_.nodes(AxisId::kFootprint).size();
+    const std::size_t beams =
+        campaign_.nodes(AxisId::kIncidence).size() * campaign_.nodes(AxisId::kAzimuth).size();
+    const std::size_t depths = Describe(quantity).over_depth ? campaign_.nodes(AxisId::kDepth).size() : 1;
+    const std::size_t sea = encounter / footprints, footprint = encounter % footprints;
+    const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
+    variable.values[at] = static_cast<float>(estimate.value);
+    variable.standard_errors[at] = static_cast<float>(estimate.standard_error);
+  }
+
+  UncertaintyTable::Variables Take() { return std::move(variables_); }
+
+ private:
+  const Campaign& campaign_;
+  UncertaintyTable::Variables variables_;
+};
+
+void Round(Variable& variable) {
+  for (std::size_t i = 0; i < variable.values.size(); ++i) {
+    const auto [value, standard_error] = Rounded({variable.values[i], variable.standard_errors[i]});
+    variable.values[i] = static_cast<float>(value);
+    variable.standard_errors[i] = static_cast<float>(standard_error);
+  }
+}
+
+Estimate InDegrees(const Estimate& radians) {
+  return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+}
+
+void Store(const BeamUncertainty& result, std::size_t encounter, std::size_t beam, VariableGrid& grid) {
+  grid.Set(Quantity::kRefractionAlongWind, encounter, beam, 0, InDegrees(result.refraction_along_wind));
+  grid.Set(Quantity::kRefractionCrossWind, encounter, beam, 0, InDegrees(result.refraction_cross_wind));
+  for (std::size_t d = 0; d < result.thu.size(); ++d) {
+    grid.Set(Quantity::kThu, encounter, beam, d, result.thu[d]);
+    grid.Set(Quantity::kTvu, encounter, beam, d, result.tvu[d]);
+    grid.Set(Quantity::kBiasAlongBeam, encounter, beam, d, result.bias_along_beam[d]);
+    grid.Set(Quantity::kBiasVertical, encounter, beam, d, result.bias_vertical[d]);
+  }
+}
+
+bool HasShapeOf(const Campaign& campaign, const EncounterResult& result) {
+  const std::size_t beams =
+      campaign.nodes(AxisId::kIncidence).size() * campaign.nodes(AxisId::kAzimuth).size();
+  const std::size_t depths = campaign.nodes(AxisId::kDepth).size();
+  return result.beams.size() == beams &&
+         std::all_of(result.beams.begin(), result.beams.end(), [&](const BeamUncertainty& beam) {
+           return beam.thu.size() == depths && beam.tvu.size() == depths &&
+                  beam.bias_along_beam.size() == depths && beam.bias_vertical.size() == depths;
+         });
+}
+
+absl::Status OfAnotherShape() {
+  return absl::DataLossError("holds other beams and depths than its campaign has: delete it");
+}
+
+}  // namespace
+
+struct TableBuilder::Parts {
+  const Campaign& campaign;
+  UnitOrigin origin;
+  VariableGrid grid;
+  std::vector<EncounterResult> results;        // without their beams, which are in the grid
+  std::vector<std::vector<Estimate>> answers;  // to the checked pulses
+};
+
+TableBuilder::TableBuilder(const Campaign& campaign)
+    : parts_(new Parts{campaign, OriginOf(campaign), VariableGrid(campaign),
+                       std::vector<EncounterResult>(EncounterCount(campaign)),
+                       std::vector<std::vector<Estimate>>(campaign.checked_pulses)}) {}
+
+TableBuilder::~TableBuilder() = default;
+
+absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
+  const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
+  if (!content.ok()) return content.status();
+  if (unit.kind == UnitKind::kPulse) {
+    absl::StatusOr<std::vector<Estimate>> answers = DecodeAnswers(*content);
+    if (!answers.ok()) return answers.status();
+    if (answers->size() != kChecked.size()) return OfAnotherShape();
+    parts_->answers[unit.index] = *std::move(answers);
+    return absl::OkStatus();
+  }
+  absl::StatusOr<EncounterResult> result = DecodeResult(*content);
+  if (!result.ok()) return result.status();
+  if (!HasShapeOf(parts_->campaign, *result)) return OfAnotherShape();
+  for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
+    Store(result->beams[beam], unit.index, beam, parts_->grid);
+  result->beams.clear();
+  parts_->results[unit.index] = *std::move(result);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
+  const Campaign& campaign = parts_->campaign;
+  UncertaintyTable::Variables variables = parts_->grid.Take();
+  for (const Quantity quantity : kQuantities) {
+    Variable& variable = *variables[Index(quantity)];
+    if (campaign.balanced_nodes) BalanceNodes(campaign.axes, quantity, variable.values);
+    Round(variable);
+  }
+  Provenance provenance = MakeProvenance(campaign, parts_->results);
+  const absl::StatusOr<UncertaintyTable> table =
+      UncertaintyTable::Create(campaign.axes, variables, provenance);
+  if (!table.ok()) return table.status();
+  std::vector<InterpolationError> errors;
+  for (std::size_t q = 0; q < kChecked.size(); ++q) {
+    errors.push_back(CompareWithTable(campaign, *table, parts_->answers, q));
+  }
+  DescribeInterpolationErrors(errors, provenance);
+  return UncertaintyTable::Create(campaign.axes, variables, std::move(provenance));
+}
+
+absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
+                                           const std::function<void(std::size_t)>& done) {
+  TableBuilder builder(campaign);
+  std::size_t finished = 0;
+  const absl::Status worked_off = WorkOff(campaign, UnitsOf(campaign), *OneRank(),
+                                          [&](UnitId unit, const std::string& bytes, const std::string&) {
+                                            const absl::Status added = builder.Add(unit, bytes);
+                                            done(++finished);
+                                            return added;
+                                          });
+  if (!worked_off.ok()) return worked_off;
+  return builder.Build();
+}
+
+}  // namespace albtpu

@@ -1,0 +1,102 @@
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <string>
+
+#include "absl/strings/str_format.h"
+#include "generator/campaign/campaign.h"
+#include "generator/campaign/interpolation_check.h"
+#include "generator/commands/commands.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+namespace {
+
+// Of `work` on one thread.
+template <typename Work>
+double SecondsOf(const Work& work) {
+  tbb::task_arena one_thread(1);
+  const auto start = std::chrono::steady_clock::now();
+  one_thread.execute(work);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double SecondsOf(const Encounter& encounter, int realizations, Estimator estimator) {
+  const Effort effort{
+      .realizations = realizations, .most_realizations = realizations, .estimator = estimator};
+  return SecondsOf([&] { Simulate(encounter, effort, 1, 0); });
+}
+
+// Processor time of a campaign, s: what is prepared, and what each realization of all encounters takes more.
+struct Cost {
+  double preparation = 0, realization = 0;
+  double Of(int realizations) const { return preparation + realizations * realization; }
+};
+
+// From a few realizations of a few encounters spread over the campaign.
+Cost Measure(const Campaign& campaign) {
+  constexpr std::size_t kProbes = 24;
+  constexpr int kFew = 4, kMore = 24;
+  const std::size_t encounters = EncounterCount(campaign), probes = std::min(kProbes, encounters);
+  Cost cost;
+  for (std::size_t p = 0; p < probes; ++p) {
+    const Encounter encounter = EncounterOf(campaign, (2 * p + 1) * encounters / (2 * probes));
+    const double few = SecondsOf(encounter, kFew, campaign.effort.estimator);
+    const double more = SecondsOf(encounter, kMore, campaign.effort.estimator);
+    const double realization = std::max(0.0, (more - few) / (kMore - kFew));
+    const double share = static_cast<double>(encounters) / static_cast<double>(probes);
+    cost.realization += share * realization;
+    cost.preparation += share * std::max(0.0, few - kFew * realization);
+  }
+  return cost;
+}
+
+std::string Clock(double seconds) {
+  return seconds < 5400 ? absl::StrFormat("%.0f s", seconds) : absl::StrFormat("%.1f h", seconds / 3600);
+}
+
+}  // namespace
+
+// Cells and bytes are counted; time is measured, on one thread, and shared out.
+absl::Status RunPlan(const PlanOptions& options) {
+  const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
+  if (!campaign.ok()) return campaign.status();
+
+  std::size_t values = 0;
+  for (const Quantity quantity : kQuantities) values += ValueCount(campaign->axes, quantity);
+  const Effort& effort = campaign->effort;
+  const Cost cost = Measure(*campaign);
+  const double checks = static_cast<double>(campaign->checked_pulses) *
+                        SecondsOf([&] { AnswerDirectly(*campaign, CheckedPulse(*campaign, 0)); });
+  const double least = cost.Of(effort.realizations) + checks;
+  const double most = cost.Of(effort.most_realizations) + checks;
+  const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+
+  const auto line = [](const char* what, const std::string& value) {
+    std::cout << absl::StrFormat("%-24s%s\n", what, value);
+  };
+  line("campaign", campaign->id + ", version " + campaign->version);
+  line("seas and footprints", std::to_string(EncounterCount(*campaign)));
+  line("beams of each", std::to_string(EncounterOf(*campaign, 0).beams.size()));
+  line("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
+  line("checked pulses", std::to_string(campaign->checked_pulses));
+  line("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
+  line("realizations", effort.most_realizations > effort.realizations
+                           ? absl::StrFormat("%d to %d, by the error of each beam", effort.realizations,
+                                             effort.most_realizations)
+                           : std::to_string(effort.realizations));
+  const auto clock = [&](double cores) {
+    return most > least ? Clock(least / cores) + " to " + Clock(most / cores) : Clock(least / cores);
+  };
+  line("time of one core", clock(1));
+  line("on this machine", absl::StrFormat("%s, if its %d threads are as good as cores",
+                                          clock(static_cast<double>(threads)), threads));
+  if (options.cores > 0)
+    line("on so many cores", absl::StrFormat("%d: %s", options.cores, clock(options.cores)));
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu

@@ -1,0 +1,88 @@
+#include <iostream>
+
+#include "absl/strings/str_cat.h"
+#include "generator/commands/commands.h"
+#include "tables/default_tables.h"
+#include "tables/version.h"
+#include "validation/laboratory/laboratory_study.h"
+#include "validation/laboratory/wave_staff_study.h"
+#include "validation/published/published_table.h"
+#include "validation/report/csv.h"
+#include "validation/report/report.h"
+#include "validation/studies/angle_method_study.h"
+#include "validation/studies/closed_form_map_study.h"
+#include "validation/studies/corrected_waves_study.h"
+#include "validation/studies/paper_monte_carlo_study.h"
+#include "validation/studies/real_sea_study.h"
+#include "validation/studies/spectrum_study.h"
+
+namespace albtpu {
+namespace {
+
+struct NamedStudy {
+  const char* name;
+  StudyFunction run;
+};
+
+// In the order of the paper; what goes beyond it comes last.
+constexpr NamedStudy kStudies[] = {
+    {"Figures 2 and 3, the spectrum", SpectrumStudy},
+    {"Table 2, the wave staff", WaveStaffStudy},
+    {"Table 3, the Monte Carlo", PaperMonteCarloStudy},
+    {"Table 4, the laboratory", LaboratoryStudy},
+    {"Table 5, the angle method", AngleMethodStudy},
+    {"the closed form", ClosedFormMapStudy},
+    {"the real sea", RealSeaStudy},
+    {"waves that are corrected away", CorrectedWavesStudy},
+};
+
+// The studies read them only when their turn comes.
+absl::Status CheckPublished(const std::filesystem::path& folder) {
+  for (const char* table : {"table2_wave_staff", "table3_simulated", "table4_empirical", "table5_thu_tvu"}) {
+    const auto read = PublishedTable::Read(folder / (std::string(table) + ".csv"));
+    if (!read.ok()) return read.status();
+  }
+  return absl::OkStatus();
+}
+
+std::string Advice(const std::string& why_figures_are_missing) {
+  const bool no_library = why_figures_are_missing.find("ModuleNotFoundError") != std::string::npos ||
+                          why_figures_are_missing.find("No such file or directory") == 0;
+  return no_library ? ": install python3-matplotlib to have them" : "";
+}
+
+std::string MadeBy(const ValidateOptions& options) {
+  return absl::StrCat("Made by albtpu-generate validate", options.quick ? " --quick" : "", ", version ",
+                      std::string(Version()), " (", std::string(Commit()), "), seed ", options.seed, ".");
+}
+
+}  // namespace
+
+absl::Status RunValidate(const ValidateOptions& options) {
+  const std::filesystem::path data = InstalledDataDirectory() / "validation";
+  const ReportOptions report{options.output, data / "plots", MadeBy(options), options.overwrite};
+  if (const absl::Status status = CheckPublished(data / "paper"); !status.ok()) return status;
+  if (const absl::Status status = PrepareReport(report); !status.ok()) return status;
+
+  std::vector<Study> studies;
+  for (const NamedStudy& study : kStudies) {
+    std::cerr << "albtpu-generate: study " << studies.size() + 1 << " of " << std::size(kStudies) << ": "
+              << study.name << '\n';
+    absl::StatusOr<Study> found = study.run({data / "paper", options.quick, options.seed});
+    if (!found.ok()) return found.status();
+    studies.push_back(*std::move(found));
+  }
+  const absl::StatusOr<std::string> why_figures_are_missing = WriteReport(studies, report);
+  if (!why_figures_are_missing.ok()) return why_figures_are_missing.status();
+  if (!why_figures_are_missing->empty()) {
+    std::cerr << "albtpu-generate: figures are missing: " << *why_figures_are_missing
+              << Advice(*why_figures_are_missing) << '\n';
+  }
+
+  for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported}) {
+    std::cout << Name(verdict) << ' ' << Count(studies, verdict) << '\n';
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu

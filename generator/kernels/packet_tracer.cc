@@ -1,0 +1,252 @@
+#include "generator/kernels/packet_tracer.h"
+
+#include <cassert>
+
+#include "generator/kernels/packet_sums.h"
+
+// What follows is compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "generator/kernels/packet_tracer.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "generator/kernels/facet_packets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace albtpu {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr int kMostSteps = 8;
+
+// Rays of a bundle and where they meet the water. All that is done with them is done in short passes over all
+// of them: packets overlap on their way through the processor, and what a pass needs stays in registers.
+class Block {
+ public:
+  // The rays `first` and on.
+  Block(const Grid& grid, const RayBundle& rays, const HeightWindow& surface, int first)
+      : grid_(grid),
+        rays_(rays),
+        surface_(surface),
+        first_(first),
+        count_(HWY_MIN(rays.count() - first, kBlock)),
+        end_((count_ + RayBundle::kStrips - 1) / RayBundle::kStrips * RayBundle::kStrips) {}
+
+  // As if the rays were vertical through where they cross z = 0.
+  void MeetUndisturbed() {
+    for (int ray = 0; ray < end_; ray += kLanes) Enter(ray, hn::Zero(d));
+    for (int ray = 0; ray < end_; ray += kLanes) {
+      const Facets facets(grid_, cells_, ray);
+      Keep(ray, facets.height, facets);
+    }
+    KeepFirst();
+  }
+
+  // By two steps, which bring all but a few packets to the water: half of them are there after one, and the
+  // branch would be as good as random. The first starts from where it led the ray before in the same strip, a
+  // good guess: `heights` [m], of the last row in the end. Adds to `met_alone` the rays that do not settle.
+  void Meet(float* heights, int* met_alone) {
+    for (int row = 0; row < end_; row += RayBundle::kStrips) {
+      for (int i = 0; i < RayBundle::kStrips; i += kLanes) Enter(row + i, hn::Load(d, heights + i));
+      for (int i = 0; i < RayBundle::kStrips; i += kLanes) {
+        V z = hn::Load(d, heights + i);
+        z = hn::Add(z, Step(grid_, Facets(grid_, cells_, row + i), z).rise);
+        hn::Store(z, d, heights + i);
+        hn::Store(z, d, z_ + row + i);
+      }
+    }
+    for (int ray = 0; ray < end_; ray += kLanes) Enter(ray, hn::Load(d, z_ + ray));
+    for (int ray = 0; ray < end_; ray += kLanes) {
+      if (HWY_UNLIKELY(!hn::AllTrue(d, Advance(ray).met))) *met_alone += MeetFarther(ray);
+    }
+    KeepFirst();
+  }
+
+  // Snell's law as RefractAtSlope has it, less what still water does. With r = 1 / n, c the cosine of the
+  // incidence, h the horizontal part of the incident direction and s0 = sqrt(1 - r^2 + r^2 c^2), on a slope
+  // m, with mu = r m . h,
+  //     D = |m|^2 (1 - r^2) + 2 r c mu + mu^2,    s = sqrt(s0^2 + D),    lift = s - r c - mu,
+  //     q = r c (1 + |m|^2) + lift,
+  //     secant - 1 / s0 = (|m|^2 (s0 - r c) + mu - D / (s + s0)) / (s0 q),
+  //     tangent - r h / s0 = r h (secant - 1 / s0) + m lift / q.
+  void AddRefracted(const StillWater& still, PacketSums* sums) const {
+    const V s0 = hn::Set(d, still.s0), s0_squared = hn::Set(d, still.s0 * still.s0),
+            inverse_s0 = hn::Set(d, 1 / still.s0), rc = hn::Set(d, still.rc),
+            two_rc = hn::Set(d, 2 * still.rc), s0_less_rc = hn::Set(d, still.s0 - still.rc),
+            rhx = hn::Set(d, still.rhx), rhy = hn::Set(d, still.rhy),
+            one_less_r2 = hn::Set(d, still.one_less_r2);
+    V sum[kHeightSecant + 1];
+    for (V& s : sum) s = hn::Zero(d);
+    for (int ray = 0; ray < end_; ray += kLanes) {
+      const V z = hn::Load(d, z_ + ray);
+      const V mx = SlopeX(ray), my = SlopeY(ray);
+      const V mm = hn::MulAdd(mx, mx, hn::Mul(my, my));
+      const V mu = hn::MulAdd(mx, rhx, hn::Mul(my, rhy));
+      const V difference = hn::MulAdd(mm, one_less_r2, hn::Mul(mu, hn::Add(two_rc, mu)));
+      const V s = hn::Sqrt(hn::Add(s0_squared, difference));
+      const V lift = hn::Sub(s, hn::Add(rc, mu));
+      const V q = hn::Add(hn::MulAdd(rc, mm, rc), lift);
+      const V both = hn::Add(s, s0);
+      const V inverse = hn::Div(hn::Set(d, 1.0f), hn::Mul(both, q));
+      const V secant =
+          hn::Mul(hn::MulSub(hn::MulAdd(mm, s0_less_rc, mu), both, difference), hn::Mul(inverse, inverse_s0));
+      const V gain = hn::Mul(hn::Mul(lift, both), inverse);
+      const V tx = hn::MulAdd(gain, mx, hn::Mul(rhx, secant)),
+              ty = hn::MulAdd(gain, my, hn::Mul(rhy, secant));
+      sum[kHeight] = hn::Add(sum[kHeight], z);
+      sum[kTangentX] = hn::Add(sum[kTangentX], tx);
+      sum[kTangentY] = hn::Add(sum[kTangentY], ty);
+      sum[kSecant] = hn::Add(sum[kSecant], secant);
+      sum[kHeightTangentX] = hn::MulAdd(z, tx, sum[kHeightTangentX]);
+      sum[kHeightTangentY] = hn::MulAdd(z, ty, sum[kHeightTangentY]);
+      sum[kHeightSecant] = hn::MulAdd(z, secant, sum[kHeightSecant]);
+    }
+    for (int k = 0; k <= kHeightSecant; ++k) AddLanes(sum[k], &sums->sum[k]);
+  }
+
+  // Slopes and their squares: to the sum `slope_x` and the four after it.
+  void AddSlopes(PacketSum slope_x, PacketSums* sums) const {
+    V x = hn::Zero(d), y = x, xx = x, yy = x, xy = x;
+    for (int ray = 0; ray < end_; ray += kLanes) {
+      const V mx = SlopeX(ray), my = SlopeY(ray);
+      x = hn::Add(x, mx);
+      y = hn::Add(y, my);
+      xx = hn::MulAdd(mx, mx, xx);
+      yy = hn::MulAdd(my, my, yy);
+      xy = hn::MulAdd(mx, my, xy);
+    }
+    double* sum = sums->sum + slope_x;
+    for (const V& lanes : {x, y, xx, yy, xy}) AddLanes(lanes, sum++);
+  }
+
+  // What the undisturbed heights make with the slopes under them.
+  void AddHeightSlopes(PacketSums* sums) const {
+    V height = hn::Zero(d), x = height, y = height;
+    for (int ray = 0; ray < end_; ray += kLanes) {
+      const V z = hn::Load(d, z_ + ray);
+      height = hn::Add(height, z);
+      x = hn::MulAdd(z, SlopeX(ray), x);
+      y = hn::MulAdd(z, SlopeY(ray), y);
+    }
+    AddLanes(height, sums->sum + kUndisturbedHeight);
+    AddLanes(x, sums->sum + kUndisturbedHeightX);
+    AddLanes(y, sums->sum + kUndisturbedHeightY);
+  }
+
+ private:
+  HWY_INLINE void Enter(int ray, V z) {
+    cells_.Enter(grid_, ray, hn::MulAdd(z, grid_.x_per_height, grid_.Steps(rays_.x() + first_ + ray)),
+                 hn::MulAdd(z, grid_.y_per_height, grid_.Steps(rays_.y() + first_ + ray)));
+  }
+  HWY_INLINE void Keep(int ray, V z, const Facets& facets) {
+    hn::Store(z, d, z_ + ray);
+    hn::Store(facets.rise_x, d, rise_x_ + ray);
+    hn::Store(facets.rise_y, d, rise_y_ + ray);
+  }
+  HWY_INLINE Step Advance(int ray) {
+    const V z = hn::Load(d, z_ + ray);
+    const Facets facets(grid_, cells_, ray);
+    const Step step(grid_, facets, z);
+    Keep(ray, hn::Add(z, step.rise), facets);
+    return step;
+  }
+
+  // Goes on with the packet at `ray`. Rays that do not settle are met one by one and counted. Settled are
+  // those that are met and those that a step hardly moves: on an edge either of two facets is right.
+  HWY_NOINLINE int MeetFarther(int ray) {
+    const V tolerance = hn::Set(d, 0x1p-14f * surface_.spacing);
+    HWY_ALIGN float settled[kLanes];
+    for (int i = 0; i < kMostSteps; ++i) {
+      Enter(ray, hn::Load(d, z_ + ray));
+      const Step step = Advance(ray);
+      const M now = hn::Or(step.met, hn::Le(hn::Abs(step.rise), tolerance));
+      if (hn::AllTrue(d, now)) return 0;
+      hn::Store(hn::IfThenElseZero(now, hn::Set(d, 1.0f)), d, settled);
+    }
+    int count = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (settled[lane] != 0) continue;
+      const int one = ray + lane;
+      MeetOne(rays_, surface_, first_ + one, z_[one], rise_x_[one], rise_y_[one]);
+      if (one < count_) ++count;
+    }
+    return count;
+  }
+
+  // Rays that stand for none meet still water, which adds nothing to any sum.
+  void KeepFirst() {
+    for (int ray = count_; ray < end_; ++ray) z_[ray] = rise_x_[ray] = rise_y_[ray] = 0;
+  }
+
+  HWY_INLINE V SlopeX(int ray) const { return hn::Mul(hn::Load(d, rise_x_ + ray), grid_.steps_per_metre); }
+  HWY_INLINE V SlopeY(int ray) const { return hn::Mul(hn::Load(d, rise_y_ + ray), grid_.steps_per_metre); }
+  static HWY_INLINE void AddLanes(V sum, double* total) {
+    HWY_ALIGN float lanes[kLanes];
+    hn::Store(sum, d, lanes);
+    for (const float lane : lanes) *total += static_cast<double>(lane);
+  }
+
+  const Grid grid_;
+  const RayBundle& rays_;
+  const HeightWindow& surface_;
+  int first_, count_;
+  int end_;  // the rows are full, of `count_` rays and of some that stand for none
+  Cells cells_;
+  HWY_ALIGN float z_[kBlock];                        // m
+  HWY_ALIGN float rise_x_[kBlock], rise_y_[kBlock];  // m a step, of the facets that are met
+};
+
+void SumRays(const RayBundle& rays, const HeightWindow& surface, Wanted wanted, PacketSums* sums) {
+  const Grid grid(rays, surface);
+  const StillWater still = StillWaterOf(rays);
+  HWY_ALIGN float heights[RayBundle::kStrips] = {};
+  for (int first = 0; first < rays.count(); first += kBlock) {
+    Block block(grid, rays, surface, first);
+    const bool undisturbed = wanted == Wanted::kBeamAndUndisturbed;
+    if (undisturbed || rays.vertical()) block.MeetUndisturbed();
+    if (undisturbed) {
+      block.AddSlopes(kUndisturbedX, sums);
+      block.AddHeightSlopes(sums);
+    }
+    if (!rays.vertical()) block.Meet(heights, &sums->met_alone);
+    block.AddSlopes(kSlopeX, sums);
+    block.AddRefracted(still, sums);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace albtpu
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace albtpu {
+
+namespace {
+
+// Indexes are exact in single precision.
+[[maybe_unused]] bool MayBeTraced(const HeightWindow& surface) {
+  return surface.points >= 3 && surface.points % 2 == 1 && surface.stride >= surface.points &&
+         surface.points * surface.stride < 1 << 23;
+}
+
+}  // namespace
+
+HWY_EXPORT(SumRays);
+
+TracedBundle TracePackets(const RayBundle& rays, const HeightWindow& surface) {
+  assert(MayBeTraced(surface));
+  PacketSums sums;
+  HWY_DYNAMIC_DISPATCH(SumRays)(rays, surface, Wanted::kBeamAndUndisturbed, &sums);
+  return MeansOf(rays, sums);
+}
+
+TracedBeam Trace(const RayBundle& rays, const HeightWindow& surface) {
+  assert(MayBeTraced(surface));
+  PacketSums sums;
+  HWY_DYNAMIC_DISPATCH(SumRays)(rays, surface, Wanted::kBeam, &sums);
+  return MeansOf(rays, sums).beam;
+}
+
+}  // namespace albtpu
+#endif

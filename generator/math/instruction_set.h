@@ -1,0 +1,12 @@
+// The instructions that this machine runs our libraries with.
+#pragma once
+
+#include <string>
+
+namespace albtpu {
+
+// The microarchitecture level of the x86-64 psABI ("x86-64-v3"), or the name of another architecture. FFTW and the C library choose by it, so the last bit
+// depends on it.
+std::string InstructionSet();
+
+}  // namespace albtpu

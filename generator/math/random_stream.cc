@@ -1,0 +1,36 @@
+#include "generator/math/random_stream.h"
+
+#include <Random123/philox.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace albtpu {
+namespace {
+
+// Two uniform words to two normals. The half keeps the logarithm finite; the greatest normal is 6.8.
+void BoxMuller(std::uint32_t u, std::uint32_t v, double* normals) {
+  const double radius = std::sqrt(-2 * std::log((u + 0.5) * 0x1p-32));
+  const double angle = 2 * std::numbers::pi * (v * 0x1p-32);
+  normals[0] = radius * std::cos(angle);
+  normals[1] = radius * std::sin(angle);
+}
+
+}  // namespace
+
+void NormalStream::Fill(std::span<double> normals) {
+  const r123::Philox4x32::key_type key = {
+      {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
+  for (std::size_t i = 0; i < normals.size(); i += 4) {
+    const r123::Philox4x32::ctr_type counter = {{block_++, realization_, cell_, part_}};
+    const r123::Philox4x32::ctr_type words = r123::Philox4x32()(counter, key);
+    std::array<double, 4> four;
+    BoxMuller(words[0], words[1], &four[0]);
+    BoxMuller(words[2], words[3], &four[2]);
+    std::copy_n(four.begin(), std::min<std::size_t>(4, normals.size() - i), normals.begin() + i);
+  }
+}
+
+}  // namespace albtpu

@@ -1,0 +1,182 @@
+#include "generator/monte_carlo/beam_uncertainty.h"
+
+#include <cmath>
+
+#include "sea/response/refraction.h"
+
+namespace albtpu {
+namespace {
+
+// One quantity of a beam in all realizations: the parts are the columns.
+class Column {
+ public:
+  template <typename Value>
+  Column(const std::vector<BeamRealization>& sample, const Value& value)
+      : values_(sample.size(), 2), shares_(sample.size(), 2) {
+    for (Eigen::Index i = 0; i < values_.rows(); ++i) {
+      for (const int part : {0, 1}) {
+        values_(i, part) = value(sample[i].parts[part].errors);
+        shares_(i, part) = sample[i].parts[part].share;
+      }
+    }
+  }
+
+  Eigen::ArrayXd Means() const { return (shares_ * values_).rowwise().sum(); }
+  // Squared deviations from the mean as it is best known, and what to add to their mean for the variance: the
+  // realizations that gave that mean lie closer to it than to the true one. With r for the rest that the
+  // control leaves of the values v, (2 cov(r, v) - var(r)) / n; without a control r is v.
+  struct Squares {
+    Eigen::ArrayXd sample;
+    double of_mean;
+  };
+  Squares SquaresAbout(const std::optional<Control>& control) const {
+    const double mean = Mean(Means(), control).value;
+    const Eigen::ArrayXd v = Means() - Means().mean();
+    const Eigen::ArrayXd excess = control ? Eigen::ArrayXd(control->sample - control->sample.mean()) : 0 * v;
+    const double n = static_cast<double>(v.size());
+    return {(shares_ * (values_ - mean).square()).rowwise().sum(),
+            ((v - excess) * (v + excess)).sum() / (n - 1) / n};
+  }
+
+ private:
+  Eigen::ArrayX2d values_, shares_;
+};
+
+// The control variates of a beam. None where nothing is known.
+class Prediction {
+ public:
+  Prediction(const std::vector<BeamRealization>& sample, const BeamOptions& beam, double refractive_index,
+             const std::optional<KnownSlopes>& known)
+      : known_(known), azimuth_(std::cos(beam.azimuth), std::sin(beam.azimuth)) {
+    if (!known) return;
+    const SlopeGain gain = SmallSlopeGain(beam.incidence, refractive_index);
+    const Eigen::Matrix2d answer = gain.out_of_plane * Eigen::Matrix2d::Identity() +
+                                   (gain.in_plane - gain.out_of_plane) * azimuth_ * azimuth_.transpose();
+    expectation_ = answer * known->mean;
+    covariance_ = answer * known->footprint_covariance * answer.transpose();
+    offset_covariance_ = answer * known->height_slope_covariance * answer.transpose();
+    const Eigen::Matrix2d form = SecantCurvature(beam.incidence, beam.azimuth, refractive_index);
+    // The path per depth is 1 / cos(theta_r), of which sin(theta_r) is the derivative by the in-plane tangent.
+    const double refracted = StillWaterRefraction(beam.incidence, refractive_index);
+    vertical_ = -std::sin(refracted) * std::cos(refracted) * azimuth_;
+    square_gain_ = -0.5 * std::cos(refracted);
+    const auto of_form = [&](const Eigen::Vector3d& squares) {
+      return form(0, 0) * squares[0] + form(1, 1) * squares[1] + 2 * form(0, 1) * squares[2];
+    };
+    expected_form_ = of_form(known->moments.expected_squares);
+
+    const Eigen::Index n = static_cast<Eigen::Index>(sample.size());
+    tangent_.resize(n, 2);
+    offset_.resize(n, 2);
+    form_.resize(n);
+    imbalance_.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      tangent_.row(i) = (answer * sample[i].mean_slope).transpose().array();
+      offset_.row(i) = -(answer * sample[i].height_slope).transpose().array();
+      form_[i] = of_form(sample[i].mean_squares);
+      imbalance_[i] = sample[i].parts[0].share - sample[i].parts[1].share;
+    }
+  }
+
+  std::optional<Control> SquaredTangent(int axis) const {
+    if (!known_) return std::nullopt;
+    return Control{tangent_.col(axis).square(), covariance_(axis, axis)};
+  }
+  std::optional<Control> SquaredHorizontal(double depth) const {
+    if (!known_) return std::nullopt;
+    return Control{
+        Squared(depth * tangent_.col(0), offset_.col(0)) + Squared(depth * tangent_.col(1), offset_.col(1)),
+        depth * depth * covariance_.trace() + offset_covariance_.trace()};
+  }
+  std::optional<Control> SquaredVertical(double depth) const {
+    if (!known_) return std::nullopt;
+    const auto both = [&](const Eigen::Matrix2d& covariance) {
+      return vertical_.dot(covariance * vertical_);
+    };
+    return Control{
+        Squared(-depth * Along(vertical_, tangent_),
+                depth * square_gain_ * (form_ - expected_form_) - Along(vertical_, offset_)),
+        depth * depth * (both(covariance_) + square_gain_ * square_gain_ * known_->moments.variance_of_form) +
+            both(offset_covariance_)};
+  }
+  // Of the errors themselves.
+  std::optional<Control> Tangent(int axis) const {
+    if (!known_) return std::nullopt;
+    return Control{imbalance_ * tangent_.col(axis), expectation_[axis]};
+  }
+  std::optional<Control> Horizontal(double depth, const Eigen::Vector2d& direction) const {
+    if (!known_) return std::nullopt;
+    return Control{Along(direction, offset_) - depth * imbalance_ * Along(direction, tangent_),
+                   -depth * direction.dot(expectation_)};
+  }
+  std::optional<Control> Vertical(double depth) const {
+    if (!known_) return std::nullopt;
+    return Control{
+        depth * (imbalance_ * Along(vertical_, tangent_) + square_gain_ * form_) - Along(vertical_, offset_),
+        depth * (vertical_.dot(expectation_) + square_gain_ * expected_form_)};
+  }
+
+ private:
+  static Eigen::ArrayXd Along(const Eigen::Vector2d& direction, const Eigen::ArrayX2d& vectors) {
+    return direction.x() * vectors.col(0) + direction.y() * vectors.col(1);
+  }
+  // The squares of an error that is even - odd on the surfaces of parts[0] and even + odd on the others. What the
+  // two have together is as often positive as negative.
+  Eigen::ArrayXd Squared(const Eigen::ArrayXd& odd, const Eigen::ArrayXd& even) const {
+    return odd.square() + even.square() - 2 * imbalance_ * odd * even;
+  }
+
+  std::optional<KnownSlopes> known_;
+  Eigen::Vector2d azimuth_;
+  Eigen::Vector2d expectation_;  // of the predicted tangent, less that of still water
+  Eigen::Matrix2d covariance_, offset_covariance_;
+  Eigen::Vector2d vertical_;  // the vertical error per depth and tangent
+  double square_gain_ = 0;    // the vertical error per depth and form
+  double expected_form_ = 0;  // of the squared slopes
+  Eigen::ArrayX2d tangent_;   // predicted on the surfaces of parts[0]; on the others it is the opposite
+  Eigen::ArrayX2d offset_;    // m, the horizontal error at depth 0; alike on both
+  Eigen::ArrayXd form_;       // alike on both
+  Eigen::ArrayXd imbalance_;  // of the shares of the two
+};
+
+}  // namespace
+
+BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
+                              double refractive_index, const std::optional<KnownSlopes>& known,
+                              const std::vector<double>& depths) {
+  const Prediction prediction(sample, beam, refractive_index, known);
+  const Eigen::Vector2d azimuth(std::cos(beam.azimuth), std::sin(beam.azimuth));
+  BeamUncertainty result;
+  result.realizations = static_cast<int>(sample.size());
+  const auto refraction = [&](int axis) {
+    const Column angle(sample, [&](const BeamErrors& e) { return std::atan(e.tangent[axis]); });
+    const auto [squares, of_mean] = angle.SquaresAbout(prediction.Tangent(axis));
+    return TwoSigmaOfSquares(squares, of_mean, prediction.SquaredTangent(axis));
+  };
+  result.refraction_along_wind = refraction(0);
+  result.refraction_cross_wind = refraction(1);
+  for (const double depth : depths) {
+    const auto horizontal = [&](const Eigen::Vector2d& direction) {
+      return Column(sample, [&](const BeamErrors& e) {
+        return direction.dot(e.horizontal_offset + depth * e.horizontal_per_depth);
+      });
+    };
+    const auto squares_along = [&](const Eigen::Vector2d& direction) {
+      return horizontal(direction).SquaresAbout(prediction.Horizontal(depth, direction));
+    };
+    const Column::Squares x = squares_along(Eigen::Vector2d::UnitX()),
+                          y = squares_along(Eigen::Vector2d::UnitY());
+    result.thu.push_back(
+        TwoSigmaOfSquares(x.sample + y.sample, x.of_mean + y.of_mean, prediction.SquaredHorizontal(depth)));
+    const Column vertical(
+        sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
+    const Column::Squares z = vertical.SquaresAbout(prediction.Vertical(depth));
+    result.tvu.push_back(TwoSigmaOfSquares(z.sample, z.of_mean, prediction.SquaredVertical(depth)));
+    result.bias_along_beam.push_back(
+        Mean(horizontal(azimuth).Means(), prediction.Horizontal(depth, azimuth)));
+    result.bias_vertical.push_back(Mean(vertical.Means(), prediction.Vertical(depth)));
+  }
+  return result;
+}
+
+}  // namespace albtpu

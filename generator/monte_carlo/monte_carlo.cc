@@ -1,0 +1,115 @@
+#include "generator/monte_carlo/monte_carlo.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+#include "generator/math/random_stream.h"
+#include "generator/monte_carlo/beam_tracing.h"
+#include "generator/surface/sea_surface.h"
+#include "sea/angle.h"
+
+namespace albtpu {
+namespace {
+
+// Below these nobody asks for an error.
+const double kNegligibleAngle = RadiansOfDegrees(0.01);
+constexpr double kNegligibleLength = 1e-3;  // m
+
+bool Meets(const BeamUncertainty& beam, double relative_error) {
+  const auto meets = [&](const Estimate& estimate, double negligible) {
+    return estimate.value < negligible || estimate.standard_error <= relative_error * estimate.value;
+  };
+  const auto length_meets = [&](const Estimate& estimate) { return meets(estimate, kNegligibleLength); };
+  return meets(beam.refraction_along_wind, kNegligibleAngle) &&
+         meets(beam.refraction_cross_wind, kNegligibleAngle) &&
+         std::all_of(beam.thu.begin(), beam.thu.end(), length_meets) &&
+         std::all_of(beam.tvu.begin(), beam.tvu.end(), length_meets);
+}
+
+// The beams of the least and of the greatest incidence, one of them at nadir: what holds for these holds
+// between them.
+std::vector<BeamOptions> Extremes(const std::vector<BeamOptions>& beams) {
+  const auto less = [](const BeamOptions& a, const BeamOptions& b) { return a.incidence < b.incidence; };
+  const auto [least, greatest] = std::minmax_element(beams.begin(), beams.end(), less);
+  std::vector<BeamOptions> extremes;
+  for (const BeamOptions& beam : beams) {
+    const bool again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
+    if (!again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence))
+      extremes.push_back(beam);
+  }
+  return extremes;
+}
+
+// How many realizations there should be when `done` were not enough: a half more, in whole batches.
+int More(int done, const Effort& effort) {
+  const int batches = std::max(1, done / 2 / kBatch);
+  return std::min(done + batches * kBatch, effort.most_realizations);
+}
+
+}  // namespace
+
+std::string_view Name(Estimator estimator) {
+  return estimator == Estimator::kPlain ? "plain" : "control_variate";
+}
+
+std::optional<Estimator> FindEstimator(std::string_view name) {
+  for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain}) {
+    if (name == Name(estimator)) return estimator;
+  }
+  return std::nullopt;
+}
+
+EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::uint64_t seed,
+                         std::uint32_t cell) {
+  assert(!encounter.beams.empty() && effort.realizations >= 2);
+  const SeaState sea(encounter.sea);
+  Discretization discretization =
+      encounter.discretization ? *encounter.discretization : ChooseDiscretization(sea, encounter.beams);
+  if (encounter.rays) discretization.rays = *encounter.rays;
+  const SurfaceModel model(sea, WidestBeam(encounter.beams), discretization);
+
+  EncounterResult result;
+  result.rays = discretization.rays;
+  result.patch_length = model.patch().length();
+  result.spacing = model.patch().spacing();
+  const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
+  const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
+  result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
+  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(encounter.beams));
+
+  const TracedBeams traced{encounter.beams, encounter.refractive_index, discretization.rays,
+                           all_slopes - facet_slopes};
+  const bool collimated = std::isinf(encounter.beams.front().source_height);
+  const std::unique_ptr<BeamTracing> tracing = effort.estimator == Estimator::kControlVariate && collimated
+                                                   ? MakeAntitheticTracing(model, traced)
+                                                   : MakePlainTracing(model, traced);
+
+  const std::size_t count = encounter.beams.size();
+  result.beams.resize(count);
+  std::vector<bool> wanted(count, true);  // those that want more realizations
+  std::vector<std::vector<BeamRealization>> realizations;
+  for (int goal = effort.realizations; true; goal = More(result.realizations, effort)) {
+    const int first = result.realizations;
+    result.realizations = goal;
+    realizations.resize(goal, std::vector<BeamRealization>(count));
+    tbb::parallel_for(first, goal,
+                      [&](int i) { tracing->Realize(NormalStream(seed, cell, i), wanted, realizations[i]); });
+    result.converged = true;
+    for (std::size_t b = 0; b < count; ++b) {
+      if (!wanted[b]) continue;
+      std::vector<BeamRealization> sample;
+      for (const std::vector<BeamRealization>& realization : realizations) sample.push_back(realization[b]);
+      result.beams[b] = UncertaintyOf(sample, encounter.beams[b], encounter.refractive_index,
+                                      tracing->known_slopes(b), encounter.depths);
+      wanted[b] = effort.relative_error > 0 && !Meets(result.beams[b], effort.relative_error);
+      result.converged = result.converged && !wanted[b];
+    }
+    if (result.converged || goal >= effort.most_realizations) return result;
+  }
+}
+
+}  // namespace albtpu

@@ -1,0 +1,80 @@
+// A triangulated piece of sea surface, and where a ray meets it.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "generator/surface/beam.h"
+
+namespace albtpu {
+
+// Elevations on a square grid about the origin, each cell cut into two triangles along the diagonal from its
+// low corner to its high corner. That is a Delaunay triangulation of the grid's points. Immutable.
+class HeightField {
+ public:
+  // `heights` [m] at ((ix - centre) spacing, (iy - centre) spacing), ix slow, with centre = (points - 1) / 2;
+  // `points` along a side, odd, at least 3.
+  HeightField(std::vector<double> heights, int points, double spacing);
+
+  // One of the two triangles of a cell.
+  struct Triangle {
+    int ix, iy;     // the low corner of the cell
+    bool beside_x;  // the one that has the side from the low corner along x
+    bool operator==(const Triangle&) const = default;
+  };
+  // The triangle over or under `x`; beyond the edge, one of the outermost cells.
+  Triangle TriangleAt(const Eigen::Vector2d& x) const {
+    const double last_cell = points_ - 2;
+    const Eigen::Vector2d at = (x * points_per_metre_).array() + (points_ - 1) / 2;
+    const int ix = static_cast<int>(std::clamp(at.x(), 0.0, last_cell));
+    const int iy = static_cast<int>(std::clamp(at.y(), 0.0, last_cell));
+    return {ix, iy, at.x() - ix > at.y() - iy};
+  }
+
+  // The plane of a triangle, height_at_origin + slope . (x, y).
+  struct Facet {
+    double height_at_origin;  // m
+    Eigen::Vector2d slope;
+    double HeightAt(const Eigen::Vector2d& x) const { return height_at_origin + slope.dot(x); }
+  };
+  Facet FacetOf(const Triangle& triangle) const;
+  Facet FacetAt(const Eigen::Vector2d& x) const { return FacetOf(TriangleAt(x)); }
+
+  const std::vector<double>& heights() const { return heights_; }  // m, as given
+  int points() const { return points_; }                           // along a side
+  double reach() const { return (points_ - 1) / 2 * spacing_; }    // m from the centre to each side
+  double spacing() const { return spacing_; }                      // m
+
+ private:
+  std::vector<double> heights_;
+  int points_;
+  double spacing_, points_per_metre_;
+};
+
+// The surface of HeightField in memory that somebody else owns.
+struct HeightWindow {
+  const float* heights;   // m, at ((ix - centre) spacing, (iy - centre) spacing), ix slow
+  int points;             // along a side, odd, at least 3
+  std::ptrdiff_t stride;  // floats from a row to the next, at least `points`
+  float spacing;          // m
+
+  HeightField::Triangle TriangleAt(const Eigen::Vector2d& x) const;
+  HeightField::Facet FacetOf(const HeightField::Triangle& triangle) const;
+  double reach() const { return (points - 1) / 2 * static_cast<double>(spacing); }
+};
+
+// Where a ray meets a surface.
+struct Hit {
+  double height;  // m
+  HeightField::Facet facet;
+};
+
+// The meeting of `ray` and `surface`: exact, on the plane of one triangle. The height of the ray above the
+// surface grows steadily upward as long as no facet turns away from the ray, which takes a slope of 1 /
+// tan(incidence), 2.1 at 25 degrees: then the meeting is the only one.
+Hit Intersect(const HeightField& surface, const Ray& ray);
+Hit Intersect(const HeightWindow& surface, const Ray& ray);
+
+}  // namespace albtpu

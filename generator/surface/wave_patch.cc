@@ -1,0 +1,89 @@
+#include "generator/surface/wave_patch.h"
+
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+namespace albtpu {
+
+WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share)
+    : length_(length), size_(size), transform_(size) {
+  assert(length > 0);
+  const double dk = 2 * std::numbers::pi / length;
+  power_.assign(static_cast<std::size_t>(size) * (size / 2 + 1), 0.0);
+  for (int row = 0; row < size; ++row) {
+    const int i = SignedIndex(row, size);
+    if (i == size / 2) continue;
+    for (int j = 0; j < size / 2; ++j) {
+      if (i == 0 && j == 0) continue;
+      const double k = dk * std::hypot(i, j);
+      if (share(k) == 0) continue;
+      power_[row * (size / 2 + 1) + j] = share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk;
+    }
+  }
+}
+
+std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
+  const int half = size_ / 2 + 1;
+  InverseFft::Modes amplitude = transform_.Allocate();
+  std::vector<double> normals(2 * half);
+  for (int row = 0; row < size_; ++row) {
+    stream.Part(PartOfRow(SignedIndex(row, size_))).Fill(normals);
+    for (int j = 0; j < half; ++j) {
+      const std::size_t mode = static_cast<std::size_t>(row) * half + j;
+      amplitude[mode] =
+          std::sqrt(power_[mode] / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
+    }
+  }
+  // Both halves of the column j = 0 are stored: the lower one must be the mirror of the upper.
+  for (int i = 1; i < size_ / 2; ++i) amplitude[(size_ - i) * half] = std::conj(amplitude[i * half]);
+  return transform_(std::move(amplitude));
+}
+
+std::vector<double> WavePatchModel::Correlate(
+    const std::function<std::complex<double>(double phase_x, double phase_y)>& factor) const {
+  const int half = size_ / 2 + 1;
+  const double turn = 2 * std::numbers::pi / size_;
+  InverseFft::Modes product = transform_.Allocate();
+  for (int row = 0; row < size_; ++row) {
+    for (int j = 0; j < half; ++j) {
+      const std::size_t mode = static_cast<std::size_t>(row) * half + j;
+      product[mode] = power_[mode] == 0 ? 0 : power_[mode] * factor(turn * SignedIndex(row, size_), turn * j);
+    }
+  }
+  return transform_(std::move(product));
+}
+
+double WavePatchModel::elevation_variance() const {
+  double sum = 0;
+  for (std::size_t m = 0; m < power_.size(); ++m) {
+    const bool own_mirror_column = m % (size_ / 2 + 1) == 0;
+    sum += power_[m] * (own_mirror_column ? 1 : 2);
+  }
+  return sum;
+}
+
+Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(
+    const std::function<double(double k, double psi)>& weight) const {
+  const double dk = 2 * std::numbers::pi / length_;
+  const double dx = spacing();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (int row = 0; row < size_; ++row) {
+    for (int j = 0; j < size_ / 2; ++j) {
+      const double power = power_[row * (size_ / 2 + 1) + j];
+      if (power == 0) continue;
+      const int i = SignedIndex(row, size_);
+      const double phase_x = i * dk * dx / 2, phase_y = j * dk * dx / 2;
+      const Eigen::Vector2d quotient(2 * std::sin(phase_x) / dx, 2 * std::sin(phase_y) / dx);
+      Eigen::Matrix2d squares = quotient * quotient.transpose();
+      squares(0, 1) *= std::cos(phase_x + phase_y);  // the two sides of a triangle are half a diagonal apart
+      squares(1, 0) = squares(0, 1);
+      covariance += power * (j == 0 ? 1 : 2) * weight(dk * std::hypot(i, j), std::atan2(j, i)) * squares;
+    }
+  }
+  return covariance;
+}
+
+}  // namespace albtpu

@@ -1,0 +1,25 @@
+// The small-slope theory: what a beam's refraction does in the limit of small slopes, from the spectrum
+// alone.
+//
+// For a footprint much smaller than the depth the spot moves with the footprint-averaged slope: the tangent
+// of the mean refracted direction answers linearly, by the gains of refraction.h. It is the oracle of the
+// Monte Carlo, which meets it as the slopes vanish and then lies under it, for Snell's law bends: its THU by
+// 0.18 of the mean square slope of the whole sea at nadir (0.189 by the third order in slope) and by 0.07 of
+// it more at 20 degrees, growing with the square of the incidence.
+#pragma once
+
+#include "sea/response/footprint.h"
+#include "sea/sea_state.h"
+
+namespace albtpu {
+
+// 2 sigma values; angles in rad, the others in m per m of depth.
+struct SmallSlopeUncertainty {
+  double refraction_along_wind, refraction_cross_wind;
+  double thu_per_depth;
+  double tvu_per_depth;  // zero at nadir, where the vertical error is of second order in slope
+};
+
+SmallSlopeUncertainty ClosedForm(const SeaState& sea, const BeamOptions& beam, double refractive_index);
+
+}  // namespace albtpu

@@ -1,0 +1,49 @@
+#include "service/server/access/credential_flags.h"
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::server {
+namespace {
+
+absl::Status CheckPlainText(const char* flag, const ListenAddress& address, const CredentialFlags& flags,
+                            const char* remedy) {
+  if (address.IsLoopback() || flags.insecure) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      flag, ": ", address.ToString(), " can be reached from other machines, in plain text: ", remedy,
+      "listen on 127.0.0.1, or say --insecure"));
+}
+
+}  // namespace
+
+void AddCredentialFlags(CLI::App& app, CredentialFlags& flags) {
+  CertificateFiles& certificates = flags.files.certificates;
+  const auto add_file = [&app](const char* flag, std::filesystem::path& path, const char* description) {
+    return app.add_option(flag, path, description)->type_name("FILE")->check([](const std::string& text) {
+      return text.empty() ? std::string("is empty: name a file") : std::string();
+    });
+  };
+  CLI::Option* certificate =
+      add_file("--tls-cert", certificates.certificate,
+               "Talk TLS and show this certificate, with those in between (PEM); read again when it changes");
+  CLI::Option* key = add_file("--tls-key", certificates.key, "Its key (PEM, no passphrase)");
+  certificate->needs(key);
+  key->needs(certificate);
+  add_file("--tls-client-ca", certificates.client_ca,
+           "Refuse clients that show no certificate of these authorities (PEM)")
+      ->needs(certificate);
+  add_file("--token-file", flags.files.tokens, "Refuse calls that bring none of these tokens, one a line")
+      ->needs(certificate);
+  app.add_flag("--insecure", flags.insecure,
+               "Allow plain text beyond this machine: the service without TLS, and --metrics");
+}
+
+absl::Status CheckReach(const ListenAddress& address, const CredentialFlags& flags) {
+  if (flags.files.HasTls()) return absl::OkStatus();
+  return CheckPlainText("--listen", address, flags, "give --tls-cert and --tls-key, ");
+}
+
+absl::Status CheckReachOfMetrics(const ListenAddress& address, const CredentialFlags& flags) {
+  return CheckPlainText("--metrics", address, flags, "");
+}
+
+}  // namespace albtpu::server

@@ -1,0 +1,158 @@
+#include "service/server/calls/pulse_rows.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "service/server/calls/question.h"
+#include "service/server/ground/limits.h"
+#include "service/server/tables/field_violations.h"
+#include "service/server/tables/table_messages.h"
+#include "service/server/tables/wire_enums.h"
+
+namespace albtpu::server {
+namespace {
+
+// A coordinate that is missing is not a number, and makes the pulse invalid.
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+using Rows = google::protobuf::RepeatedPtrField<v1::Pulse>;
+using Values = std::array<float, kQuantityCount>;
+
+absl::Status CheckCount(const Question& question, const Rows& rows) {
+  const auto count = static_cast<std::size_t>(rows.size());
+  if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
+  const std::size_t limit = question.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
+  if (count <= limit) return absl::OkStatus();
+  return FieldViolation("pulses",
+                        absl::StrCat("there are ", count, " pulses: a message takes ", limit,
+                                     question.standard_errors ? " with standard errors, or use QueryColumns"
+                                                              : ", send several"));
+}
+
+v1::SeaSurface WriteSeaSurface(const Values& values) {
+  using Setter = void (v1::SeaSurface::*)(float);
+  constexpr std::array<Setter, kQuantityCount> kSetters = {&v1::SeaSurface::set_refraction_along_wind,
+                                                           &v1::SeaSurface::set_refraction_cross_wind,
+                                                           &v1::SeaSurface::set_thu,
+                                                           &v1::SeaSurface::set_tvu,
+                                                           &v1::SeaSurface::set_bias_along_beam,
+                                                           &v1::SeaSurface::set_bias_vertical};
+  v1::SeaSurface sea_surface;
+  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+    if (!std::isnan(values[i])) (sea_surface.*kSetters[i])(values[i]);
+  }
+  return sea_surface;
+}
+
+// The rows that have an azimuth, or those that have none, and their answers, in columns.
+class RowColumns {
+ public:
+  RowColumns(const Question& question, const Rows& rows, bool with_azimuth) : question_(question) {
+    for (int i = 0; i < rows.size(); ++i) {
+      if (rows[i].has_azimuth() == with_azimuth) Add(i, rows[i]);
+    }
+  }
+
+  // Writes each answer to the place of its row.
+  void Answer(v1::QueryPulsesResponse& response, OutcomeTally& tally) {
+    if (places_.empty()) return;
+    PulseColumns pulses{.size = places_.size(), .axis = {}};
+    for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
+    AnswerOnAllCores(question_.source->interpolator, question_.query, pulses, MakeAnswers());
+    tally.Add(outcomes_, outcome_axes_);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Write(i, *response.mutable_uncertainties(places_[i]));
+    }
+  }
+
+ private:
+  void Add(int place, const v1::Pulse& row) {
+    places_.push_back(place);
+    const auto add = [&](AxisId axis, float value) { axes_[Index(axis)].push_back(value); };
+    add(AxisId::kWindSpeed, row.has_wind_speed() ? row.wind_speed() : kMissing);
+    add(AxisId::kFetch, row.has_fetch() ? row.fetch() : std::numeric_limits<float>::infinity());
+    add(AxisId::kIncidence, row.has_incidence() ? row.incidence() : kMissing);
+    if (row.has_azimuth()) add(AxisId::kAzimuth, row.azimuth());
+    add(AxisId::kFootprint, row.has_footprint() ? row.footprint() : kMissing);
+    add(AxisId::kDepth, row.has_depth() ? row.depth() : kMissing);
+  }
+
+  AnswerColumns MakeAnswers() {
+    const std::size_t count = places_.size();
+    const auto made = [&](auto& column) {
+      column.resize(count);
+      return column.data();
+    };
+    AnswerColumns answers;
+    answers.outcomes = made(outcomes_);
+    answers.outcome_axes = made(outcome_axes_);
+    for (std::size_t q = 0; q < kQuantityCount; ++q) {
+      answers.values[q] = made(values_[q]);
+      if (question_.standard_errors) answers.standard_errors[q] = made(standard_errors_[q]);
+    }
+    if (question_.best_s44_order) answers.best_s44_orders = made(best_orders_);
+    if (question_.query.s44_order.has_value()) {
+      answers.remaining_thu = made(remaining_thu_);
+      answers.remaining_tvu = made(remaining_tvu_);
+    }
+    return answers;
+  }
+
+  void Write(std::size_t i, v1::PulseUncertainty& row) const {
+    row.set_outcome(static_cast<v1::Outcome>(outcomes_[i]));
+    row.set_axis(static_cast<v1::Axis>(outcome_axes_[i]));
+    row.set_azimuth_absent(axes_[Index(AxisId::kAzimuth)].empty());
+    if (row.outcome() != v1::OUTCOME_INTERPOLATED) return;
+    *row.mutable_sea_surface() = WriteSeaSurface(At(values_, i));
+    if (question_.standard_errors) {
+      *row.mutable_sea_surface_standard_error() = WriteSeaSurface(At(standard_errors_, i));
+    }
+    if (question_.asks_s44()) WriteS44(i, *row.mutable_s44());
+  }
+
+  void WriteS44(std::size_t i, v1::S44& s44) const {
+    if (question_.best_s44_order) s44.set_best_order(static_cast<v1::S44Order>(best_orders_[i]));
+    if (!question_.query.s44_order.has_value()) return;
+    if (!std::isnan(remaining_thu_[i])) s44.set_remaining_thu(remaining_thu_[i]);
+    if (!std::isnan(remaining_tvu_[i])) s44.set_remaining_tvu(remaining_tvu_[i]);
+  }
+
+  using QuantityColumns = std::array<std::vector<float>, kQuantityCount>;
+
+  static Values At(const QuantityColumns& columns, std::size_t i) {
+    Values values;
+    for (std::size_t q = 0; q < kQuantityCount; ++q) values[q] = columns[q][i];
+    return values;
+  }
+
+  const Question& question_;
+  std::vector<int> places_;
+  std::array<std::vector<float>, kAxisCount> axes_;
+  std::vector<std::uint8_t> outcomes_, outcome_axes_, best_orders_;
+  QuantityColumns values_, standard_errors_;
+  std::vector<float> remaining_thu_, remaining_tvu_;
+};
+
+}  // namespace
+
+absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
+                          v1::QueryPulsesResponse& response, OutcomeTally& tally) {
+  const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
+  if (!question.ok()) return question.status();
+  const absl::Status status = CheckCount(*question, request.pulses());
+  if (!status.ok()) return status;
+  *response.mutable_table() = WriteReference(*question->source);
+  response.set_coverage(ToWire(question->query.coverage));
+  response.mutable_uncertainties()->Reserve(request.pulses_size());
+  for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
+  for (bool with_azimuth : {true, false}) {
+    RowColumns(*question, request.pulses(), with_azimuth).Answer(response, tally);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu::server

@@ -1,0 +1,46 @@
+#include "service/server/connections/connection_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "service/server/ground/limits.h"
+#include "service/server/observe/process_metrics.h"
+
+namespace albtpu::server {
+namespace {
+
+double ResidentBytes() {
+  const std::optional<ProcessMemory> memory = ReadProcessMemory();
+  return memory.has_value() ? memory->resident_bytes : 0;
+}
+
+}  // namespace
+
+std::vector<Caller> CallersToEnd(std::vector<ConnectionCalls> connections) {
+  std::sort(connections.begin(), connections.end(),
+            [](const ConnectionCalls& a, const ConnectionCalls& b) { return a.calls > b.calls; });
+  long of_all = 0;
+  for (const ConnectionCalls& connection : connections) of_all += connection.calls;
+  std::vector<Caller> callers;
+  for (const ConnectionCalls& connection : connections) {
+    if (connection.calls <= kMaxCallsInMemory && of_all <= kMaxCallsOfAll) break;
+    callers.push_back(connection.caller);
+    of_all -= connection.calls;
+  }
+  return callers;
+}
+
+ConnectionWatch::ConnectionWatch(std::function<void(const std::vector<Caller>&)> end)
+    : end_(std::move(end)), resident_bytes_(ResidentBytes()), looking_(kMemoryLook, [this] { Look(); }) {}
+
+void ConnectionWatch::Look() {
+  const double bytes = ResidentBytes();
+  if (bytes > resident_bytes_ + static_cast<double>(kMemoryGrowth)) {
+    const std::vector<Caller> callers = CallersToEnd(CountConnectionCalls());
+    if (!callers.empty()) end_(callers);
+    resident_bytes_ = bytes;
+  }
+  resident_bytes_ = std::min(resident_bytes_, bytes);
+}
+
+}  // namespace albtpu::server

@@ -1,0 +1,26 @@
+#include "service/server/ground/repeated.h"
+
+#include <utility>
+
+namespace albtpu::server {
+
+Repeated::Repeated(std::chrono::milliseconds interval, std::function<void()> work)
+    : thread_([this, interval, work = std::move(work)] {
+        std::unique_lock lock(mutex_);
+        while (!stopped_.wait_for(lock, interval, [this] { return stop_; })) {
+          lock.unlock();
+          work();
+          lock.lock();
+        }
+      }) {}
+
+Repeated::~Repeated() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  stopped_.notify_one();
+  thread_.join();
+}
+
+}  // namespace albtpu::server

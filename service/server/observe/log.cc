@@ -1,0 +1,146 @@
+#include "service/server/observe/log.h"
+
+#include <limits.h>
+#include <poll.h>
+#include <spdlog/sinks/base_sink.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "service/printable_text.h"
+
+namespace albtpu::server {
+namespace {
+
+// A longer line is cut: what a pipe takes without waiting if it takes anything.
+constexpr std::size_t kMaxLineBytes = PIPE_BUF;
+
+// spdlog takes text alone; a formatter finds here what else belongs to the line that this thread logs.
+thread_local const LogFields* line_fields = nullptr;
+thread_local const RequestId* current_request = nullptr;
+
+LogFields Fields() {
+  LogFields fields = LogFields::object();
+  if (current_request != nullptr) fields["request_id"] = current_request->text();
+  if (line_fields != nullptr && line_fields->is_object()) fields.update(*line_fields);
+  return fields;
+}
+
+std::string Text(const LogFields& json) {
+  return json.dump(-1, ' ', false, LogFields::error_handler_t::replace);
+}
+
+std::string JsonLine(const spdlog::details::log_msg& line, const std::string& message) {
+  const spdlog::string_view_t level = spdlog::level::to_string_view(line.level);
+  LogFields json = {
+      {"time", absl::FormatTime("%Y-%m-%dT%H:%M:%E3SZ", absl::FromChrono(line.time), absl::UTCTimeZone())},
+      {"level", std::string(level.data(), level.size())},
+      {"message", message}};
+  json.update(Fields());
+  return Text(json);
+}
+
+std::string TextLine(const spdlog::details::log_msg& line, const std::string& message) {
+  std::string text = PrintableText(message);
+  const LogFields fields = Fields();
+  const char* separator = " [";
+  for (const auto& [name, value] : fields.items()) {
+    absl::StrAppend(&text, separator, name, "=",
+                    value.is_string() ? PrintableText(value.get<std::string>()) : Text(value));
+    separator = " ";
+  }
+  return absl::StrCat(std::string(line.logger_name.data(), line.logger_name.size()), ": ", text,
+                      fields.empty() ? "" : "]");
+}
+
+class LineFormatter final : public spdlog::formatter {
+ public:
+  explicit LineFormatter(LogStyle style) : style_(style) {}
+
+  void format(const spdlog::details::log_msg& line, spdlog::memory_buf_t& buffer) override {
+    std::string message(line.payload.data(), line.payload.size());
+    std::string text = Line(line, message);
+    while (text.size() > kMaxLineBytes && !message.empty()) {
+      message.resize(message.size() / 2);
+      text = Line(line, message + " ...");
+    }
+    buffer.append(text.data(), text.data() + text.size());
+  }
+
+  std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<LineFormatter>(style_);
+  }
+
+ private:
+  std::string Line(const spdlog::details::log_msg& line, const std::string& message) const {
+    return (style_ == LogStyle::kJson ? JsonLine(line, message) : TextLine(line, message)) + "\n";
+  }
+
+  const LogStyle style_;
+};
+
+class Sink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit Sink(int descriptor) : descriptor_(descriptor) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& line) override {
+    if (left_out_ > 0 && HasRoom()) {
+      const std::string text = absl::StrCat(left_out_, " lines were left out: nobody read the log");
+      const LogFields* fields = std::exchange(line_fields, nullptr);
+      const RequestId* request = std::exchange(current_request, nullptr);
+      Write(spdlog::details::log_msg(line.logger_name, spdlog::level::warn, text));
+      line_fields = fields;
+      current_request = request;
+      left_out_ = 0;
+    }
+    if (HasRoom()) return Write(line);
+    ++left_out_;
+  }
+
+  // A pipe that has room takes kMaxLineBytes at once.
+  bool HasRoom() const {
+    pollfd state = {descriptor_, POLLOUT, 0};
+    return poll(&state, 1, 0) == 1 && (state.revents & POLLOUT) != 0;
+  }
+
+  void Write(const spdlog::details::log_msg& line) {
+    spdlog::memory_buf_t text;
+    formatter_->format(line, text);
+    // Where the log has gone or its disk is full, there is nobody to tell.
+    [[maybe_unused]] const ssize_t written = write(descriptor_, text.data(), text.size());
+  }
+
+  void flush_() override {}
+
+  const int descriptor_;
+  long left_out_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<spdlog::sinks::sink> MakeLogSink(int descriptor) {
+  return std::make_shared<Sink>(descriptor);
+}
+
+std::unique_ptr<spdlog::formatter> MakeLogFormatter(LogStyle style) {
+  return std::make_unique<LineFormatter>(style);
+}
+
+void Log(spdlog::level::level_enum level, const std::string& message, const LogFields& fields) {
+  line_fields = &fields;
+  spdlog::log(level, spdlog::string_view_t(message));
+  line_fields = nullptr;
+}
+
+RequestScope::RequestScope(const RequestId& request_id)
+    : before_(std::exchange(current_request, &request_id)) {}
+
+RequestScope::~RequestScope() { current_request = before_; }
+
+}  // namespace albtpu::server

@@ -1,0 +1,33 @@
+// Where Prometheus asks for the metrics: plain HTTP, GET /metrics.
+#pragma once
+
+#include <prometheus/exposer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "service/server/ground/listen_address.h"
+
+namespace albtpu::server {
+
+class MetricsEndpoint {
+ public:
+  // Listens until it is destroyed, and answers with the metrics of all `sources` that still live.
+  // Unavailable, with the reason, when it cannot listen.
+  static absl::StatusOr<std::unique_ptr<MetricsEndpoint>> Start(
+      const ListenAddress& address, const std::vector<std::shared_ptr<prometheus::Collectable>>& sources);
+
+  // HOST:PORT with the port that is listened on.
+  const std::string& address() const { return address_; }
+
+ private:
+  MetricsEndpoint(std::unique_ptr<prometheus::Exposer> exposer, std::string address)
+      : exposer_(std::move(exposer)), address_(std::move(address)) {}
+
+  std::unique_ptr<prometheus::Exposer> exposer_;
+  std::string address_;
+};
+
+}  // namespace albtpu::server

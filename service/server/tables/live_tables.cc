@@ -1,0 +1,66 @@
+#include "service/server/tables/live_tables.h"
+
+#include <exception>
+#include <utility>
+
+#include "absl/status/status.h"
+
+namespace albtpu::server {
+
+LiveTables::LiveTables(TableCatalog catalog, Listener on_reload)
+    : on_reload_(std::move(on_reload)),
+      current_(std::make_shared<const TableCatalog>(std::move(catalog))),
+      thread_([this] { Run(); }) {}
+
+LiveTables::~LiveTables() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+std::shared_ptr<const TableCatalog> LiveTables::current() const {
+  const std::lock_guard lock(mutex_);
+  return current_;
+}
+
+void LiveTables::Reload(Listener done) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(done));
+  }
+  changed_.notify_one();
+}
+
+void LiveTables::Run() {
+  while (true) {
+    std::vector<Listener> listeners;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (stopping_) return;
+      listeners.swap(waiting_);
+    }
+    const Outcome outcome = ReloadNow();
+    on_reload_(outcome);
+    for (const Listener& listener : listeners) listener(outcome);
+  }
+}
+
+LiveTables::Outcome LiveTables::ReloadNow() try {
+  absl::StatusOr<TableCatalog::Reread> reread = current()->ReadAgain();
+  if (!reread.ok()) return reread.status();
+  auto next = std::make_shared<const TableCatalog>(std::move(reread->catalog));
+  {
+    const std::lock_guard lock(mutex_);
+    current_.swap(next);
+  }
+  // `next` is what was: freed here, unless calls still answer from it.
+  return std::move(reread->changes);
+} catch (const std::exception& error) {
+  return absl::InternalError(error.what());
+}
+
+}  // namespace albtpu::server

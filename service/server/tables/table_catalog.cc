@@ -1,0 +1,101 @@
+#include "service/server/tables/table_catalog.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "tables/file/table_io.h"
+
+namespace albtpu::server {
+namespace {
+
+using Kind = TableCatalog::Change::Kind;
+
+absl::StatusOr<std::shared_ptr<const TableCatalog::Entry>> Read(const TableFile& file) {
+  const FileStamp stamp = StampOf(file.path);  // Older than the content: a change meanwhile is noticed.
+  absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
+  if (!table.ok()) return table.status();
+  ColumnInterpolator interpolator(*table);
+  return std::make_shared<const TableCatalog::Entry>(
+      TableCatalog::Entry{file.FullName(), *std::move(table), std::move(interpolator), stamp});
+}
+
+// Several failures as one.
+class Failures {
+ public:
+  void Add(const absl::Status& status) {
+    const absl::string_view before = all_.message();
+    all_ = absl::Status(all_.ok() ? status.code() : all_.code(),
+                        absl::StrCat(before, before.empty() ? "" : "; ", status.message()));
+  }
+  const absl::Status& all() const { return all_; }
+
+ private:
+  absl::Status all_;
+};
+
+absl::Status CheckNames(const std::vector<TableFile>& files, const std::filesystem::path& folder,
+                        std::string_view default_table) {
+  if (files.empty()) {
+    return absl::NotFoundError(
+        absl::StrCat("there is no table in '", folder.string(), "': tables are NAME.h5 and NAME/VERSION.h5"));
+  }
+  if (default_table.empty()) return absl::OkStatus();
+  const absl::Status found = FindTable(files, default_table).status();
+  if (found.ok()) return found;
+  return absl::Status(found.code(), absl::StrCat("default table: ", found.message()));
+}
+
+}  // namespace
+
+absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& folder,
+                                                std::string_view default_table) {
+  absl::StatusOr<Reread> first = TableCatalog(folder, default_table).ReadAgain();
+  if (!first.ok()) return first.status();
+  return std::move(first->catalog);
+}
+
+absl::StatusOr<TableCatalog::Reread> TableCatalog::ReadAgain() const {
+  absl::StatusOr<std::vector<TableFile>> files = FindTables(folder_);
+  if (!files.ok()) return files.status();
+  const absl::Status names = CheckNames(*files, folder_, default_table_);
+  if (!names.ok()) return names;
+  Reread reread{TableCatalog(folder_, default_table_), {}};
+  TableCatalog& catalog = reread.catalog;
+  Failures failures;
+  for (TableFile& file : *files) {
+    std::shared_ptr<const Entry> entry = EntryOf(file.FullName());
+    const bool is_kept = entry != nullptr && entry->stamp == StampOf(file.path);
+    if (!is_kept) {
+      absl::StatusOr<std::shared_ptr<const Entry>> read = Read(file);
+      if (!read.ok()) {
+        failures.Add(read.status());
+        continue;
+      }
+      entry = *std::move(read);
+    }
+    reread.changes.push_back({entry->name, is_kept ? Kind::kKept : Kind::kLoaded});
+    file.published = entry->table.is_published();
+    catalog.files_.push_back(std::move(file));
+    catalog.entries_.push_back(std::move(entry));
+  }
+  if (!failures.all().ok()) return failures.all();
+  for (const std::shared_ptr<const Entry>& entry : entries_) {
+    if (catalog.EntryOf(entry->name) == nullptr) reread.changes.push_back({entry->name, Kind::kRemoved});
+  }
+  return reread;
+}
+
+std::shared_ptr<const TableCatalog::Entry> TableCatalog::EntryOf(std::string_view name) const {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry->name == name; });
+  return found == entries_.end() ? nullptr : *found;
+}
+
+absl::StatusOr<const TableCatalog::Entry*> TableCatalog::Find(std::string_view request) const {
+  const absl::StatusOr<std::size_t> found = FindTable(files_, request, default_table_);
+  if (!found.ok()) return found.status();
+  return entries_[*found].get();
+}
+
+}  // namespace albtpu::server

@@ -1,0 +1,92 @@
+#include "service/server/tables/wire_enums.h"
+
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "service/server/tables/field_violations.h"
+
+namespace albtpu::server {
+namespace {
+
+// Those enums of the wire that are written as ours with "unspecified" before them.
+template <typename WireEnum, typename Enum>
+constexpr WireEnum AfterUnspecified(Enum value) {
+  return static_cast<WireEnum>(static_cast<int>(value) + 1);
+}
+
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kWindSpeed) == v1::AXIS_WIND_SPEED);
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kFetch) == v1::AXIS_FETCH);
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kIncidence) == v1::AXIS_INCIDENCE);
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kAzimuth) == v1::AXIS_AZIMUTH);
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kFootprint) == v1::AXIS_FOOTPRINT);
+static_assert(AfterUnspecified<v1::Axis>(AxisId::kDepth) == v1::AXIS_DEPTH);
+
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionAlongWind) ==
+              v1::QUANTITY_REFRACTION_ALONG_WIND);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kRefractionCrossWind) ==
+              v1::QUANTITY_REFRACTION_CROSS_WIND);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kThu) == v1::QUANTITY_THU);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kTvu) == v1::QUANTITY_TVU);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kBiasAlongBeam) == v1::QUANTITY_BIAS_ALONG_BEAM);
+static_assert(AfterUnspecified<v1::Quantity>(Quantity::kBiasVertical) == v1::QUANTITY_BIAS_VERTICAL);
+
+static_assert(AfterUnspecified<v1::Outcome>(Outcome::kInterpolated) == v1::OUTCOME_INTERPOLATED);
+static_assert(AfterUnspecified<v1::Outcome>(Outcome::kOutOfDomain) == v1::OUTCOME_OUT_OF_DOMAIN);
+static_assert(AfterUnspecified<v1::Outcome>(Outcome::kInvalid) == v1::OUTCOME_INVALID);
+
+static_assert(AfterUnspecified<v1::S44Order>(S44Order::kExclusive) == v1::S44_ORDER_EXCLUSIVE);
+static_assert(AfterUnspecified<v1::S44Order>(S44Order::kSpecial) == v1::S44_ORDER_SPECIAL);
+static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1a) == v1::S44_ORDER_1A);
+static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1b) == v1::S44_ORDER_1B);
+static_assert(AfterUnspecified<v1::S44Order>(S44Order::k2) == v1::S44_ORDER_2);
+
+absl::Status NoSuchNumber(std::string_view field, int number, std::string_view enum_name) {
+  return FieldViolation(field, absl::StrCat(std::string(field), " is ", number, ": no value of ",
+                                            std::string(enum_name), " has this number"));
+}
+
+}  // namespace
+
+v1::Axis ToWire(AxisId axis) { return AfterUnspecified<v1::Axis>(axis); }
+
+v1::Axis ToWire(std::optional<AxisId> axis) {
+  return axis.has_value() ? ToWire(*axis) : v1::AXIS_UNSPECIFIED;
+}
+
+v1::Quantity ToWire(Quantity quantity) { return AfterUnspecified<v1::Quantity>(quantity); }
+
+v1::Scale ToWire(Scale scale) { return scale == Scale::kLog ? v1::SCALE_LOG : v1::SCALE_LINEAR; }
+
+v1::Outcome ToWire(Outcome outcome) { return AfterUnspecified<v1::Outcome>(outcome); }
+
+v1::Coverage ToWire(Coverage coverage) {
+  return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+}
+
+v1::S44Order ToWire(std::optional<S44Order> order) {
+  return order.has_value() ? AfterUnspecified<v1::S44Order>(*order) : v1::S44_ORDER_UNSPECIFIED;
+}
+
+absl::StatusOr<Coverage> FromWire(v1::Coverage coverage) {
+  if (!v1::Coverage_IsValid(coverage)) return NoSuchNumber("options.coverage", coverage, "Coverage");
+  return coverage == v1::COVERAGE_P95 ? Coverage::kP95 : Coverage::kTwoSigma;
+}
+
+absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order) {
+  if (!v1::S44Order_IsValid(order)) return NoSuchNumber("options.s44_order", order, "S44Order");
+  if (order == v1::S44_ORDER_UNSPECIFIED) return std::nullopt;
+  return static_cast<S44Order>(order - 1);
+}
+
+absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
+  if (!v1::Quantity_IsValid(quantity)) return NoSuchNumber("quantities", quantity, "Quantity");
+  if (quantity == v1::QUANTITY_UNSPECIFIED) {
+    return FieldViolation("quantities",
+                          "quantities holds QUANTITY_UNSPECIFIED: leave it empty to ask for all");
+  }
+  return static_cast<Quantity>(quantity - 1);
+}
+
+}  // namespace albtpu::server

@@ -1,0 +1,30 @@
+// The enums of the wire and those of tables/, each into the other.
+#pragma once
+
+#include <optional>
+
+#include "absl/status/statusor.h"
+#include "albtpu/v1/pulse.pb.h"
+#include "albtpu/v1/table.pb.h"
+#include "albtpu/v1/uncertainty.pb.h"
+#include "tables/coverage.h"
+#include "tables/query/interpolation.h"
+#include "tables/s44.h"
+#include "tables/schema.h"
+
+namespace albtpu::server {
+
+v1::Axis ToWire(AxisId axis);
+v1::Axis ToWire(std::optional<AxisId> axis);  // Unspecified: none.
+v1::Quantity ToWire(Quantity quantity);
+v1::Scale ToWire(Scale scale);
+v1::Outcome ToWire(Outcome outcome);
+v1::Coverage ToWire(Coverage coverage);
+v1::S44Order ToWire(std::optional<S44Order> order);  // Unspecified: none.
+
+// Numbers that are no value of the enum are an InvalidArgument that names the field.
+absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);              // Unspecified: 2 sigma.
+absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order);  // Unspecified: none.
+absl::StatusOr<Quantity> FromWire(v1::Quantity quantity);              // Unspecified is an error.
+
+}  // namespace albtpu::server

@@ -1,0 +1,72 @@
+// What was answered in a file, in one pass: outcomes, and uncertainty by depth beside S-44. For people as
+// text, for programs as JSON.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "survey/answers/answer_style.h"
+#include "survey/answers/batch.h"
+#include "survey/answers/outcome_counts.h"
+
+namespace albtpu::client {
+
+// Sums depend on how the pulses were divided into batches and on the order in which those were merged, in the
+// last bits.
+class UncertaintySummary {
+ public:
+  explicit UncertaintySummary(AnswerStyle style) : style_(style) {}
+
+  // Adds to a selection what the summary is made of.
+  static void Select(AnswerSelection& selection);
+
+  void Add(const PulseBatch& pulses, const AnswerBatch& answers);
+  void Merge(const UncertaintySummary& other);
+
+  const OutcomeCounts& outcomes() const { return outcomes_; }
+
+  // Several lines: outcomes, then a table of depth bands.
+  std::string Text() const;
+
+  // `outcomes`, `depth`, `s44_best_order` (pulses by the strictest order that the sea surface alone leaves
+  // open) and `depth_bands` with `thu` and `tvu` in m.
+  nlohmann::ordered_json Json() const;
+
+ private:
+  // Upper ends of the bands, m; the last band is open.
+  static constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
+
+  struct Range {
+    double sum = 0, standard_error_sum = 0;
+    float least = std::numeric_limits<float>::infinity(), greatest = -least;
+
+    void Add(float value, float standard_error);
+    void Merge(const Range& other);
+    nlohmann::ordered_json Json(std::uint64_t count, bool standard_errors) const;
+  };
+
+  struct Band {
+    std::uint64_t count = 0;
+    std::array<std::uint64_t, kS44Orders.size() + 1> best_orders = {};  // 0: none.
+    Range thu, tvu;
+
+    std::uint64_t Within(S44Order order) const;  // Those that leave this order open.
+    void Merge(const Band& other);
+  };
+
+  S44Order order() const { return style_.s44_order.value_or(S44Order::k1b); }
+  std::string BandText(std::size_t band) const;
+  nlohmann::ordered_json BandJson(std::size_t band) const;
+
+  AnswerStyle style_;
+  OutcomeCounts outcomes_;
+  std::array<Band, kBandEnds.size() + 1> bands_ = {};
+  float least_depth_ = std::numeric_limits<float>::infinity();  // Of pulses with an uncertainty.
+  float greatest_depth_ = -std::numeric_limits<float>::infinity();
+};
+
+}  // namespace albtpu::client

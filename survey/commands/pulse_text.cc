@@ -1,0 +1,128 @@
+#include "survey/commands/pulse_text.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "survey/answers/answer_cells.h"
+#include "survey/answers/uncertainty_summary.h"
+#include "survey/number_text.h"
+#include "tables/s44.h"
+
+namespace albtpu::client {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string CoordinateText(AxisId axis, std::optional<float> value) {
+  if (axis == AxisId::kFetch && std::isinf(value.value_or(INFINITY))) return "fully developed sea";
+  if (!value.has_value()) return "not given: each value is the larger of those along and across the wind";
+  return absl::StrCat(FormatFloat(*value), " ", std::string(Describe(axis).units));
+}
+
+std::string Line(std::string_view label, std::string_view text) {
+  return absl::StrFormat("%-24s %s\n", std::string(label), std::string(text));
+}
+
+std::string ValueText(Quantity quantity, const PulseAnswer& answer) {
+  const AnswerStyle& style = answer.style;
+  const float value = answer.stated[quantity][0];
+  if (!std::isfinite(value)) return "not in this table";
+  std::string text = absl::StrFormat("%.6g", value);
+  if (style.standard_errors) {
+    const float error = answer.stated.standard_errors[Index(quantity)][0];
+    absl::StrAppend(
+        &text, std::isfinite(error) ? absl::StrFormat(" +- %.2g", error) : " (standard error not known)");
+  }
+  absl::StrAppend(&text, " ", std::string(Describe(quantity).units));
+  if (Describe(quantity).is_bias) return text + ", mean";
+  return absl::StrCat(text, ", ", CoverageText(style.coverage));
+}
+
+std::string Room(double limit, double ours) {
+  const std::optional<double> left = RemainingBudget(limit, ours);
+  return left.has_value() ? absl::StrFormat("%.3f m", *left) : "exceeded";
+}
+
+std::string S44Text(const PulseAnswer& answer) {
+  const double thu = answer.p95[Quantity::kThu][0], tvu = answer.p95[Quantity::kTvu][0];
+  const double depth = *answer.pulse[Index(AxisId::kDepth)];
+  const std::uint8_t best = answer.p95.best_s44_orders[0];
+  std::string text = absl::StrFormat("\n%s, all at 95 %%: the sea surface alone has THU %.6g m, TVU %.6g m\n",
+                                     std::string(kS44Edition), thu, tvu);
+  absl::StrAppend(&text,
+                  "best order left open: ", best > 0 ? std::string(Name(kS44Orders[best - 1])) : "none", "\n",
+                  absl::StrFormat("%-12s %12s %12s %26s\n", "order", "THU limit", "TVU limit",
+                                  "left for all else: THU, TVU"));
+  for (const S44Order order : kS44Orders) {
+    if (answer.style.s44_order.value_or(order) != order) continue;
+    const double thu_limit = ThuLimit(order, depth), tvu_limit = TvuLimit(order, depth);
+    absl::StrAppend(&text, absl::StrFormat("%-12s %10.3f m %10.3f m %13s %13s\n", std::string(Name(order)),
+                                           thu_limit, tvu_limit, Room(thu_limit, thu), Room(tvu_limit, tvu)));
+  }
+  return text;
+}
+
+std::string WhyNoNumber(const AnswerBatch& answer, const TableSummary& table) {
+  const std::uint8_t number = answer.outcome_axes[0];
+  if (number == 0) return "no number";
+  const AxisSchema& axis = Describe(kAxes[number - 1]);
+  const AxisRange& range = table.axes[number - 1];
+  return absl::StrFormat("no number is invented: the table reaches %s from %g to %g %s",
+                         std::string(axis.name), range.first, range.last, std::string(axis.units));
+}
+
+}  // namespace
+
+absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle style,
+                                     UncertaintySource& source) {
+  PulseAnswer answer{.pulse = pulse, .style = style, .stated = {}, .p95 = {}};
+  const PulseBatch batch = OnePulse(pulse);
+  AnswerSelection surface;
+  UncertaintySummary::Select(surface);
+  absl::Status status =
+      source.Answer(style.query(), batch.columns(), answer.stated.Resize(1, AnswerCells(style).selection()));
+  if (status.ok()) {
+    status = source.Answer({.coverage = Coverage::kP95, .s44_order = {}}, batch.columns(),
+                           answer.p95.Resize(1, surface));
+  }
+  if (!status.ok()) return status;
+  return answer;
+}
+
+std::string PulseText(const PulseAnswer& answer, const TableSummary& table) {
+  std::string text = Line("table", absl::StrCat(table.id, " ", table.version, ": ", table.title)) +
+                     Line("digest", table.digest);
+  for (const AxisId axis : kAxes) {
+    text += Line(Describe(axis).name, CoordinateText(axis, answer.pulse[Index(axis)]));
+  }
+  text += Line("outcome", OutcomeName(answer.stated.outcomes[0], answer.stated.outcome_axes[0]));
+  if (!answer.stated.interpolated(0)) return text + WhyNoNumber(answer.stated, table) + "\n";
+  for (const Quantity quantity : kQuantities) {
+    text += Line(Describe(quantity).name, ValueText(quantity, answer));
+  }
+  return text + S44Text(answer);
+}
+
+std::string PulseJson(const PulseAnswer& answer, const TableSummary& table) {
+  Json object;
+  for (const AxisId axis : kAxes) {
+    const std::optional<float>& value = answer.pulse[Index(axis)];
+    object[std::string(Describe(axis).name)] = value.has_value() ? JsonNumber(*value) : Json();
+  }
+  const AnswerCells cells(answer.style);
+  auto name = cells.names().begin();
+  cells.Visit(
+      answer.stated, 0, [&](float number) { object[*name++] = JsonNumber(number); },
+      [&](std::string_view cell) { object[*name++] = cell; }, [&] { object[*name++] = nullptr; });
+  object["azimuth_absent"] = !answer.pulse[Index(AxisId::kAzimuth)].has_value();
+  object["table"] = table.id;
+  object["version"] = table.version;
+  object["digest"] = table.digest;
+  object["coverage"] = answer.style.coverage == Coverage::kTwoSigma ? "2sigma" : "p95";
+  return object.dump(2) + "\n";
+}
+
+}  // namespace albtpu::client

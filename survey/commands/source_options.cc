@@ -1,0 +1,111 @@
+#include "survey/commands/source_options.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "service/client/local_source.h"
+#include "service/client/server_source.h"
+#include "survey/exit_status.h"
+#include "tables/default_tables.h"
+#include "tables/file/table_folder.h"
+#include "tables/file/table_io.h"
+
+namespace albtpu::client {
+namespace {
+
+absl::Status CheckName(const SourceOptions& options) {
+  if (options.file.empty() || options.name.empty()) return absl::OkStatus();
+  return UsageError("--table-name: chooses among several tables: leave it out where --table names a file");
+}
+
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenFile(std::string name,
+                                                            const std::filesystem::path& path) {
+  absl::StatusOr<UncertaintyTable> table = ReadTable(path);
+  if (!table.ok()) return table.status();
+  return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *table));
+}
+
+// What else can be done where no installed table answers.
+absl::Status Advised(const absl::Status& status) {
+  return absl::Status(status.code(),
+                      absl::StrCat(status.message(),
+                                   " (--table-name chooses, --table names a file, --server a service, "
+                                   "ALBTPU_TABLES a folder of tables)"));
+}
+
+absl::StatusOr<std::vector<TableFile>> InstalledTables() {
+  absl::StatusOr<std::vector<TableFile>> tables = FindTables(DefaultTablesDirectory());
+  if (!tables.ok()) return Advised(tables.status());
+  return tables;
+}
+
+// Where no name decides, what the files hold may.
+absl::StatusOr<std::size_t> ChooseTable(std::vector<TableFile> tables, const std::string& name) {
+  absl::StatusOr<std::size_t> chosen = FindTable(tables, name);
+  if (chosen.ok() || !name.empty()) return chosen;
+  for (TableFile& file : tables) {
+    const absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
+    file.published = table.ok() && table->is_published();
+  }
+  return FindTable(tables, name);
+}
+
+absl::StatusOr<std::vector<TableSummary>> ListInstalledTables() {
+  const absl::StatusOr<std::vector<TableFile>> files = InstalledTables();
+  if (!files.ok()) return files.status();
+  const absl::StatusOr<std::size_t> standard = ChooseTable(*files, "");
+  std::vector<TableSummary> tables;
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    const absl::StatusOr<UncertaintyTable> table = ReadTable((*files)[i].path);
+    if (!table.ok()) return table.status();
+    tables.push_back(Summarize((*files)[i].FullName(), *table));
+    tables.back().is_default = standard.ok() && *standard == i;
+  }
+  return tables;
+}
+
+bool HasName(const TableSummary& table, const std::string& name) {
+  return table.name == name || table.name.substr(0, table.name.find('/')) == name;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options) {
+  if (absl::Status status = CheckName(options); !status.ok()) return status;
+  if (!options.file.empty()) return OpenFile("", options.file);
+  if (!options.server.empty()) {
+    return OpenServer(options.server, options.name, {}, options.credentials);
+  }
+  const absl::StatusOr<std::vector<TableFile>> tables = InstalledTables();
+  if (!tables.ok()) return tables.status();
+  const absl::StatusOr<std::size_t> chosen = ChooseTable(*tables, options.name);
+  if (!chosen.ok()) return Advised(chosen.status());
+  return OpenFile((*tables)[*chosen].FullName(), (*tables)[*chosen].path);
+}
+
+absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& options) {
+  if (absl::Status status = CheckName(options); !status.ok()) return status;
+  std::vector<TableSummary> tables;
+  if (!options.server.empty()) {
+    absl::StatusOr<std::vector<TableSummary>> listed = ListServerTables(options.server, options.credentials);
+    if (!listed.ok()) return listed.status();
+    tables = *std::move(listed);
+  } else if (!options.file.empty()) {
+    const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options);
+    if (!source.ok()) return source.status();
+    tables.push_back((*source)->table());
+  } else {
+    absl::StatusOr<std::vector<TableSummary>> installed = ListInstalledTables();
+    if (!installed.ok()) return installed.status();
+    tables = *std::move(installed);
+  }
+  if (options.name.empty()) return tables;
+  std::erase_if(tables, [&](const TableSummary& table) { return !HasName(table, options.name); });
+  if (tables.empty()) {
+    return absl::NotFoundError(
+        absl::StrCat("no table '", options.name, "': `albtpu-query tables` without --table-name lists them"));
+  }
+  return tables;
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,54 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "service/printable_text.h"
+#include "survey/commands/commands.h"
+#include "survey/commands/options.h"
+#include "survey/exit_status.h"
+
+namespace albtpu::client {
+namespace {
+
+std::string Text(const TableSummary& table) {
+  std::string text = absl::StrCat(PrintableText(table.name.empty() ? table.id : table.name),
+                                  table.is_default ? " (default)" : "", "\n");
+  const auto line = [&text](std::string_view label, const std::string& value) {
+    absl::StrAppend(&text, absl::StrFormat("  %-24s %s\n", PrintableText(label), PrintableText(value)));
+  };
+  line("title", table.title);
+  line("id", table.id);
+  line("version", table.version);
+  line("digest", table.digest);
+  for (const AxisId id : kAxes) {
+    const AxisRange& range = table.axes[Index(id)];
+    line(Describe(id).name,
+         absl::StrFormat("%g to %g %s, %d %s", range.first, range.last, std::string(Describe(id).units),
+                         range.nodes, range.nodes == 1 ? "node" : "nodes"));
+  }
+  for (const auto& [name, value] : table.attributes) line(name, value);
+  return text;
+}
+
+absl::Status RunTables(const SharedOptions& options) {
+  const absl::StatusOr<std::vector<TableSummary>> tables = ListTables(options.source);
+  if (!tables.ok()) return tables.status();
+  for (std::size_t i = 0; i < tables->size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text((*tables)[i]);
+  if (tables->empty()) Note("no tables: make one by albtpu-generate, or name a file by --table");
+  return FlushAnswers();
+}
+
+}  // namespace
+
+void AddTablesCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<SharedOptions>();
+  CLI::App* command =
+      program.add_subcommand("tables", "Print which tables there are: names, ranges, digests, provenance");
+  AddSharedOptions(*command, *options);
+  command->callback([options, &run] { run = [options] { return RunTables(*options); }; });
+}
+
+}  // namespace albtpu::client

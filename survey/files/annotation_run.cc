@@ -1,0 +1,117 @@
+#include "survey/files/annotation_run.h"
+
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "survey/exit_status.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kWorthTiming = 2;  // s
+
+// Whether later files can fare better than this one did: not where the source has failed, or takes the token no
+// more, or the disk is full.
+bool IsOfOneFile(const absl::Status& status) {
+  return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status) &&
+         !absl::IsResourceExhausted(status) && !absl::IsUnauthenticated(status);
+}
+
+std::uint64_t SizeOf(const fs::path& path) {
+  std::error_code unknown;
+  const std::uintmax_t size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
+  return unknown ? 0 : size;
+}
+
+std::uint64_t TotalSize(const std::vector<Job>& jobs) {
+  std::uint64_t total = 0;
+  for (const Job& job : jobs) total += SizeOf(job.input);
+  return total;
+}
+
+class Run {
+ public:
+  Run(const AnnotationRun& run, const TableSummary& table, const std::vector<Job>& jobs)
+      : run_(run),
+        making_{run.command, run.parameters, table},
+        jobs_(jobs),
+        progress_(run.records, jobs.size(), TotalSize(jobs)) {}
+
+  absl::Status operator()() {
+    for (const Job& job : jobs_) {
+      progress_.NextFile();
+      const absl::Status status = Annotate(job);
+      if (status.ok()) {
+        ++done_;
+      } else if (jobs_.size() == 1) {
+        return status;
+      } else if (!IsOfOneFile(status)) {
+        return absl::Status(status.code(), absl::StrCat(status.message(), "; ", DoneText()));
+      } else {
+        Report(status);
+        ++failed_;
+      }
+    }
+    if (progress_.seconds() >= kWorthTiming && progress_.records() > 0) {
+      Note(absl::StrFormat("%d %s in %.1f s: %s", progress_.records(), run_.records, progress_.seconds(),
+                           RateText(progress_.records(), progress_.seconds(), run_.records)));
+    }
+    if (failed_ == 0) return absl::OkStatus();
+    return absl::FailedPreconditionError(absl::StrCat(failed_, " of ", jobs_.size(),
+                                                      " files failed: see above",
+                                                      done_ > 0 ? "; the others are written" : ""));
+  }
+
+ private:
+  absl::Status Annotate(const Job& job) {
+    if (run_.resume) {
+      const absl::Status made = CheckMade(making_, job);
+      if (made.ok()) {
+        progress_.Skip(SizeOf(job.input));
+        Note(absl::StrCat(job.output.string(), ": is made already"));
+        return made;
+      }
+      if (!absl::IsNotFound(made) && run_.existing == Existing::kKeep) {
+        return absl::Status(made.code(),
+                            absl::StrCat(made.message(), ": --overwrite it, or choose another name"));
+      }
+    }
+    absl::Status possible = CheckNotTheSameFile(job.input, SummaryPath(job.output));
+    if (possible.ok()) possible = CheckSummaryCanBeWritten(job, run_.existing);
+    if (!possible.ok()) return possible;
+    std::error_code error;  // Creating the output says what is wrong.
+    if (job.in_subfolder) fs::create_directories(job.output.parent_path(), error);
+    absl::StatusOr<AnnotatedFile> annotated = run_.annotate(job, progress_);
+    if (!annotated.ok()) return annotated.status();
+    const std::string summary = SummaryText(making_, job, annotated->findings, annotated->file.size());
+    absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
+    if (status.ok()) Note(absl::StrCat(job.output.string(), ":"), annotated->text);
+    return status;
+  }
+
+  std::string DoneText() const {
+    return absl::StrCat(done_, " of ", jobs_.size(), " files are done",
+                        failed_ > 0 ? absl::StrCat(", ", failed_, " failed") : "",
+                        ": start again with --resume to go on");
+  }
+
+  const AnnotationRun& run_;
+  Making making_;
+  const std::vector<Job>& jobs_;
+  Progress progress_;
+  std::size_t done_ = 0, failed_ = 0;
+};
+
+}  // namespace
+
+absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run,
+                           const TableSummary& table) {
+  Note(absl::StrCat("table ", table.id, " ", table.version, ", digest ", table.digest));
+  return Run(run, table, jobs)();
+}
+
+}  // namespace albtpu::client

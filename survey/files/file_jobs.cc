@@ -1,0 +1,102 @@
+#include "survey/files/file_jobs.h"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "survey/exit_status.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool HasExtension(const fs::path& path, const std::string& extension) {
+  return absl::AsciiStrToLower(path.extension().string()) == extension;
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+bool IsSame(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+// The files of `folder`, and of its subfolders if `recursive`, in the order of their names.
+absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std::string& extension,
+                                              const FileOptions& options) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code gone;  // Such entries are no files to annotate.
+    if (entry->is_directory(gone)) {
+      if (!options.recursive || IsSame(entry->path(), options.output_folder)) {
+        entry.disable_recursion_pending();
+      }
+    } else if (entry->is_regular_file(gone) && HasExtension(entry->path(), extension)) {
+      files.push_back(entry->path());
+    }
+  }
+  if (error) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(folder.string(), ": ", error.message(), ": name a folder that can be read"));
+  }
+  if (files.empty()) {
+    return absl::NotFoundError(absl::StrCat(folder.string(), ": no ", extension, " file in this folder",
+                                            options.recursive ? "" : ", subfolders left out",
+                                            ": name one that has some",
+                                            options.recursive ? "" : ", or say --recursive"));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::string& extension,
+                                          const FileOptions& options) {
+  const std::vector<std::string>& files = options.files;
+  if (options.output_folder.empty()) {
+    if (files.size() != 2 || options.recursive) {
+      return UsageError(absl::StrCat(command, ": ", files.size(), " files: IN", extension, " OUT", extension,
+                                     " is right, or --output-dir DIR and any number of inputs"));
+    }
+    return std::vector<Job>{{files[0], files[1]}};
+  }
+  if (!IsFolder(options.output_folder)) {
+    return absl::NotFoundError(
+        absl::StrCat("--output-dir: ", options.output_folder, " is no folder: name one that is there"));
+  }
+  std::vector<Job> jobs;
+  std::map<fs::path, fs::path> input_of;
+  const auto add = [&](const fs::path& input, const fs::path& name) -> absl::Status {
+    const auto [other, is_new] = input_of.emplace(name.lexically_normal(), input);
+    if (!is_new) {
+      return UsageError(absl::StrCat("--output-dir: two inputs are called ", name.string(), " (",
+                                     other->second.string(), ", ", input.string(),
+                                     "): give them one at a time, as IN", extension, " OUT", extension));
+    }
+    jobs.push_back({input, options.output_folder / name, name.has_parent_path()});
+    return absl::OkStatus();
+  };
+  for (const std::string& file : files) {
+    if (!IsFolder(file)) {
+      if (absl::Status status = add(file, fs::path(file).filename()); !status.ok()) return status;
+      continue;
+    }
+    const absl::StatusOr<std::vector<fs::path>> inputs = FilesIn(file, extension, options);
+    if (!inputs.ok()) return inputs.status();
+    for (const fs::path& input : *inputs) {
+      if (absl::Status status = add(input, input.lexically_relative(file)); !status.ok()) return status;
+    }
+  }
+  return jobs;
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,134 @@
+#include "survey/files/summary_file.h"
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "tables/version.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr char kProgram[] = "albtpu-query";
+constexpr std::uint64_t kLargestSummary = 1 << 20;  // Bytes; ours have some thousand.
+constexpr int kDeepestSummary = 8;                  // Levels; ours have 4.
+
+Json TableJson(const TableSummary& table) {
+  return {{"id", table.id}, {"version", table.version}, {"digest", table.digest}};
+}
+
+std::uint64_t SizeOf(const fs::path& path) {
+  std::error_code ignored;
+  const std::uintmax_t size = fs::file_size(path, ignored);
+  return ignored ? 0 : size;
+}
+
+// An empty object where there is no summary that can be read. What is nested deeper than any summary is left out.
+Json ReadSummary(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto is_shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepestSummary; };
+  Json json = Json::parse(text, is_shallow, false);
+  return json.is_object() ? json : Json::object();
+}
+
+// "parameters.water_level is 0 there, 1 here" of the first value of `here` that is another one there; empty
+// if there is none.
+std::string Difference(const Json& there, const Json& here, const std::string& name) {
+  if (!here.is_object()) {
+    return there == here ? "" : absl::StrCat(name, " is ", there.dump(), " there, ", here.dump(), " here");
+  }
+  for (const auto& [key, value] : here.items()) {
+    const bool is_there = there.is_object() && there.contains(key);
+    const std::string inner = name.empty() ? key : absl::StrCat(name, ".", key);
+    std::string difference = Difference(is_there ? there[key] : Json(), value, inner);
+    if (!difference.empty()) return difference;
+  }
+  return "";
+}
+
+}  // namespace
+
+fs::path SummaryPath(const fs::path& output) { return fs::path(output.string() + ".json"); }
+
+std::string SummaryText(const Making& making, const Job& job, const Findings& findings,
+                        std::uint64_t output_bytes) {
+  Json json;
+  json["program"] = kProgram;
+  json["program_version"] = std::string(Version());
+  json["command"] = making.command;
+  json["parameters"] = making.parameters;
+  json["table"] = TableJson(making.table);
+  json["input"] = {{"name", job.input.filename().string()}, {"bytes", findings.input_bytes}};
+  json["input"].update(findings.input);
+  json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
+  json["answers"] = findings.answers;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+absl::Status CheckMade(const Making& making, const Job& job) {
+  const std::string output = job.output.string(), summary = SummaryPath(job.output).string();
+  std::error_code error;
+  if (!fs::exists(job.output, error)) return absl::NotFoundError(absl::StrCat(output, ": is not there"));
+  const auto other = [&](const std::string& what) {
+    return absl::FailedPreconditionError(absl::StrCat(output, ": exists already, and ", what));
+  };
+  const Json json = ReadSummary(summary);
+  if (json.empty()) return other(absl::StrCat("there is no summary ", summary, " to say how it was made"));
+  const Json here = {{"command", making.command},
+                     {"parameters", making.parameters},
+                     {"table", TableJson(making.table)},
+                     {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
+                     {"output", {{"bytes", SizeOf(job.output)}}}};
+  const std::string difference = Difference(json, here, "");
+  if (!difference.empty()) return other(absl::StrCat("by its summary ", difference));
+  if (fs::last_write_time(job.input, error) > fs::last_write_time(job.output, error) || error) {
+    return other(absl::StrCat(job.input.string(), " is newer"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
+  const fs::path summary = SummaryPath(job.output);
+  std::error_code error;
+  if (existing == Existing::kReplace || !fs::exists(summary, error)) return absl::OkStatus();
+  // A summary without its output is what a killed run leaves: it is worth nothing.
+  if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram) {
+    return absl::OkStatus();
+  }
+  const fs::path& there = fs::exists(job.output, error) ? job.output : summary;
+  return absl::AlreadyExistsError(
+      absl::StrCat(there.string(), ": exists already: choose another name, or --overwrite it"));
+}
+
+absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,
+                               Existing existing) {
+  const fs::path summary_path = SummaryPath(job.output);
+  if (absl::Status status = CheckSummaryCanBeWritten(job, existing); !status.ok()) return status;
+  absl::StatusOr<OutputFile> file = OutputFile::Create(summary_path, Existing::kReplace);
+  if (!file.ok()) return file.status();
+  absl::Status status = output.Sync();
+  if (status.ok()) status = file->Write(summary);
+  if (status.ok()) status = file->Sync();
+  if (!status.ok()) return status;
+  std::error_code error;
+  if (fs::exists(job.output, error)) {
+    // Whenever this is cut short, no summary is beside an output of another making.
+    fs::remove(summary_path, error);
+    status = output.Commit();
+    return status.ok() ? file->Commit() : status;
+  }
+  status = file->Commit();
+  if (status.ok()) status = output.Commit();
+  if (!status.ok()) fs::remove(summary_path, error);
+  return status;
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,94 @@
+#include "survey/las/las_crs.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "survey/las/las_vlr.h"
+#include "survey/las/little_endian.h"
+#include "survey/number_text.h"
+
+namespace albtpu::client {
+namespace {
+
+constexpr std::string_view kProjectionUser = "LASF_Projection";
+constexpr std::uint16_t kWktRecord = 2112;
+constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735;
+constexpr std::size_t kLongestWkt = 1 << 20;  // Real ones have a few thousand bytes.
+
+// Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these, in
+// metres; no other unit of length or angle does.
+constexpr double kShortestFoot = 0.304;
+constexpr double kLongestFoot = 0.306;
+
+// GeoTIFF 1.1: the unit of projected coordinates, of heights and of geocentric coordinates.
+constexpr std::uint16_t kProjLinearUnits = 3076;
+constexpr std::uint16_t kVerticalUnits = 4099;
+
+// EPSG codes of units of length that are feet: 9002 international, 9003 US survey, 9005 Clarke, 9041 and 9070
+// British, 9080-9083 Indian, 9094 Gold Coast, 9095 British 1936; GeoTIFF 1.0 also had 9004 (modified
+// American) and 9006 (Indian).
+bool IsFoot(std::uint16_t unit) {
+  return (unit >= 9002 && unit <= 9006) || unit == 9041 || unit == 9051 || unit == 9070 ||
+         (unit >= 9080 && unit <= 9083) || unit == 9094 || unit == 9095;
+}
+
+}  // namespace
+
+std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
+  const std::string upper = absl::AsciiStrToUpper(absl::string_view(wkt.data(), wkt.size()));
+  // UNIT of WKT 1 and 2, LENGTHUNIT of WKT 2; ANGLEUNIT comes along and is no foot.
+  for (std::size_t at = upper.find("UNIT"); at != std::string::npos; at = upper.find("UNIT", at + 1)) {
+    const std::size_t open = upper.find_first_not_of(" \t\r\n", at + 4);
+    if (open == std::string::npos || (upper[open] != '[' && upper[open] != '(')) continue;
+    // Its name follows at once: looking further would take the square of a long text's length.
+    const std::size_t name_begin = upper.find_first_not_of(" \t\r\n", open + 1);
+    if (name_begin == std::string::npos) break;
+    if (upper[name_begin] != '"') continue;
+    const std::size_t name_end = upper.find('"', name_begin + 1);
+    if (name_end == std::string::npos) break;
+    const std::string name = upper.substr(name_begin + 1, name_end - name_begin - 1);
+    bool foot = name.find("FOOT") != std::string::npos || name.find("FEET") != std::string::npos ||
+                name == "FT" || name == "FTUS" || name == "US-FT";
+    const std::size_t comma = upper.find_first_not_of(" \t\r\n", name_end + 1);
+    if (comma != std::string::npos && upper[comma] == ',') {
+      const std::size_t end = std::min(upper.find_first_of(",])", comma + 1), upper.size());
+      const std::optional<double> metres = ParseDouble(upper.substr(comma + 1, end - comma - 1));
+      foot = foot || (metres.has_value() && *metres > kShortestFoot && *metres < kLongestFoot);
+    }
+    if (foot) return absl::StrCat("unit \"", std::string(wkt.substr(name_begin + 1, name.size())), "\"");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory) {
+  constexpr std::size_t kEntry =
+      8;  // Key, place of its value (0: here), count, value; the first entry is a header.
+  for (std::size_t begin = kEntry; begin + kEntry <= geo_key_directory.size(); begin += kEntry) {
+    const auto key = Load<std::uint16_t>(geo_key_directory, begin);
+    const auto place = Load<std::uint16_t>(geo_key_directory, begin + 2);
+    const auto value = Load<std::uint16_t>(geo_key_directory, begin + 6);
+    if ((key == kProjLinearUnits || key == kVerticalUnits) && place == 0 && IsFoot(value)) {
+      return absl::StrCat("GeoTIFF key ", key, " = ", value);
+    }
+  }
+  return std::nullopt;
+}
+
+absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader) {
+  for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
+    for (const VlrEntry& entry : *entries) {
+      const bool wkt = entry.Is(kProjectionUser, kWktRecord);
+      if (!wkt && !entry.Is(kProjectionUser, kGeoKeyDirectoryRecord)) continue;
+      const absl::StatusOr<std::string> data =
+          reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
+      if (!data.ok()) return data.status();
+      std::optional<std::string> feet = wkt ? FindFeetInWkt(*data) : FindFeetInGeoKeys(*data);
+      if (feet.has_value()) return feet;
+    }
+  }
+  return std::optional<std::string>();
+}
+
+}  // namespace albtpu::client

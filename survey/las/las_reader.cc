@@ -1,0 +1,110 @@
+#include "survey/las/las_reader.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::client {
+namespace {
+
+// Programs that compress LAS leave this record behind, even where they do not mark the point format.
+constexpr std::string_view kLaszipUser = "laszip encoded";
+
+}  // namespace
+
+LasReader::LasReader(std::string name, std::FILE* file) : name_(std::move(name)), file_(file) {}
+
+absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
+  // A pipe that nobody writes to is opened, and refused, at once.
+  const int descriptor = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "rb");
+  if (file == nullptr) {
+    const int error = errno;
+    return absl::Status(
+        absl::ErrnoToStatusCode(error),
+        absl::StrCat(path.string(), ": ", std::strerror(error), ": name a LAS file that can be read"));
+  }
+  LasReader reader(path.string(), file);
+  reader.stamp_ = FileStamp::Of(fileno(file));
+  if (!reader.stamp_.is_regular()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": is not a regular file: name a LAS file"));
+  }
+  if (absl::Status head = reader.ReadHead(); !head.ok()) return head;
+  if (absl::Status evlrs = reader.ReadEvlrs(); !evlrs.ok()) return evlrs;
+  posix_fadvise(fileno(file), 0, 0, POSIX_FADV_SEQUENTIAL);
+  return reader;
+}
+
+absl::StatusOr<std::string> LasReader::ReadAt(std::uint64_t offset, std::size_t size) const {
+  std::string bytes(size, '\0');
+  if (absl::Status status = ReadAt(offset, std::span<char>(bytes)); !status.ok()) return status;
+  return bytes;
+}
+
+absl::Status LasReader::ReadAt(std::uint64_t offset, std::span<char> bytes) const {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = pread(fileno(file_.get()), bytes.data() + done, bytes.size() - done,
+                                static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      return absl::DataLossError(absl::StrCat(name_, ": reading failed at byte ", offset + done, ": ",
+                                              count < 0 ? std::strerror(errno) : "it became shorter",
+                                              ": copy the file to a sound disk"));
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status LasReader::CheckUnchanged() const { return stamp_.CheckUnchanged(name_, fileno(file_.get())); }
+
+absl::Status LasReader::ReadHead() {
+  const absl::StatusOr<std::string> beginning =
+      ReadAt(0, std::min<std::uint64_t>(file_size(), kLargestLasHeader));
+  if (!beginning.ok()) return beginning.status();
+  const absl::StatusOr<LasHeader> header = ParseLasHeader(name_, *beginning, file_size());
+  if (!header.ok()) return header.status();
+  header_ = *header;
+  absl::StatusOr<std::string> head = ReadAt(0, header_.offset_to_points);
+  if (!head.ok()) return head.status();
+  head_ = *std::move(head);
+  absl::StatusOr<std::vector<VlrEntry>> vlrs = ListVlrs(name_, header_, head_);
+  if (!vlrs.ok()) return vlrs.status();
+  vlrs_ = *std::move(vlrs);
+  for (const VlrEntry& vlr : vlrs_) {
+    if (vlr.user_id == kLaszipUser) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(name_,
+                       ": is compressed (LAZ): expand it first, by `laszip -i IN.laz -o OUT.las` or "
+                       "`pdal translate IN.laz OUT.las`"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status LasReader::ReadEvlrs() {
+  std::uint64_t next = header_.start_of_evlrs;
+  for (std::uint32_t i = 0; i < header_.evlr_count; ++i) {
+    if (file_size() - next < kEvlrHeaderSize) {
+      return absl::DataLossError(absl::StrCat(name_, ": extended variable length record ", i + 1, " of ",
+                                              header_.evlr_count, " begins at byte ", next, " of a file of ",
+                                              file_size(), ": get a whole copy"));
+    }
+    const absl::StatusOr<std::string> bytes = ReadAt(next, kEvlrHeaderSize);
+    if (!bytes.ok()) return bytes.status();
+    const absl::StatusOr<VlrEntry> evlr = ParseEvlr(name_, *bytes, next, file_size());
+    if (!evlr.ok()) return evlr.status();
+    evlrs_.push_back(*evlr);
+    next = evlr->end();
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu::client

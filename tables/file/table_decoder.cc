@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "tables/file/dataset_storage.h"
+#include "tables/file/hdf5.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
+#include "tables/format.h"
+
+namespace albtpu {
+namespace {
+
+using hdf5::Handle;
+
+absl::Status About(std::string_view kind, const std::string& name, std::string_view problem) {
+  return absl::InvalidArgumentError(
+      absl::StrFormat("%s '%s' %s", std::string(kind), name, std::string(problem)));
+}
+
+absl::StatusOr<std::string> ReadText(hid_t object, std::string_view name) {
+  const absl::StatusOr<AttributeValue> value = hdf5::ReadAttribute(object, std::string(name));
+  if (!value.ok()) return absl::InvalidArgumentError(value.status().message());
+  const std::string* text = std::get_if<std::string>(&*value);
+  if (text == nullptr) return About("attribute", std::string(name), "is a number: it should be text");
+  return *text;
+}
+
+// A dataset of float32 that is checked before anything of the size that it claims is allocated.
+struct FloatDataset {
+  std::string name;
+  Handle dataset;
+  std::vector<hsize_t> shape;
+};
+
+// Links to elsewhere would be followed out of the file.
+bool IsOfThisFile(hid_t file, const std::string& name) {
+  H5L_info_t link;
+  return H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
+}
+
+absl::StatusOr<FloatDataset> OpenDataset(hid_t file, std::string_view kind, std::string_view name_view) {
+  const std::string name(name_view);
+  if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) return About(kind, name, "is missing");
+  if (!IsOfThisFile(file, name)) return About(kind, name, "is a link: it should be a dataset of this file");
+  Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset) return About(kind, name, "is not a dataset");
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(float)) {
+    return About(kind, name, "is of another type: it should be float32");
+  }
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 0) return About(kind, name, "has no shape");
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return FloatDataset{name, std::move(dataset), std::move(shape)};
+}
+
+// Requires that the shape has been checked.
+absl::StatusOr<std::vector<float>> ReadFloats(const FloatDataset& from, std::string_view kind) {
+  if (const absl::Status status = hdf5::CheckStorage(from.dataset, from.shape); !status.ok()) {
+    return About(kind, from.name, std::string(status.message()));
+  }
+  std::size_t count = 1;
+  for (hsize_t size : from.shape) count *= size;
+  std::vector<float> values(count);
+  if (H5Dread(from.dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    return About(kind, from.name, "cannot be read");
+  }
+  return values;
+}
+
+absl::Status CheckUnits(const FloatDataset& dataset, std::string_view kind, std::string_view expected) {
+  const absl::StatusOr<std::string> units = ReadText(dataset.dataset, format::kUnits);
+  if (!units.ok()) return About(kind, dataset.name, absl::StrCat("has no units: ", units.status().message()));
+  if (*units == expected) return absl::OkStatus();
+  return About(kind, dataset.name,
+               absl::StrFormat("is in '%s': it should be in '%s'", *units, std::string(expected)));
+}
+
+absl::StatusOr<Scale> ReadScale(const FloatDataset& dataset, std::string_view kind) {
+  const absl::StatusOr<std::string> name = ReadText(dataset.dataset, format::kInterpolation);
+  if (!name.ok()) return About(kind, dataset.name, std::string(name.status().message()));
+  for (Scale scale : {Scale::kLinear, Scale::kLog}) {
+    if (*name == Name(scale)) return scale;
+  }
+  return About(kind, dataset.name,
+               absl::StrFormat("has interpolation '%s': it should be 'linear' or 'log'", *name));
+}
+
+absl::StatusOr<Axis> ReadAxis(hid_t file, AxisId id) {
+  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "axis", Describe(id).name);
+  if (!dataset.ok()) return dataset.status();
+  if (dataset->shape.size() != 1) {
+    return About("axis", dataset->name,
+                 absl::StrFormat("has %d dimensions: it should have 1", dataset->shape.size()));
+  }
+  if (dataset->shape[0] > format::kMaxNodeCount) {
+    return About(
+        "axis", dataset->name,
+        absl::StrFormat("has %d nodes: it may have %d at most", dataset->shape[0], format::kMaxNodeCount));
+  }
+  const absl::Status units = CheckUnits(*dataset, "axis", Describe(id).units);
+  if (!units.ok()) return units;
+  const absl::StatusOr<Scale> scale = ReadScale(*dataset, "axis");
+  if (!scale.ok()) return scale.status();
+  const absl::StatusOr<std::vector<float>> nodes = ReadFloats(*dataset, "axis");
+  if (!nodes.ok()) return nodes.status();
+  return Axis::Create(id, {nodes->begin(), nodes->end()}, *scale);
+}
+
+absl::StatusOr<UncertaintyTable::Axes> ReadAxes(hid_t file) {
+  std::vector<Axis> axes;
+  std::size_t count = 1;
+  for (AxisId id : kAxes) {
+    absl::StatusOr<Axis> axis = ReadAxis(file, id);
+    if (!axis.ok()) return axis.status();
+    if (axis->size() > format::kMaxValueCount / count) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "the axes span more than %d nodes, the most that a table may have", format::kMaxValueCount));
+    }
+    count *= axis->size();
+    axes.push_back(*std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
+// The values of a dataset that must span the axes of a quantity.
+absl::StatusOr<std::vector<float>> ReadValues(const FloatDataset& dataset, const UncertaintyTable::Axes& axes,
+                                              Quantity quantity) {
+  std::vector<hsize_t> expected;
+  for (const Axis& axis : axes) expected.push_back(axis.size());
+  if (!Describe(quantity).over_depth) expected.pop_back();
+  if (dataset.shape != expected) {
+    return About("variable", dataset.name,
+                 absl::StrFormat("has the shape (%s): its axes have (%s)", absl::StrJoin(dataset.shape, ", "),
+                                 absl::StrJoin(expected, ", ")));
+  }
+  const absl::Status units = CheckUnits(dataset, "variable", Describe(quantity).units);
+  if (!units.ok()) return units;
+  return ReadFloats(dataset, "variable");
+}
+
+// Nothing when the file does not hold the quantity; whether it may is for UncertaintyTable to say.
+absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const UncertaintyTable::Axes& axes,
+                                                     Quantity quantity) {
+  const std::string name(Describe(quantity).name);
+  if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
+  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "variable", name);
+  if (!dataset.ok()) return dataset.status();
+  absl::StatusOr<std::vector<float>> values = ReadValues(*dataset, axes, quantity);
+  if (!values.ok()) return values.status();
+  const absl::StatusOr<Scale> scale = ReadScale(*dataset, "variable");
+  if (!scale.ok()) return scale.status();
+  Variable variable{*std::move(values), {}, *scale};
+
+  const std::string error_name = name + std::string(kStandardErrorSuffix);
+  if (H5Lexists(file, error_name.c_str(), H5P_DEFAULT) <= 0) return variable;
+  const absl::StatusOr<FloatDataset> errors = OpenDataset(file, "variable", error_name);
+  if (!errors.ok()) return errors.status();
+  absl::StatusOr<std::vector<float>> standard_errors = ReadValues(*errors, axes, quantity);
+  if (!standard_errors.ok()) return standard_errors.status();
+  variable.standard_errors = *std::move(standard_errors);
+  return variable;
+}
+
+absl::StatusOr<Provenance> ReadProvenance(hid_t file) {
+  Provenance provenance;
+  for (const auto& [name, member] :
+       {std::pair(format::kId, &Provenance::id), std::pair(format::kVersion, &Provenance::version),
+        std::pair(format::kTitle, &Provenance::title), std::pair(format::kCampaign, &Provenance::campaign)}) {
+    absl::StatusOr<std::string> text = ReadText(file, name);
+    if (!text.ok()) return text.status();
+    provenance.*member = *std::move(text);
+  }
+  const absl::StatusOr<std::vector<std::string>> names = hdf5::AttributeNames(file);
+  if (!names.ok()) return names.status();
+  const auto& reserved = format::kReservedAttributes;
+  for (const std::string& name : *names) {
+    if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) continue;
+    absl::StatusOr<AttributeValue> value = hdf5::ReadAttribute(file, name);
+    if (!value.ok()) return value.status();
+    provenance.attributes[name] = *std::move(value);
+  }
+  return provenance;
+}
+
+absl::Status CheckCoverage(hid_t file) {
+  const absl::StatusOr<std::string> coverage = ReadText(file, format::kCoverage);
+  if (!coverage.ok()) return coverage.status();
+  if (*coverage == format::kCoverageValue) return absl::OkStatus();
+  return About("attribute", std::string(format::kCoverage),
+               absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
+}
+
+// Where a dataset has several names, or its chunks lie in one place, a small file would fill any memory.
+absl::Status CheckStoredOnce(hid_t file, std::size_t length) {
+  std::vector<std::string> names;
+  for (AxisId id : kAxes) names.emplace_back(Describe(id).name);
+  for (Quantity quantity : kQuantities) {
+    const std::string name(Describe(quantity).name);
+    names.insert(names.end(), {name, name + std::string(kStandardErrorSuffix)});
+  }
+  std::size_t room = length;
+  for (const std::string& name : names) {
+    if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0 || !IsOfThisFile(file, name)) continue;
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const std::size_t stored = dataset ? H5Dget_storage_size(dataset) : 0;
+    if (stored > room) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "has more bytes in datasets than its %d in all: each should have bytes of its own", length));
+    }
+    room -= stored;
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UncertaintyTable> ReadContents(hid_t file, std::size_t length) {
+  const absl::Status coverage = CheckCoverage(file);
+  if (!coverage.ok()) return coverage;
+  const absl::Status stored = CheckStoredOnce(file, length);
+  if (!stored.ok()) return stored;
+  absl::StatusOr<UncertaintyTable::Axes> axes = ReadAxes(file);
+  if (!axes.ok()) return axes.status();
+  UncertaintyTable::Variables variables;
+  for (Quantity quantity : kQuantities) {
+    absl::StatusOr<std::optional<Variable>> variable = ReadVariable(file, *axes, quantity);
+    if (!variable.ok()) return variable.status();
+    variables[Index(quantity)] = *std::move(variable);
+  }
+  absl::StatusOr<Provenance> provenance = ReadProvenance(file);
+  if (!provenance.ok()) return provenance.status();
+  const absl::StatusOr<std::string> digest = ReadText(file, format::kContentDigest);
+  if (!digest.ok()) return digest.status();
+
+  absl::StatusOr<UncertaintyTable> table =
+      UncertaintyTable::Create(*std::move(axes), std::move(variables), *std::move(provenance));
+  if (table.ok() && table->digest() != *digest) {
+    return About("attribute", std::string(format::kContentDigest),
+                 absl::StrFormat("is '%s': the content has '%s'", *digest, table->digest()));
+  }
+  return table;
+}
+
+}  // namespace
+
+absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
+  const absl::Status sealed = seal::Check(file);
+  if (!sealed.ok()) return sealed;
+  const hdf5::Session session;
+  // HDF5 reads the very bytes that were checked, not the file again.
+  const Handle image = hdf5::OpenImage(file);
+  if (!image) return absl::InvalidArgumentError("is sealed, but what it holds is not HDF5");
+  return ReadContents(image, file.size());
+}
+
+}  // namespace albtpu

@@ -1,0 +1,84 @@
+#include "tables/file/table_io.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "absl/strings/str_cat.h"
+#include "tables/file/atomic_file.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
+
+namespace albtpu {
+namespace {
+
+namespace fs = std::filesystem;
+
+absl::Status WithPath(const fs::path& path, const absl::Status& status) {
+  return absl::Status(status.code(), absl::StrCat(path.string(), ": ", status.message()));
+}
+
+// A file that became shorter while it was read leaves no error number.
+absl::Status SystemError(int error) {
+  return absl::ErrnoToStatus(error == 0 ? EIO : error, "cannot be read");
+}
+
+// Reads the whole file, or only as much as shows that it is no table.
+absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return absl::NotFoundError("no such file");
+  if (error) return SystemError(error.value());
+  if (!fs::is_regular_file(status)) return absl::DataLossError("is not a regular file: not a table");
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return SystemError(errno);
+  const std::uintmax_t length = fs::file_size(path, error);
+  if (error) return SystemError(error.value());
+
+  std::string file(std::min<std::uintmax_t>(length, seal::kSize), '\0');
+  const auto read_from = [&](std::size_t offset) {
+    return stream.read(file.data() + offset, static_cast<std::streamsize>(file.size() - offset)).good();
+  };
+  if (!read_from(0)) return SystemError(errno);
+  const absl::Status header = seal::CheckHeader(file, length);
+  if (!header.ok()) return header;
+  file.resize(length);
+  if (!read_from(seal::kSize)) return SystemError(errno);
+  return file;
+}
+
+absl::StatusOr<UncertaintyTable> Read(const fs::path& path) {
+  absl::StatusOr<std::string> file = ReadSealedFile(path);
+  if (!file.ok()) return file.status();
+  return DecodeTable(*file);
+}
+
+absl::Status Write(const UncertaintyTable& table, const fs::path& path, Existing existing) {
+  const absl::StatusOr<std::string> file = EncodeTable(table);
+  if (!file.ok()) return file.status();
+  return WriteFileAtomically(path, *file, existing);
+}
+
+constexpr char kOutOfMemory[] = "there is not enough memory for this table";
+
+}  // namespace
+
+absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) try {
+  absl::StatusOr<UncertaintyTable> table = Read(path);
+  if (!table.ok()) return WithPath(path, table.status());
+  return table;
+} catch (const std::bad_alloc&) {
+  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+}
+
+absl::Status WriteTable(const UncertaintyTable& table, const fs::path& path, Existing existing) try {
+  return Write(table, path, existing);
+} catch (const std::bad_alloc&) {
+  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+}
+
+}  // namespace albtpu

@@ -1,0 +1,20 @@
+// From a pulse to its uncertainty: multilinear interpolation in a table, each axis in its own scale.
+#pragma once
+
+#include "tables/pulse.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+
+// Example:
+//   auto table = ReadTable("quick.h5");
+//   Pulse pulse = {.wind_speed = 5, .incidence = 20, .footprint = 0.5f, .depth = 8};
+//   PulseUncertainty u = Interpolate(*table, pulse);
+//   if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
+PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse);
+
+// The answer for a pulse without azimuth, from its answers at 0 and 90 degrees: each value the larger in
+// magnitude, with the standard error that belongs to it. If not both have numbers, neither has the answer.
+PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind);
+
+}  // namespace albtpu

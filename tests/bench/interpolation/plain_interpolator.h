@@ -1,0 +1,44 @@
+// A table interpolated as one would by hand, in scalar double precision: peers of ColumnInterpolator.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "tables/query/pulse_columns.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu::bench {
+
+// How the quantities lie in memory.
+enum class Quantities {
+  kApart,       // an array each, in the table's single precision
+  kSideBySide,  // at each node, in double precision
+};
+
+// THU, TVU and both biases, multilinear. Nodes are searched by halves; index and weight of each corner are found
+// once for all four quantities. No outcomes: pulses are inside the domain and have an azimuth of 0 to 90 degrees.
+template <Quantities kLayout>
+class PlainInterpolator {
+ public:
+  static constexpr std::size_t kQuantities = 4;
+
+  explicit PlainInterpolator(const UncertaintyTable& table);
+
+  // To `kQuantities` columns.
+  void Answer(const PulseColumns& pulses, std::size_t begin, std::size_t end,
+              const std::array<float*, kQuantities>& answers) const;
+
+ private:
+  struct PlainAxis {
+    std::vector<double> nodes;  // or their logarithms
+    bool log;
+    std::size_t step;  // to the next node, in nodes
+  };
+
+  std::array<PlainAxis, kAxisCount> axes_;
+  std::array<std::vector<float>, kQuantities> apart_;
+  std::vector<double> side_by_side_;
+};
+
+}  // namespace albtpu::bench

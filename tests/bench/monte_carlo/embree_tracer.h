@@ -1,0 +1,64 @@
+// Embree 3 as the tracer of a beam: the surface as a mesh in its tree, rays in its packets, then refraction
+// and sums.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/bench/monte_carlo/beam_case.h"
+
+namespace albtpu::bench {
+
+enum class EmbreeGeometry { kTriangles, kGrid };
+enum class EmbreeBuild {
+  kHigh,
+  kMedium,
+  kLow,
+  kRefit
+};  // rtcSetGeometryBuildQuality and rtcSetSceneBuildQuality
+enum class EmbreeRays { k1, k4, k8, k16, k1M, k8M, kNp };  // rtcIntersect...: one ray, packets, streams
+
+struct EmbreeOptions {
+  EmbreeGeometry geometry = EmbreeGeometry::kTriangles;
+  EmbreeBuild build = EmbreeBuild::kHigh;
+  EmbreeRays rays = EmbreeRays::k8;
+  bool robust = true;
+  bool coherent = true;
+  std::string device = {};  // more of rtcNewDevice's configuration, such as "isa=avx2"
+};
+std::string Name(const EmbreeOptions& options);  // such as "triangles/high/8/robust/coherent"
+
+// On one thread. Rays start half a metre above the mean surface: waves are lower.
+class EmbreeTracer {
+ public:
+  EmbreeTracer(const EmbreeOptions& options, int points, float spacing);
+  ~EmbreeTracer();
+  EmbreeTracer(const EmbreeTracer&) = delete;
+  EmbreeTracer& operator=(const EmbreeTracer&) = delete;
+
+  // The vertices at new heights (row-major, ix slow), and the tree built or refitted.
+  void SetHeights(const float* heights);
+
+  BeamMeans Trace(const FloatRays& rays, double refractive_index);
+
+  // Of the last beam, in its order: where each ray met the surface, m; NaN for those that were lost.
+  const std::vector<float>& hit_heights() const { return hit_heights_; }
+
+ private:
+  struct Hits;
+  template <int kWidth>
+  void TraceBlock(const FloatRays& rays, int first, int count, Hits& hits);
+
+  EmbreeOptions options_;
+  int points_;
+  RTCDevice device_;
+  RTCScene scene_;
+  RTCGeometry geometry_;
+  float* vertices_;
+  RTCIntersectContext context_;
+  std::vector<float> hit_heights_;
+};
+
+}  // namespace albtpu::bench

@@ -1,0 +1,136 @@
+// service_bench serve-raw TABLE.h5
+// service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
+//               [--connections N] [--seconds S] [--beside N]
+//
+// Asks a server for a time, checks the answers against the table, and prints one JSON object: pulses and calls
+// a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+#include <malloc.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "absl/synchronization/mutex.h"
+#include "tables/file/table_io.h"
+#include "tests/bench/service/flight_line.h"
+#include "tests/bench/service/load.h"
+#include "tests/bench/service/load_record.h"
+#include "tests/bench/service/raw_peer.h"
+
+namespace albtpu::bench {
+namespace {
+
+// Of a flight line: some megabytes, so that columns come from memory as those of a survey do.
+constexpr std::size_t kBatches = 16;
+constexpr std::size_t kStreamBatch = 65536;  // What a stream sends in one message.
+
+struct Options {
+  std::string peer, address, table;
+  int server_pid = 0;
+  std::size_t batch = kStreamBatch, callers = 1, in_flight = 1, connections = 1, beside = 0;
+  double seconds = 2;
+};
+
+constexpr std::array<std::pair<std::string_view, void (*)(const Load&, Record&)>, 6> kPeers = {{
+    {"raw", AskRaw},
+    {"columns", AskColumns},
+    {"stream", AskStream},
+    {"rows", AskRows},
+    {"raw-single", AskRawSingle},
+    {"stream-single", AskStreamSingle},
+}};
+
+void ExpectRight(const std::vector<AnswerMemory>& answers, const FlightLine& line,
+                 const ColumnInterpolator& table) {
+  AnswerMemory expected(line.size());
+  table.Answer({}, line.pulses(), 0, line.size(), expected.columns());
+  for (const AnswerMemory& memory : answers) memory.ExpectSame(expected);
+}
+
+int Ask(const Options& options, const ColumnInterpolator& table) {
+  const auto peer = std::find_if(kPeers.begin(), kPeers.end(),
+                                 [&](const auto& known) { return known.first == options.peer; });
+  Check(peer != kPeers.end(), "no peer '" + options.peer + "'");
+  const FlightLine line(kBatches * options.batch), bulk_line(kBatches * kStreamBatch);
+  std::vector<AnswerMemory> answers(options.callers, AnswerMemory(line.size()));
+  std::vector<AnswerMemory> bulk_answers(options.beside, AnswerMemory(bulk_line.size()));
+  const double client_before = OwnProcessorTime(), server_before = ProcessorTimeOf(options.server_pid);
+  const Clock::time_point begin = Clock::now();
+  Record record(options.seconds), bulk(options.seconds);
+  std::vector<std::thread> threads;
+  for (AnswerMemory& memory : answers) {
+    threads.emplace_back(
+        peer->second,
+        Load{options.address, line, memory, options.batch, options.in_flight, options.connections},
+        std::ref(record));
+  }
+  for (AnswerMemory& memory : bulk_answers) {
+    threads.emplace_back(AskStream, Load{options.address, bulk_line, memory, kStreamBatch, 1, 1},
+                         std::ref(bulk));
+  }
+  for (std::thread& thread : threads) thread.join();
+  const double elapsed = Seconds(Clock::now() - begin);
+  const auto pulses = static_cast<double>(record.pulses());
+  const nlohmann::json report = {
+      {"peer", options.peer},
+      {"pulses_per_second", pulses / elapsed},
+      {"calls_per_second", static_cast<double>(record.calls()) / elapsed},
+      {"latency", {{"p50", record.Latency(0.5)}, {"p99", record.Latency(0.99)}, {"max", record.Latency(1)}}},
+      {"client_cpu_per_pulse", (OwnProcessorTime() - client_before) / pulses},
+      {"server_cpu_per_pulse", (ProcessorTimeOf(options.server_pid) - server_before) / pulses},
+      {"bulk_pulses_per_second", static_cast<double>(bulk.pulses()) / elapsed}};
+  ExpectRight(answers, line, table);
+  ExpectRight(bulk_answers, bulk_line, table);
+  std::cout << report.dump() << "\n";
+  return 0;
+}
+
+int Main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
+  app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, rows, stream or stream-single")
+      ->required();
+  app.add_option("--table", options.table, "The table that answers")->required();
+  app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
+  app.add_option("--server-pid", options.server_pid, "Whose processor time to count");
+  app.add_option("--batch", options.batch, "Pulses of one message");
+  app.add_option("--callers", options.callers, "Threads that ask");
+  app.add_option("--in-flight", options.in_flight,
+                 "Messages that a caller has under way (raw and stream: see load.h)");
+  app.add_option("--connections", options.connections, "Over which a caller's calls go in turn")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--beside", options.beside, "Further threads that stream, not counted");
+  app.add_option("--seconds", options.seconds, "For how long");
+  CLI11_PARSE(app, argc, argv);
+  const auto table = ReadTable(options.table);
+  Check(table.ok(), table.status().ToString());
+  const ColumnInterpolator interpolator(*table);
+  if (options.peer != "serve-raw") return Ask(options, interpolator);
+  ServeRaw(interpolator);
+  return 0;
+}
+
+// Of messages that come and go: page faults would cost more than they do. For so short a time it takes no more.
+void KeepFreedMemory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+  mallopt(M_TOP_PAD, 16 << 20);
+}
+
+}  // namespace
+}  // namespace albtpu::bench
+
+int main(int argc, char** argv) {
+  albtpu::bench::KeepFreedMemory();
+  // As albtpu-serve and albtpu-query do.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  return albtpu::bench::Main(argc, argv);
+}

@@ -1,0 +1,187 @@
+#include "generator/campaign/campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "sea/angle.h"
+#include "sea/spectra/apel_spectrum.h"
+#include "sea/spectra/elfouhaily_spectrum.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr char kSmall[] = R"(id = "small"
+version = "1"
+title = "Two seas"
+seed = 7
+[axes]
+wind_speed = [3, 6]
+fetch = [1000, inf]
+incidence = [0, 20]
+azimuth = [0, 90]
+footprint = [0.1, 1]
+depth = [0, 10]
+[effort]
+realizations = 50
+)";
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string ErrorOf(const std::string& text) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(text);
+  EXPECT_FALSE(campaign.ok()) << text;
+  EXPECT_TRUE(absl::IsInvalidArgument(campaign.status()));
+  return std::string(campaign.status().message());
+}
+
+TEST(Campaign, KeepsWhatItsFileSays) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  EXPECT_EQ(campaign->text, kSmall);
+  EXPECT_EQ(campaign->id, "small");
+  EXPECT_EQ(campaign->seed, 7u);
+  EXPECT_EQ(campaign->effort.realizations, 50);
+  EXPECT_EQ(campaign->effort.most_realizations, 50);
+  EXPECT_FALSE(campaign->rays.has_value());
+  EXPECT_EQ(campaign->nodes(AxisId::kFootprint).front(), static_cast<double>(0.1f));
+}
+
+TEST(Campaign, ResolvesInfiniteFetchToFullDevelopmentOfTheStrongestWind) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  const double last = campaign->nodes(AxisId::kFetch).back();
+  EXPECT_GE(last, ApelSpectrum::FullyDevelopedFetch(6));
+  EXPECT_NEAR(last / ApelSpectrum::FullyDevelopedFetch(6), 1, 1e-6);  // the next float
+  for (const double wind : {3.0, 6.0}) EXPECT_EQ(ApelSpectrum::InverseWaveAge(wind, last), 0.84);
+}
+
+TEST(Campaign, TakesTheSeaThatItsFileNames) {
+  const absl::StatusOr<Campaign> apel = ParseCampaign(kSmall);
+  ASSERT_TRUE(apel.ok()) << apel.status();
+  EXPECT_EQ(EncounterOf(*apel, 0).sea.spectrum, SpectrumKind::kApel);
+  EXPECT_TRUE(std::isinf(EncounterOf(*apel, 0).sea.corrected_above));
+
+  const absl::StatusOr<Campaign> other =
+      ParseCampaign(std::string(kSmall) + "[sea]\nspectrum = \"elfouhaily\"\ncorrected_above = 30\n");
+  ASSERT_TRUE(other.ok()) << other.status();
+  EXPECT_EQ(EncounterOf(*other, 0).sea.spectrum, SpectrumKind::kElfouhaily);
+  EXPECT_EQ(EncounterOf(*other, 0).sea.corrected_above, 30);
+  // Its sea develops over a longer fetch; the last node is the sea that has.
+  EXPECT_NEAR(other->nodes(AxisId::kFetch).back() / ElfouhailySpectrum::FullyDevelopedFetch(6), 1, 1e-6);
+  EXPECT_TRUE(std::isinf(EncounterOf(*other, 7).sea.fetch));
+}
+
+TEST(Campaign, MayAskForTracingAlone) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(std::string(kSmall) + "estimator = \"plain\"\n");
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  EXPECT_EQ(campaign->effort.estimator, Estimator::kPlain);
+  EXPECT_EQ(ParseCampaign(kSmall)->effort.estimator, Estimator::kControlVariate);
+  EXPECT_THAT(ErrorOf(std::string(kSmall) + "estimator = \"none\"\n"),
+              HasSubstr("'effort.estimator' must be \"control_variate\" or \"plain\""));
+}
+
+TEST(Campaign, NamesWhatIsWrongWithItsSea) {
+  const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),
+              HasSubstr("'sea.spectrum' must be \"apel\" or \"elfouhaily\""));
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = 3\n")), HasSubstr("'sea.spectrum' in line 15 must be a text"));
+  EXPECT_THAT(ErrorOf(with_sea("corrected_above = 0\n")),
+              HasSubstr("'sea.corrected_above' in line 15 must be"));
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = \"elfouhaily\"\nspreading = 2\n")),
+              HasSubstr("'sea.spreading' is that of Apel's sea"));
+}
+
+TEST(Campaign, OrdersEncountersByWindFetchAndFootprint) {
+  const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  ASSERT_EQ(EncounterCount(*campaign), 8u);
+  const Encounter encounter = EncounterOf(*campaign, 5);  // wind 1, fetch 0, footprint 1
+  EXPECT_EQ(encounter.sea.wind_speed_10m, 6);
+  EXPECT_EQ(encounter.sea.fetch, 1000);
+  ASSERT_EQ(encounter.beams.size(), 4u);
+  EXPECT_EQ(encounter.beams[3].footprint, 1);
+  EXPECT_EQ(encounter.beams[3].incidence, RadiansOfDegrees(20));
+  EXPECT_EQ(encounter.beams[3].azimuth, RadiansOfDegrees(90));
+}
+
+TEST(Campaign, NamesTheLineThatIsNotToml) {
+  EXPECT_THAT(ErrorOf("id = \"x\"\nversion = = 2\n"), StartsWith("line 2 is not TOML"));
+}
+
+TEST(Campaign, NamesAMissingKey) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "id = \"small\"\n", "")), HasSubstr("'id' is missing"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]\n", "")), HasSubstr("'axes.depth' is missing"));
+}
+
+TEST(Campaign, NamesAKeyThatItDoesNotKnow) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations", "realisations")),
+              HasSubstr("'effort.realisations' in line 13 is not a key of a campaign"));
+}
+
+TEST(Campaign, NamesAValueOfTheWrongKind) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "\"strong\"")),
+              HasSubstr("'axes.wind_speed' in line 6 must be a list of numbers"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations = 50", "realizations = 1")),
+              HasSubstr("'effort.realizations' in line 13 must be a whole number from 2"));
+}
+
+TEST(Campaign, RefusesNodesOutOfOrder) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0, 20]", "[20, 0]")), HasSubstr("nodes must increase"));
+}
+
+TEST(Campaign, RefusesNodesThatAreNoNumbers) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[3, nan]")), HasSubstr("wind_speed"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = [-1, 10]")), HasSubstr("depth"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = []")), HasSubstr("depth"));
+}
+
+TEST(Campaign, RefusesStillAirAndABeamWithoutWidth) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[0, 6]")), HasSubstr("'axes.wind_speed' must be above 0"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
+}
+
+TEST(Campaign, AsksForTheFullyDevelopedSeaAsTheLastFetch) {
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, 5000]")), HasSubstr("must be inf"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1e7, inf]")), HasSubstr("beyond full development"));
+}
+
+TEST(Campaign, RefusesMoreCellsThanATableHolds) {
+  std::string nodes = "1";
+  for (int i = 2; i <= 512; ++i) nodes += ", " + std::to_string(i);
+  std::string text = kSmall;
+  for (const char* list : {"0, 10", "3, 6", "0.1, 1"}) text = Replaced(text, list, nodes);
+  text = Replaced(text, "1000, inf", nodes + ", inf");
+  EXPECT_THAT(ErrorOf(text), HasSubstr("more cells than a table holds"));
+}
+
+TEST(Campaign, RefusesATextThatNestsAsDeepAsItIsLong) {
+  std::string key = "a";
+  while (key.size() < 32000) key += ".a";
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("'id' is missing"));
+  for (int i = 0; i < 500; ++i) key += std::string(1000, 'a');
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("a campaign has 32768 at most"));
+}
+
+TEST(Campaign, BeginsMessagesOfAFileWithItsPath) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "bad.toml";
+  std::ofstream(path) << "id = 3\n";
+  EXPECT_THAT(std::string(ReadCampaign(path).status().message()),
+              StartsWith(path.string() + ": 'id' in line 1"));
+  EXPECT_TRUE(absl::IsNotFound(ReadCampaign(folder.path() / "absent.toml").status()));
+}
+
+}  // namespace
+}  // namespace albtpu

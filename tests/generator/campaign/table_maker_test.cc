@@ -1,0 +1,58 @@
+#include "generator/campaign/table_maker.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "generator/math/rounding.h"
+#include "sea/angle.h"
+#include "tables/query/interpolation.h"
+#include "tests/generator/campaign/two_seas.h"
+
+namespace albtpu {
+namespace {
+
+absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
+  return MakeTable(campaign, [](std::size_t) {});
+}
+
+TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsEncounterGives) {
+  const Campaign campaign = TwoSeas();
+  const absl::StatusOr<UncertaintyTable> table = Make(campaign);
+  ASSERT_TRUE(table.ok()) << table.status();
+  const std::size_t index = 7;  // 6 m/s, fully developed, 1 m
+  const EncounterResult result =
+      Simulate(EncounterOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
+  const BeamUncertainty& beam = result.beams[3];  // 20 degrees, across the wind
+  const PulseUncertainty answer =
+      Interpolate(*table, {.wind_speed = 6, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
+  ASSERT_EQ(answer.outcome, Outcome::kInterpolated);
+  const Estimate& along = beam.refraction_along_wind;
+  const Estimate degrees{DegreesOfRadians(along.value), DegreesOfRadians(along.standard_error)};
+  EXPECT_EQ(answer[Quantity::kRefractionAlongWind], Rounded(degrees).value);
+  EXPECT_EQ(answer[Quantity::kThu], Rounded(beam.thu[1]).value);
+  EXPECT_EQ(answer[Quantity::kTvu], Rounded(beam.tvu[1]).value);
+  EXPECT_EQ(answer[Quantity::kBiasVertical], Rounded(beam.bias_vertical[1]).value);
+  EXPECT_EQ(answer.standard_errors[Index(Quantity::kThu)], Rounded(beam.thu[1]).standard_error);
+}
+
+TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {
+  const Campaign campaign = TwoSeas();
+  std::string digests[2];
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const absl::StatusOr<UncertaintyTable> table = Make(campaign);
+    ASSERT_TRUE(table.ok()) << table.status();
+    digests[threads - 1] = table->digest();
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
+TEST(TableMaker, CountsUnitsAsTheyAreDone) {
+  std::vector<std::size_t> counts;
+  ASSERT_TRUE(MakeTable(TwoSeas(), [&](std::size_t done) { counts.push_back(done); }).ok());
+  ASSERT_EQ(counts.size(), 8 + TwoSeas().checked_pulses);
+  for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_EQ(counts[i], i + 1);
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,187 @@
+#include "generator/campaign/unit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "generator/campaign/byte_stream.h"
+#include "generator/campaign/unit_content.h"
+#include "tests/generator/campaign/two_seas.h"
+
+namespace albtpu {
+namespace {
+
+using ::testing::HasSubstr;
+
+const UnitOrigin kOrigin = {"c0ffee", "0.1.0 (1a2b3c4d5e6f)", "x86-64-v3"};
+constexpr UnitId kUnit = {UnitKind::kEncounter, 12};
+
+std::string Sealed() { return SealUnit(kUnit, kOrigin, "what was computed"); }
+
+std::string Refusal(UnitId unit, const UnitOrigin& origin, const std::string& bytes) {
+  const absl::StatusOr<std::string_view> opened = OpenUnit(unit, origin, bytes);
+  EXPECT_FALSE(opened.ok());
+  return std::string(opened.status().message());
+}
+
+// Equal bits: of zeros and of what is not a number, too.
+void ExpectSame(double a, double b) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b));
+}
+
+void ExpectSame(const Estimate& a, const Estimate& b) {
+  ExpectSame(a.value, b.value);
+  ExpectSame(a.standard_error, b.standard_error);
+}
+
+TEST(Unit, IsNamedByKindAndIndex) {
+  EXPECT_EQ(Name(kUnit), "encounter-00012");
+  EXPECT_EQ(Name({UnitKind::kPulse, 3}), "pulse-00003");
+}
+
+TEST(Unit, IsAnEncounterOrACheckedPulseOfTheCampaign) {
+  const Campaign campaign = TwoSeas();
+  const std::vector<UnitId> units = UnitsOf(campaign);
+  ASSERT_EQ(units.size(), 8 + campaign.checked_pulses);
+  EXPECT_EQ(units[7], (UnitId{UnitKind::kEncounter, 7}));
+  EXPECT_EQ(units[8], (UnitId{UnitKind::kPulse, 0}));
+  EXPECT_EQ(units.back(), (UnitId{UnitKind::kPulse, campaign.checked_pulses - 1}));
+}
+
+TEST(Unit, GivesBackWhatWasSealed) {
+  const std::string bytes = Sealed();
+  const absl::StatusOr<std::string_view> content = OpenUnit(kUnit, kOrigin, bytes);
+  ASSERT_TRUE(content.ok()) << content.status();
+  EXPECT_EQ(*content, "what was computed");
+}
+
+TEST(Unit, IsRefusedWhenAnyByteOfItChanged) {
+  for (std::size_t i = 0; i < Sealed().size(); ++i) {
+    std::string bytes = Sealed();
+    bytes[i] ^= 0x10;
+    EXPECT_EQ(OpenUnit(kUnit, kOrigin, bytes).status().code(), absl::StatusCode::kDataLoss) << i;
+  }
+}
+
+TEST(Unit, IsRefusedWhenAnyOfItIsMissing) {
+  for (std::size_t size = 0; size < Sealed().size(); ++size) {
+    EXPECT_EQ(OpenUnit(kUnit, kOrigin, Sealed().substr(0, size)).status().code(),
+              absl::StatusCode::kDataLoss);
+  }
+}
+
+TEST(Unit, IsRefusedWhenSomethingElseMadeIt) {
+  UnitOrigin other = kOrigin;
+  other.campaign = "decaf";
+  EXPECT_THAT(Refusal(kUnit, other, Sealed()), HasSubstr("another campaign"));
+  other = kOrigin;
+  other.program = "0.2.0 (1a2b3c4d5e6f)";
+  EXPECT_THAT(Refusal(kUnit, other, Sealed()), HasSubstr("0.1.0 (1a2b3c4d5e6f), this is 0.2.0"));
+  other = kOrigin;
+  other.instruction_set = "x86-64-v4";
+  EXPECT_THAT(Refusal(kUnit, other, Sealed()), HasSubstr("set x86-64-v3, this one has x86-64-v4"));
+}
+
+TEST(Unit, IsRefusedInThePlaceOfAnother) {
+  EXPECT_THAT(Refusal({UnitKind::kEncounter, 13}, kOrigin, Sealed()),
+              HasSubstr("holds the unit encounter 12"));
+}
+
+TEST(Unit, HasTheOriginOfItsCampaign) {
+  Campaign campaign = TwoSeas();
+  const UnitOrigin origin = OriginOf(campaign);
+  EXPECT_EQ(origin.campaign.size(), 64u);
+  EXPECT_EQ(OriginOf(campaign).campaign, origin.campaign);
+  campaign.text += "\n";
+  EXPECT_NE(OriginOf(campaign).campaign, origin.campaign);
+}
+
+TEST(UnitContent, IsTheResultToTheLastBit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EncounterResult result;
+  result.beams.resize(2);
+  result.beams[1].refraction_along_wind = {1.0 / 3, std::numeric_limits<double>::denorm_min()};
+  result.beams[1].refraction_cross_wind = {-0.0, std::nan("")};
+  result.beams[1].thu = {{std::numbers::pi, 1e-300}, {2, 3}};
+  result.beams[1].tvu = {{kInfinity, -kInfinity}};
+  result.beams[0].bias_vertical = {{-4, 5}};
+  result.realizations = 250;
+  result.converged = false;
+  result.rays = 10000;
+  result.patch_length = 0.1;
+  result.resolved_slope_fraction = std::nextafter(1.0, 2.0);
+
+  const absl::StatusOr<EncounterResult> read = DecodeResult(EncodeResult(result));
+  ASSERT_TRUE(read.ok()) << read.status();
+  ASSERT_EQ(read->beams.size(), 2u);
+  ExpectSame(read->beams[1].refraction_along_wind, result.beams[1].refraction_along_wind);
+  ExpectSame(read->beams[1].refraction_cross_wind, result.beams[1].refraction_cross_wind);
+  ASSERT_EQ(read->beams[1].thu.size(), 2u);
+  ExpectSame(read->beams[1].thu[0], result.beams[1].thu[0]);
+  ExpectSame(read->beams[1].thu[1], result.beams[1].thu[1]);
+  ASSERT_EQ(read->beams[1].tvu.size(), 1u);
+  ExpectSame(read->beams[1].tvu[0], result.beams[1].tvu[0]);
+  ASSERT_EQ(read->beams[0].bias_vertical.size(), 1u);
+  ExpectSame(read->beams[0].bias_vertical[0], result.beams[0].bias_vertical[0]);
+  EXPECT_EQ(read->realizations, 250);
+  EXPECT_FALSE(read->converged);
+  EXPECT_EQ(read->rays, 10000);
+  ExpectSame(read->patch_length, 0.1);
+  ExpectSame(read->resolved_slope_fraction, result.resolved_slope_fraction);
+}
+
+TEST(UnitContent, IsTheAnswersToACheckedPulse) {
+  const std::vector<Estimate> answers = {{1.0 / 3, 1e-300}, {-0.0, std::nan("")}};
+  const absl::StatusOr<std::vector<Estimate>> read = DecodeAnswers(EncodeAnswers(answers));
+  ASSERT_TRUE(read.ok()) << read.status();
+  ASSERT_EQ(read->size(), 2u);
+  ExpectSame((*read)[0], answers[0]);
+  ExpectSame((*read)[1], answers[1]);
+}
+
+TEST(UnitContent, OfAnotherLengthIsRefused) {
+  EncounterResult result;
+  result.beams.resize(1);
+  result.beams[0].thu.resize(3);
+  const std::string bytes = EncodeResult(result);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(DecodeResult(bytes.substr(0, size)).ok()) << size;
+  }
+  EXPECT_FALSE(DecodeResult(bytes + "more").ok());
+}
+
+TEST(ByteStream, DoesNotBelieveACountThatTheBytesCannotHold) {
+  ByteWriter writer;
+  writer(std::numeric_limits<std::uint64_t>::max(), 1.0);
+  const std::string bytes = std::move(writer).Take();
+  std::vector<double> list;
+  ByteReader lists(bytes);
+  lists(list);
+  EXPECT_TRUE(list.empty());
+  EXPECT_FALSE(lists.ReadAll());
+  std::string_view text;
+  ByteReader texts(bytes);
+  texts(text);
+  EXPECT_FALSE(texts.ReadAll());
+}
+
+TEST(ByteStream, KeepsTheSignOfIntegers) {
+  ByteWriter writer;
+  writer(-3, true);
+  const std::string bytes = std::move(writer).Take();
+  int number = 0;
+  bool flag = false;
+  ByteReader reader(bytes);
+  reader(number, flag);
+  EXPECT_EQ(number, -3);
+  EXPECT_TRUE(flag);
+  EXPECT_TRUE(reader.ReadAll());
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,112 @@
+#include "generator/campaign/work_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "tests/generator/campaign/two_seas.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu {
+namespace {
+
+namespace fs = std::filesystem;
+using ::albtpu::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr UnitId kThird = {UnitKind::kEncounter, 2}, kSixth = {UnitKind::kEncounter, 5};
+
+WorkFolder Open(const fs::path& folder) {
+  const absl::StatusOr<WorkFolder> work = WorkFolder::Open(folder, TwoSeas());
+  EXPECT_TRUE(work.ok()) << work.status();
+  return *work;
+}
+
+TEST(WorkFolder, IsMadeWithItsCampaign) {
+  const TemporaryFolder folder;
+  Open(folder / "work");
+  const absl::StatusOr<WorkFolder> again = WorkFolder::OpenExisting(folder / "work");
+  ASSERT_TRUE(again.ok()) << again.status();
+  const absl::StatusOr<Campaign> campaign = again->ReadCampaign();
+  ASSERT_TRUE(campaign.ok()) << campaign.status();
+  EXPECT_EQ(campaign->text, TwoSeas().text);
+}
+
+TEST(WorkFolder, IsForOneCampaign) {
+  const TemporaryFolder folder;
+  Open(folder.path());
+  Open(folder.path());
+  Campaign other = TwoSeas();
+  other.text += "# changed\n";
+  const absl::Status status = WorkFolder::Open(folder.path(), other).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("campaign.toml: is another campaign"));
+}
+
+TEST(WorkFolder, IsNotAFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "precious";
+  const absl::Status status = WorkFolder::Open(folder / "file", TwoSeas()).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("file'"));
+}
+
+TEST(WorkFolder, MustBeThereToBeMerged) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(WorkFolder::OpenExisting(folder.path()).status().code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(WorkFolder::OpenExisting(folder / "absent").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(WorkFolder, KnowsWhatIsFinished) {
+  const TemporaryFolder folder;
+  const WorkFolder work = Open(folder.path());
+  EXPECT_THAT(work.Finished(UnitsOf(TwoSeas())).value(), ElementsAre());
+  ASSERT_TRUE(work.Store(kSixth, "six").ok());
+  ASSERT_TRUE(work.Store(kThird, "three").ok());
+  EXPECT_THAT(work.Finished(UnitsOf(TwoSeas())).value(), ElementsAre(kThird, kSixth));
+  EXPECT_THAT(work.Finished({kSixth}).value(), ElementsAre(kSixth));
+  std::vector<std::string> read;
+  const absl::Status status = work.Read({kThird, kSixth}, [&](UnitId, const std::string& bytes) {
+    read.push_back(bytes);
+    return absl::OkStatus();
+  });
+  EXPECT_TRUE(status.ok()) << status;
+  EXPECT_THAT(read, ElementsAre("three", "six"));
+}
+
+TEST(WorkFolder, NamesTheFileThatIsNotTaken) {
+  const TemporaryFolder folder;
+  const WorkFolder work = Open(folder.path());
+  ASSERT_TRUE(work.Store(kThird, "three").ok());
+  const absl::Status status =
+      work.Read({kThird}, [](UnitId, const std::string&) { return absl::DataLossError("is damaged"); });
+  EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(status.message(), work.PathOf(kThird).string() + ": is damaged");
+}
+
+TEST(WorkFolder, KeepsAUnitThatIsThere) {
+  const TemporaryFolder folder;
+  const WorkFolder work = Open(folder.path());
+  ASSERT_TRUE(work.Store(kThird, "three").ok());
+  EXPECT_TRUE(work.Store(kThird, "three").ok()) << "two that compute the same agree";
+  EXPECT_EQ(work.Store(kThird, "another three").code(), absl::StatusCode::kAlreadyExists);
+  std::ifstream file(work.PathOf(kThird));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "three");
+}
+
+TEST(WorkFolder, LosesWhatKilledWritersLeftAndNothingElse) {
+  const TemporaryFolder folder;
+  const WorkFolder work = Open(folder.path());
+  ASSERT_TRUE(work.Store(kThird, "three").ok());
+  std::ofstream(folder / ".albtpu-4711-3.tmp") << "half a";
+  std::ofstream(folder / "notes.txt") << "precious";
+  ASSERT_TRUE(work.RemoveTemporaries().ok());
+  EXPECT_FALSE(fs::exists(folder / ".albtpu-4711-3.tmp"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+  EXPECT_TRUE(fs::exists(work.PathOf(kThird)));
+}
+
+}  // namespace
+}  // namespace albtpu

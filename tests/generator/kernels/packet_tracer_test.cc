@@ -1,0 +1,294 @@
+#include "generator/kernels/packet_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/math/random_stream.h"
+#include "generator/surface/sea_surface.h"
+#include "sea/response/refraction.h"
+#include "tests/instruction_sets.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kN = kRefractiveIndex;
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kHeightTolerance = 1e-6;        // m, in windows of a metre or so
+constexpr double kSumRounding = 64 * 0x1p-24;    // of 64 numbers of one sign in single precision, relative
+constexpr double kNumberRounding = 8 * 0x1p-24;  // of one number after a few operations, relative
+
+// A surface in both precisions: heights are rounded to single precision in both.
+class Surface {
+ public:
+  Surface(const std::vector<double>& heights, int points, double spacing, int padding = 0)
+      : floats_((points + padding) * points, 1e9f),
+        window_{nullptr, points, points + padding, static_cast<float>(spacing)},
+        field_(Rounded(heights), points, window_.spacing) {
+    for (int ix = 0; ix < points; ++ix) {
+      for (int iy = 0; iy < points; ++iy) {
+        floats_[ix * window_.stride + iy] = static_cast<float>(heights[ix * points + iy]);
+      }
+    }
+    window_.heights = floats_.data();
+  }
+  const HeightWindow& window() const { return window_; }
+  const HeightField& field() const { return field_; }
+
+ private:
+  static std::vector<double> Rounded(std::vector<double> heights) {
+    for (double& height : heights) height = static_cast<float>(height);
+    return heights;
+  }
+  std::vector<float> floats_;
+  HeightWindow window_;
+  HeightField field_;
+};
+
+constexpr int kPoints = 31;
+constexpr double kSpacing = 0.04;
+
+// Independent heights: facets of a root mean square slope of some `slope` on each axis.
+std::vector<double> RoughHeights(std::uint32_t realization, double slope) {
+  std::vector<double> heights(kPoints * kPoints);
+  NormalStream(5, 0, realization).Fill(heights);
+  for (double& height : heights) height *= slope * kSpacing / std::sqrt(2.0);
+  return heights;
+}
+Surface RoughWater(std::uint32_t realization, double slope = 0.15) {
+  return Surface(RoughHeights(realization, slope), kPoints, kSpacing);
+}
+
+Surface Plane(const Eigen::Vector2d& slope, double height = 0) {
+  std::vector<double> heights;
+  for (int ix = -15; ix <= 15; ++ix) {
+    for (int iy = -15; iy <= 15; ++iy) heights.push_back(height + slope.dot(Eigen::Vector2d(ix, iy)) / 16);
+  }
+  return Surface(heights, 31, 1.0 / 16);
+}
+
+struct Twin {
+  TracedBeam beam;
+  double height = 0;
+  Eigen::Vector2d undisturbed_slope = Eigen::Vector2d::Zero();
+  Eigen::Vector3d undisturbed_slope_squares = Eigen::Vector3d::Zero();
+  Eigen::Vector2d undisturbed_height_slope = Eigen::Vector2d::Zero();
+};
+Twin SlowTwin(const std::vector<Ray>& rays, const HeightField& surface) {
+  Twin twin;
+  twin.beam = Trace(rays, surface, kN);
+  double undisturbed_height = 0;
+  for (const Ray& ray : rays) {
+    const HeightField::Facet facet = surface.FacetAt(ray.at_zero);
+    const Eigen::Vector2d slope = facet.slope;
+    const double height = facet.HeightAt(ray.at_zero) / rays.size();
+    undisturbed_height += height;
+    twin.undisturbed_height_slope += height * slope;
+    twin.height += Intersect(surface, ray).height / rays.size();
+    twin.undisturbed_slope += slope / rays.size();
+    twin.undisturbed_slope_squares += SlopeSquares(slope) / rays.size();
+  }
+  twin.undisturbed_height_slope -= undisturbed_height * twin.undisturbed_slope;
+  return twin;
+}
+
+// `slope` is the root mean square on each axis. A ray within rounding of an edge may take the facet beyond
+// it: one of so few rays does, and facets differ by some 6 `slope` at the most.
+void ExpectEqual(const TracedBundle& fast, const Twin& slow, int rays, double slope) {
+  const double sum = kSumRounding * slope + 6 * slope / rays;
+  const double product = kHeightTolerance * slope + sum * 0.1;  // no height is greater than 0.1 m
+  EXPECT_NEAR(fast.height, slow.height, kHeightTolerance);
+  EXPECT_LT((fast.beam.slope - slow.beam.slope).norm(), sum);
+  EXPECT_LT((fast.beam.slope_squares - slow.beam.slope_squares).norm(), sum * slope);
+  EXPECT_LT((fast.undisturbed_slope - slow.undisturbed_slope).norm(), sum);
+  EXPECT_LT((fast.undisturbed_slope_squares - slow.undisturbed_slope_squares).norm(), sum * slope);
+  EXPECT_LT((fast.undisturbed_height_slope - slow.undisturbed_height_slope).norm(), product);
+  EXPECT_LT((fast.beam.tangent - slow.beam.tangent).norm(), sum);
+  EXPECT_NEAR(fast.beam.secant, slow.beam.secant, sum);
+  EXPECT_LT((fast.beam.height_tangent - slow.beam.height_tangent).norm(), product);
+  EXPECT_NEAR(fast.beam.height_secant, slow.beam.height_secant, product);
+}
+
+class PacketTracer : public testing::OnInstructionSet {};
+ALBTPU_ON_EACH_INSTRUCTION_SET(PacketTracer);
+
+TEST_P(PacketTracer, EqualsTheDoubleTwinOnRoughWater) {
+  constexpr double kSlope = 0.15;
+  for (const double incidence : {0.0, 5.0, 12.0, 20.0, 25.0}) {
+    const Beam beam({.incidence = incidence * kDegree, .azimuth = 0.7, .footprint = 0.9}, 2000);
+    for (std::uint32_t realization = 0; realization < 10; ++realization) {
+      const Surface surface = RoughWater(realization, kSlope);
+      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.window()),
+                  SlowTwin(beam.Rays(0), surface.field()), 2000, kSlope);
+    }
+  }
+}
+
+TEST_P(PacketTracer, EqualsTheDoubleTwinUnderASea) {
+  const SeaState sea(7, 1e5);
+  const BeamOptions options{.incidence = 0.3, .azimuth = 0.7, .footprint = 0.5};
+  const SurfaceModel model(sea, options, {2.0, 64, 2000});
+  const Beam beam(options, 2000);
+  const HeightField field = SeaSurface(model, NormalStream(1, 2, 3)).WindowUnder(beam).heights;
+  const Surface surface(field.heights(), field.points(), field.spacing());
+  ExpectEqual(TracePackets(RayBundle(beam, kN), surface.window()), SlowTwin(beam.Rays(0), surface.field()),
+              2000, 0.3);
+}
+
+// One ray at a time, so that nothing averages out.
+TEST_P(PacketTracer, MeetsTheWaterWhereTheDoubleTwinDoes) {
+  const Surface surface = RoughWater(3);
+  for (const double incidence : {0.0, 0.3, 0.44}) {
+    for (const Ray& ray : Beam({.incidence = incidence, .azimuth = 2, .footprint = 0.9}, 500).Rays(0)) {
+      const TracedBundle traced = TracePackets(RayBundle(std::vector<Ray>{ray}, kN), surface.window());
+      EXPECT_NEAR(traced.height, Intersect(surface.field(), ray).height, kHeightTolerance);
+    }
+  }
+}
+
+TEST_P(PacketTracer, CountsEveryRayOnce) {
+  const Surface surface = RoughWater(1);
+  for (const int rays : {1, 2, 7, 8, 9, 15, 16, 17, 100, 1023, 1024, 1025, 2500}) {
+    for (const double incidence : {0.0, 0.3}) {
+      const Beam beam({.incidence = incidence, .footprint = 0.5}, rays);
+      ExpectEqual(TracePackets(RayBundle(beam, kN), surface.window()),
+                  SlowTwin(beam.Rays(0), surface.field()), rays, 0.15);
+    }
+  }
+}
+
+TEST_P(PacketTracer, OnAFlatSurfaceIsStillWaterExactly) {
+  for (const double incidence : {0.0, 12.0, 25.0}) {
+    const Beam beam({.incidence = incidence * kDegree, .azimuth = 0.5, .footprint = 0.5}, 1000);
+    const TracedBundle traced = TracePackets(RayBundle(beam, kN), Plane({0, 0}).window());
+    const RefractedRay still = RefractAtSlope(beam.Rays(0).front().direction, {0, 0}, kN);
+    EXPECT_EQ(traced.beam.tangent, still.tangent);
+    EXPECT_EQ(traced.beam.secant, still.secant);
+    EXPECT_EQ(traced.beam.height_tangent, Eigen::Vector2d(0, 0));
+    EXPECT_EQ(traced.beam.slope_squares, Eigen::Vector3d(0, 0, 0));
+    EXPECT_EQ(traced.height, 0);
+  }
+}
+
+TEST_P(PacketTracer, OnATiltedPlaneObeysSnellsLaw) {
+  for (const Eigen::Vector2d& slope : {Eigen::Vector2d(0.1, 0), {-0.2, 0.3}, {0.003, -0.001}}) {
+    for (const double incidence : {0.0, 0.2, 0.44}) {
+      const Beam beam({.incidence = incidence, .azimuth = 1, .footprint = 0.5}, 1000);
+      const Eigen::Vector3d direction = beam.Rays(0).front().direction;
+      const RefractedRay still = RefractAtSlope(direction, {0, 0}, kN);
+      const RefractedRay exact = RefractAtSlope(direction, slope, kN);
+      const TracedBundle traced = TracePackets(RayBundle(beam, kN), Plane(slope).window());
+      // A slope is the difference of heights of up to a metre, 1/16 m apart.
+      const double tolerance = kSumRounding * slope.norm() + 2 * 16 * slope.norm() * 0x1p-24;
+      EXPECT_LT((traced.beam.tangent - exact.tangent).norm(), tolerance);
+      EXPECT_NEAR(traced.beam.secant - still.secant, exact.secant - still.secant, tolerance);
+    }
+  }
+}
+
+// TVU at nadir is what the secant scatters by, of the order of 0.03 times the mean square slope.
+TEST_P(PacketTracer, KeepsTheSmallDeparturesOfThePathAtNadir) {
+  constexpr double kMeanSquareSlope = 0.002;
+  const Surface surface = RoughWater(2, std::sqrt(kMeanSquareSlope / 2));
+  const Beam beam({.footprint = 0.9}, 10000);
+  const double fast = TracePackets(RayBundle(beam, kN), surface.window()).beam.secant - 1;
+  const double slow = Trace(beam.Rays(0), surface.field(), kN).secant - 1;
+  EXPECT_LT(slow, 0.05 * kMeanSquareSlope);
+  EXPECT_NEAR(fast / slow, 1, kSumRounding + kNumberRounding * 8);
+}
+
+TEST_P(PacketTracer, LosesNoRayOnAnEdgeOrACorner) {
+  constexpr double kPowerOfTwo = 1.0 / 32;  // so that the rays are on edges in single precision too
+  const Surface surface(RoughHeights(4, 0.1), kPoints, kPowerOfTwo);
+  for (const double tangent : {0.0, 0.25}) {
+    for (int twice_x = -20; twice_x <= 20; ++twice_x) {
+      std::vector<Ray> rays;
+      for (int twice_y = -20; twice_y <= 20; ++twice_y) {
+        rays.push_back({Eigen::Vector3d(tangent, 0, -1).normalized(),
+                        Eigen::Vector2d(twice_x, twice_y) * (kPowerOfTwo / 2)});
+      }
+      const TracedBundle traced = TracePackets(RayBundle(rays, kN), surface.window());
+      EXPECT_NEAR(traced.height, SlowTwin(rays, surface.field()).height, kHeightTolerance);
+    }
+  }
+}
+
+// Facets that all but turn away: steps fall short there, and packets do not settle.
+TEST_P(PacketTracer, MeetsAloneWhatDoesNotSettle) {
+  std::vector<double> ridges;
+  for (int ix = 0; ix < kPoints; ++ix) {
+    for (int iy = 0; iy < kPoints; ++iy) ridges.push_back(ix % 4 < 2 ? ix % 4 * 0.55 : (4 - ix % 4) * 0.55);
+  }
+  for (double& height : ridges) height *= kSpacing;
+  const Surface surface(ridges, kPoints, kSpacing);
+  const Beam beam({.incidence = 60 * kDegree, .footprint = 0.3}, 1000);
+  const TracedBundle traced = TracePackets(RayBundle(beam, kN), surface.window());
+  EXPECT_GT(traced.met_alone, 0);
+  const Twin twin = SlowTwin(beam.Rays(0), surface.field());
+  EXPECT_NEAR(traced.height, twin.height, kHeightTolerance);
+  EXPECT_LT((traced.beam.tangent - twin.beam.tangent).norm(), kSumRounding);
+  const Beam gentle({.incidence = 20 * kDegree, .footprint = 0.3}, 1000);
+  EXPECT_EQ(TracePackets(RayBundle(gentle, kN), RoughWater(1).window()).met_alone, 0);
+}
+
+TEST_P(PacketTracer, GoesOnBeyondTheEdgesAlongTheOutermostPlanes) {
+  const Surface surface = Plane({0.3, -0.2}, 0.05);
+  for (const double incidence : {0.0, 0.3}) {
+    const Beam beam({.incidence = incidence, .azimuth = 1, .footprint = 4}, 1000);
+    const TracedBundle traced = TracePackets(RayBundle(beam, kN), surface.window());
+    EXPECT_NEAR(traced.height, SlowTwin(beam.Rays(0), surface.field()).height, kHeightTolerance);
+  }
+}
+
+TEST_P(PacketTracer, ReadsRowsThatLieApart) {
+  const std::vector<double> heights = RoughHeights(7, 0.15);
+  const Surface together(heights, kPoints, kSpacing), apart(heights, kPoints, kSpacing, 13);
+  const RayBundle rays(Beam({.incidence = 0.3, .footprint = 0.9}, 1000), kN);
+  EXPECT_EQ(TracePackets(rays, together.window()).beam.tangent,
+            TracePackets(rays, apart.window()).beam.tangent);
+}
+
+TEST_P(PacketTracer, DoesTheSameWithoutWhatIsUndisturbed) {
+  const Surface surface = RoughWater(8);
+  for (const double incidence : {0.0, 0.3}) {
+    const RayBundle rays(Beam({.incidence = incidence, .footprint = 0.9}, 1000), kN);
+    const TracedBeam with = TracePackets(rays, surface.window()).beam,
+                     without = Trace(rays, surface.window());
+    EXPECT_LT((with.tangent - without.tangent).norm(), kSumRounding);
+    EXPECT_NEAR(with.secant, without.secant, kSumRounding);
+    EXPECT_LT((with.slope_squares - without.slope_squares).norm(), kSumRounding);
+  }
+}
+
+TEST(RayBundle, HoldsEveryRayOnce) {
+  const std::vector<Ray> rays = Beam({.incidence = 0.3, .azimuth = 1, .footprint = 1}, 1003).Rays(0);
+  const RayBundle bundle(rays, kN);
+  ASSERT_EQ(bundle.count(), 1003);
+  std::vector<std::pair<float, float>> given, held;
+  for (int j = 0; j < bundle.count(); ++j) {
+    given.emplace_back(rays[j].at_zero.x(), rays[j].at_zero.y());
+    held.emplace_back(bundle.x()[j], bundle.y()[j]);
+  }
+  std::sort(given.begin(), given.end());
+  std::sort(held.begin(), held.end());
+  EXPECT_EQ(given, held);
+}
+
+TEST(RayBundle, KeepsNeighboursTogether) {
+  constexpr int kRays = 10000;
+  const RayBundle bundle(Beam({.footprint = 1}, kRays), kN);
+  const double distance = std::sqrt(0.7854 / kRays);  // of rays that share the footprint evenly
+  double sum = 0;
+  for (int j = RayBundle::kStrips; j < kRays; ++j) {
+    sum += std::hypot(bundle.x()[j] - bundle.x()[j - RayBundle::kStrips],
+                      bundle.y()[j] - bundle.y()[j - RayBundle::kStrips]);
+  }
+  EXPECT_LT(sum / kRays, 3 * distance);
+}
+
+}  // namespace
+}  // namespace albtpu

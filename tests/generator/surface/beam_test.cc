@@ -1,0 +1,122 @@
+#include "generator/surface/beam.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+namespace albtpu {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr int kRays = 20000;
+
+// Mean squares of the coordinates at which rays cross z = 0, along and across the azimuth of the beam.
+struct Spread {
+  double along, across;
+};
+Spread SpreadOf(const Beam& beam) {
+  const Eigen::Vector2d azimuth = beam.azimuth_direction();
+  Spread spread{0, 0};
+  for (const Ray& ray : beam.Rays(0)) {
+    spread.along += std::pow(ray.at_zero.dot(azimuth), 2) / beam.ray_count();
+    spread.across +=
+        std::pow(ray.at_zero.dot(Eigen::Vector2d(-azimuth.y(), azimuth.x())), 2) / beam.ray_count();
+  }
+  return spread;
+}
+
+class BeamOfProfile : public testing::TestWithParam<BeamProfile> {};
+INSTANTIATE_TEST_SUITE_P(, BeamOfProfile, testing::Values(BeamProfile::kUniform, BeamProfile::kGaussian),
+                         [](const auto& param) {
+                           return param.param == BeamProfile::kUniform ? "Uniform" : "Gaussian";
+                         });
+
+TEST_P(BeamOfProfile, HoldsTheRightPowerWithinEveryRadius) {
+  constexpr double kFootprint = 0.6;
+  const Beam beam({.footprint = kFootprint, .profile = GetParam()}, kRays);
+  for (const double radius : {0.05, 0.15, 0.25, 0.299}) {
+    int within = 0;
+    for (const Ray& ray : beam.Rays(0)) within += ray.at_zero.norm() < radius;
+    const double r = radius / kFootprint;
+    const double power = GetParam() == BeamProfile::kUniform ? 4 * r * r : 1 - std::exp(-8 * r * r);
+    EXPECT_NEAR(within, power * kRays, 1) << radius;
+  }
+}
+
+// A disc and a gaussian of the same D have the same variance, D^2/16 an axis. The spiral is even to the
+// spacing of its rays, 1/sqrt(rays) of the footprint.
+TEST_P(BeamOfProfile, HasASixteenthOfItsSquaredDiameterAsVariance) {
+  const Spread spread = SpreadOf(Beam({.footprint = 0.6, .profile = GetParam()}, kRays));
+  EXPECT_NEAR(spread.along / (0.36 / 16), 1, 1 / std::sqrt(kRays));
+  EXPECT_NEAR(spread.across / (0.36 / 16), 1, 1 / std::sqrt(kRays));
+}
+
+TEST_P(BeamOfProfile, IsAnEllipseOnTheWater) {
+  const double incidence = 40 * kDegree;
+  const Spread spread = SpreadOf(
+      Beam({.incidence = incidence, .azimuth = 1.1, .footprint = 0.6, .profile = GetParam()}, kRays));
+  EXPECT_NEAR(spread.along / (0.36 / 16 / std::pow(std::cos(incidence), 2)), 1, 1 / std::sqrt(kRays));
+  EXPECT_NEAR(spread.across / (0.36 / 16), 1, 1 / std::sqrt(kRays));
+}
+
+// The rays are a quadrature of the footprint's transform, with the midpoint rule's relative error
+// (kappa spacing)^2 / 24: at most 7e-4 where kappa D is 20.
+TEST_P(BeamOfProfile, HasRaysWhoseTransformIsTheFootprintsPower) {
+  const BeamOptions options{
+      .incidence = 25 * kDegree, .azimuth = 0.4, .footprint = 0.5, .profile = GetParam()};
+  const std::vector<Ray> rays = Beam(options, kRays).Rays(0);
+  for (const double k : {0.1, 2.0, 5.0, 10.0, 20.0, 35.0}) {
+    for (const double psi : {0.0, 0.4, 1.2, 2.5}) {
+      std::complex<double> transform = 0;
+      for (const Ray& ray : rays) {
+        transform +=
+            std::polar(1.0 / kRays, k * (ray.at_zero.x() * std::cos(psi) + ray.at_zero.y() * std::sin(psi)));
+      }
+      EXPECT_NEAR(FootprintPower(options, k, psi), std::norm(transform), 1e-3) << k << " rad/m at " << psi;
+    }
+  }
+}
+
+TEST(Beam, WhenCollimatedSendsAllItsRaysTheSameWay) {
+  const double incidence = 20 * kDegree, azimuth = 70 * kDegree;
+  const Beam beam({.incidence = incidence, .azimuth = azimuth, .footprint = 1}, 50);
+  const Eigen::Vector3d expected(std::sin(incidence) * std::cos(azimuth),
+                                 std::sin(incidence) * std::sin(azimuth), -std::cos(incidence));
+  for (const Ray& ray : beam.Rays(3)) EXPECT_LT((ray.direction - expected).norm(), 1e-15);
+}
+
+TEST(Beam, FromAPointSourceSpreadsFromThatPoint) {
+  constexpr double kHeight = 4, kElevation = 0.3;
+  const double incidence = 15 * kDegree;
+  const Beam beam({.incidence = incidence, .azimuth = 0, .footprint = 0.25, .source_height = kHeight}, 200);
+  for (const double elevation : {0.0, kElevation}) {
+    const double above = kHeight - elevation;
+    for (const Ray& ray : beam.Rays(elevation)) {
+      const Eigen::Vector2d at_source = ray.at_zero + above * ray.per_height();
+      EXPECT_LT((at_source - Eigen::Vector2d(-above * std::tan(incidence), 0)).norm(), 1e-14);
+      EXPECT_NEAR(ray.direction.norm(), 1, 1e-15);
+    }
+  }
+}
+
+TEST(Beam, FromAPointSourceNarrowsTowardsIt) {
+  const Beam beam({.footprint = 0.25, .source_height = 4}, 1000);
+  const auto radius = [&](double elevation) { return beam.Rays(elevation).back().at_zero.norm(); };
+  EXPECT_NEAR(radius(0), 0.125, 0.125 / 1000);  // the outermost of 1000 rays of equal power
+  EXPECT_NEAR(radius(1) / radius(0), 0.75, 1e-12);
+}
+
+TEST(FootprintPower, IsOneForWavesMuchLongerThanTheFootprint) {
+  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
+    EXPECT_NEAR(FootprintPower({.incidence = 0.3, .footprint = 0.5, .profile = profile}, 1e-4, 0.2), 1, 1e-8);
+  }
+}
+
+TEST(FootprintPower, OfADiscVanishesAtTheFirstZeroOfItsBesselFunction) {
+  constexpr double kFirstZero = 3.8317059702075125;  // of J1
+  EXPECT_NEAR(FootprintPower({.footprint = 0.5}, kFirstZero / 0.25, 0.9), 0, 1e-25);
+}
+
+}  // namespace
+}  // namespace albtpu

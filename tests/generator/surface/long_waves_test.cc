@@ -1,0 +1,85 @@
+#include "generator/surface/long_waves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace albtpu {
+namespace {
+
+constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
+const auto kEverything = [](double, double) { return 1.0; };
+
+double ElevationAt(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes, const Eigen::Vector2d& x) {
+  double sum = 0;
+  for (std::size_t m = 0; m < model.waves().size(); ++m) {
+    sum += (amplitudes[m] * std::polar(1.0, model.waves()[m].wavenumber.dot(x))).real();
+  }
+  return sum;
+}
+
+// Waves longer than a patch of 2 m under 10 m/s.
+LongWaveModel Model() { return LongWaveModel(SeaState(10, kFullyDeveloped), CrossFade(9, 19)); }
+
+TEST(LongWaves, HaveTheVariancesThatThePatchLeavesToThem) {
+  for (const double fetch : {1e3, kFullyDeveloped}) {
+    const SeaState sea(10, fetch);
+    const CrossFade share(9, 19);
+    const LongWaveModel model(sea, share);
+    // Trapezoids in log k, fine enough to count as exact.
+    double elevation = 0, slope = 0;
+    constexpr double kStep = 1e-4;
+    for (double k = sea.energetic_range().lowest; k < 19; k *= std::exp(kStep)) {
+      elevation += (1 - share(k)) * sea.spectrum()(k) * k * kStep;
+      slope += (1 - share(k)) * sea.spectrum()(k) * k * k * k * kStep;
+    }
+    EXPECT_NEAR(model.elevation_variance() / elevation, 1, 1e-3);
+    const Eigen::Matrix2d slopes = model.SlopeCovariance(kEverything);
+    EXPECT_NEAR(slopes.trace() / slope, 1, 1e-3);
+    // A wave runs along the middle of its sector of 15 degrees; cos(2 psi) averages to sin(15)/(15) there.
+    EXPECT_NEAR(slopes(0, 0) / slopes.trace(), 7.0 / 12, 1e-3);
+    EXPECT_NEAR(slopes(0, 1) / slopes.trace(), 0, 1e-9);
+  }
+}
+
+TEST(LongWaves, AreDrawnWithTheirVariances) {
+  const LongWaveModel model = Model();
+  constexpr int kDraws = 4000;
+  double squares = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    NormalStream stream(1, 0, draw);
+    squares += std::pow(ElevationAt(model, model.Draw(stream), {1.5, -20}), 2) / kDraws;
+  }
+  EXPECT_NEAR(squares / model.elevation_variance(), 1, 4 * std::sqrt(2.0 / kDraws));  // of a normal variable
+}
+
+TEST(LongWaves, AboutAnotherOriginAreTheSameWaves) {
+  const LongWaveModel model = Model();
+  NormalStream stream(1, 2, 3);
+  const Eigen::VectorXcd amplitudes = model.Draw(stream);
+  const Eigen::Vector2d origin(3, -7);
+  for (const Eigen::Vector2d& x : {Eigen::Vector2d(0, 0), {1, 2}, {-30, 4}}) {
+    EXPECT_NEAR(ElevationAt(model, model.Shifted(amplitudes, origin), x),
+                ElevationAt(model, amplitudes, origin + x), 1e-12);
+  }
+}
+
+TEST(HeightOfMeeting, IsOnTheLongWaves) {
+  const LongWaveModel model = Model();
+  for (int draw = 0; draw < 100; ++draw) {
+    NormalStream stream(1, 4, draw);
+    const Eigen::VectorXcd amplitudes = model.Draw(stream);
+    for (const double incidence : {0.0, 0.35, 0.44, 0.8}) {
+      const Eigen::Vector2d per_height =
+          -std::tan(incidence) * Eigen::Vector2d(std::cos(draw), std::sin(draw));
+      const Eigen::Vector2d at_zero(0.3, -0.1);
+      const double z = HeightOfMeeting(model, amplitudes, at_zero, per_height);
+      EXPECT_NEAR(ElevationAt(model, amplitudes, at_zero + z * per_height), z, 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

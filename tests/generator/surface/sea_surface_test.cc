@@ -1,0 +1,159 @@
+#include "generator/surface/sea_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace albtpu {
+namespace {
+
+constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
+const auto kEverything = [](double, double) { return 1.0; };
+
+struct SeaAndBeam {
+  double wind_speed, fetch;
+  BeamOptions beam;
+};
+
+// Footprints under, among and above the waves' lengths; short and unlimited fetch.
+const std::vector<SeaAndBeam> kCases = {
+    {2, kFullyDeveloped, {.footprint = 0.25}},
+    {2, 1e3, {.incidence = 0.35, .footprint = 1}},
+    {5, kFullyDeveloped, {.incidence = 0.35, .azimuth = 0.8, .footprint = 0.25}},
+    {5, 100, {.footprint = 0.5, .profile = BeamProfile::kGaussian}},
+    {10, 1e4, {.incidence = 0.35, .footprint = 2, .profile = BeamProfile::kGaussian}},
+    {15, kFullyDeveloped, {.incidence = 0.436, .footprint = 0.1}},
+    {15, kFullyDeveloped, {.incidence = 0.436, .azimuth = 1.57, .footprint = 5}},
+};
+
+TEST(SurfaceModel, ShowsTheFootprintTheSlopeVarianceOfTheClosedForm) {
+  for (const SeaAndBeam& c : kCases) {
+    const SeaState sea(c.wind_speed, c.fetch);
+    const SurfaceModel model(sea, c.beam, ChooseDiscretization(sea, {c.beam}));
+    const auto seen = [&](double k, double psi) { return FootprintPower(c.beam, k, psi); };
+    const double fraction = model.FacetSlopeCovariance(seen).trace() / SlopeCovariance(sea, seen).trace();
+    EXPECT_GE(fraction, 0.995) << c.wind_speed << " m/s, " << c.fetch << " m, " << c.beam.footprint << " m";
+    EXPECT_LE(fraction, 1.01) << c.wind_speed << " m/s, " << c.fetch << " m, " << c.beam.footprint << " m";
+  }
+}
+
+// Nothing is lost where plane waves pass into modes of the patch; what the grid cannot hold has no height.
+TEST(SurfaceModel, HasTheElevationVarianceOfTheSea) {
+  for (const SeaAndBeam& c : kCases) {
+    const SeaState sea(c.wind_speed, c.fetch);
+    const SurfaceModel model(sea, c.beam, ChooseDiscretization(sea, {c.beam}));
+    EXPECT_NEAR(model.elevation_variance() / ElevationVariance(sea), 1, 0.01)
+        << c.wind_speed << " m/s, " << c.fetch << " m, " << c.beam.footprint << " m";
+  }
+}
+
+// Steep beams over rough water have windows wider than a patch of 2.5 beams.
+TEST(SurfaceModel, HoldsTheWindowInItsPatch) {
+  for (const double incidence : {0.0, 0.5, 1.047}) {
+    for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
+      const BeamOptions widest{.incidence = incidence, .footprint = 0.1, .profile = profile};
+      const SurfaceModel model(SeaState(15, kFullyDeveloped), widest,
+                               {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 1});
+      EXPECT_LT(model.window_points(), model.patch().size()) << incidence;
+    }
+  }
+}
+
+class ModerateSea : public testing::Test {
+ protected:
+  const SeaState sea_{7, 1e4};
+  const BeamOptions options_{.incidence = 0.35, .azimuth = 0.8, .footprint = 0.5};
+  const SurfaceModel model_{sea_, options_, {.patch_per_beam = 4, .points_per_footprint = 32, .rays = 1}};
+};
+
+// The plane waves are interpolated from nodes, 84 to the side of the patch; there Lagrange's cubic errs by at
+// most 3/128 of the fourth difference along one axis, and 5/4 of that along the other.
+TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
+  const int size = model_.patch().size();
+  const auto& waves = model_.long_waves().waves();
+  const double node_spacing = static_cast<double>(std::lround(size / 84.0)) * model_.patch().spacing();
+  const Beam beam(options_, 1);
+  double squares = 0;
+  int count = 0;
+  for (std::uint32_t realization = 0; realization < 5; ++realization) {
+    NormalStream stream(1, 0, realization);
+    const Eigen::VectorXcd amplitudes = model_.long_waves().Draw(stream);
+    const std::vector<double> patch = model_.patch().Draw(stream);
+    const double elevation =
+        HeightOfMeeting(model_.long_waves(), amplitudes, Eigen::Vector2d::Zero(), beam.per_height());
+    const Eigen::Vector2d origin = elevation * beam.per_height();
+    double bound = 1e-12;
+    for (std::size_t m = 0; m < waves.size(); ++m) {
+      const Eigen::Vector2d phase = waves[m].wavenumber * node_spacing;
+      bound += std::abs(amplitudes[m]) * 3.0 / 128 * (std::pow(phase.x(), 4) + 1.25 * std::pow(phase.y(), 4));
+    }
+
+    const SeaSurface::Window window = SeaSurface(model_, NormalStream(1, 0, realization)).WindowUnder(beam);
+    EXPECT_NEAR(window.elevation, elevation, 1e-12);
+    const int half = static_cast<int>(std::lround(window.heights.reach() / window.heights.spacing()));
+    for (int i = -half; i <= half; ++i) {
+      for (int j = -half; j <= half; ++j) {
+        const Eigen::Vector2d x = Eigen::Vector2d(i, j) * window.heights.spacing();
+        double direct = -elevation;
+        for (std::size_t m = 0; m < waves.size(); ++m) {
+          direct += (amplitudes[m] * std::polar(1.0, waves[m].wavenumber.dot(origin + x))).real();
+        }
+        const double long_waves =
+            window.heights.FacetAt(x).HeightAt(x) - patch[((i + size) % size) * size + (j + size) % size];
+        ASSERT_NEAR(long_waves, direct, bound) << i << ", " << j;
+        squares += std::pow(long_waves - direct, 2);
+        ++count;
+      }
+    }
+  }
+  // In the mean, against the waves that the plane waves share with the patch.
+  EXPECT_LT(std::sqrt(squares / count), 0.003 * std::sqrt(model_.patch().elevation_variance()));
+}
+
+TEST_F(ModerateSea, ReachesBeyondTheRaysOfItsBeam) {
+  const Beam beam(options_, 1000);
+  const SeaSurface::Window window = SeaSurface(model_, NormalStream(1, 0, 0)).WindowUnder(beam);
+  for (const Ray& ray : beam.Rays(window.elevation)) {
+    const Hit hit = Intersect(window.heights, ray);
+    EXPECT_LT((ray.at_zero + hit.height * ray.per_height()).cwiseAbs().maxCoeff(), window.heights.reach());
+  }
+}
+
+// Elevation and slope of one facet at the centre of a vertical beam are normal variables: their variances
+// over n draws have the relative standard error sqrt(2/n).
+TEST_F(ModerateSea, HasTheVariancesOfTheSpectrum) {
+  constexpr int kDraws = 4000;
+  const Beam nadir({.footprint = options_.footprint}, 1);
+  double elevation = 0;
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const SeaSurface::Window window = SeaSurface(model_, NormalStream(2, 0, draw)).WindowUnder(nadir);
+    const HeightField::Facet facet = window.heights.FacetAt({0, 0});
+    elevation += std::pow(window.elevation + facet.HeightAt({0, 0}), 2) / kDraws;
+    slope += facet.slope.cwiseAbs2() / kDraws;
+  }
+  const double four_standard_errors = 4 * std::sqrt(2.0 / kDraws);
+  EXPECT_NEAR(elevation / model_.elevation_variance(), 1, four_standard_errors);
+  const Eigen::Matrix2d expected = model_.FacetSlopeCovariance(kEverything);
+  EXPECT_NEAR(slope.x() / expected(0, 0), 1, four_standard_errors);
+  EXPECT_NEAR(slope.y() / expected(1, 1), 1, four_standard_errors);
+}
+
+TEST_F(ModerateSea, IsAFunctionOfTheStreamAlone) {
+  const Beam beam(options_, 1);
+  const auto height = [&](std::uint32_t realization) {
+    return SeaSurface(model_, NormalStream(1, 0, realization))
+        .WindowUnder(beam)
+        .heights.FacetAt({0.1, 0})
+        .height_at_origin;
+  };
+  EXPECT_EQ(height(3), height(3));
+  EXPECT_NE(height(3), height(4));
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,220 @@
+#include "survey/csv/csv_annotation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "absl/strings/str_cat.h"
+#include "service/client/local_source.h"
+#include "survey/exit_status.h"
+#include "survey/number_text.h"
+#include "tests/survey/answers/one_answer.h"
+#include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::ReadFile;
+using albtpu::testing::SyntheticTable;
+using albtpu::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+class CsvAnnotation : public ::testing::Test {
+ protected:
+  // What becomes of a file of this text; an error as its message.
+  std::string Annotate(const std::string& text) {
+    const std::filesystem::path input = folder_.Write("in.csv", text);
+    const std::filesystem::path output = folder_ / "out.csv";
+    std::filesystem::remove(output);
+    Progress progress("pulses", 1, 0);
+    absl::StatusOr<AnnotatedCsv> annotated =
+        AnnotateCsv(input, output, Existing::kKeep, fixed_, style_, source_, progress);
+    status_ = annotated.status();
+    if (!annotated.ok()) {
+      EXPECT_EQ(folder_.file_count(), 1u) << "something was left behind";
+      return std::string(annotated.status().message());
+    }
+    EXPECT_TRUE(annotated->file.Commit().ok());
+    EXPECT_EQ(annotated->input_bytes, text.size());
+    counts_ = annotated->summary.outcomes();
+    return ReadFile(output);
+  }
+
+  // What a pulse's cells must be.
+  std::string Cells(const Pulse& pulse) {
+    const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, pulse);
+    std::string cells;
+    for (const float value : answer.values) {
+      absl::StrAppend(&cells, ",", answer.outcome == Outcome::kInterpolated ? FormatFloat(value) : "");
+    }
+    return absl::StrCat(cells, ",", OutcomeText(answer));
+  }
+
+  void Fix(AxisId axis, float value) { fixed_[Index(axis)] = value; }
+
+  TemporaryFolder folder_;
+  LocalSource source_{"", SyntheticTable()};
+  FixedCoordinates fixed_;
+  AnswerStyle style_;
+  OutcomeCounts counts_;
+  absl::Status status_;
+};
+
+const char kAppended[] =
+    ",refraction_along_wind,refraction_cross_wind,thu,tvu,bias_along_beam,bias_vertical,outcome";
+const char kHeader[] = "wind_speed,fetch,incidence,azimuth,footprint,depth";
+const Pulse kPulse = {
+    .wind_speed = 5, .fetch = 3e4f, .incidence = 12.5f, .azimuth = 30.0f, .footprint = 0.6f, .depth = 7};
+
+TEST_F(CsvAnnotation, AppendsTheAnswerToEachRecord) {
+  EXPECT_EQ(Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n"),
+            std::string(kHeader) + kAppended + "\n5,3e4,12.5,30,.6,7" + Cells(kPulse) + "\n");
+  EXPECT_EQ(counts_.Text(), "1 pulse: 1 interpolated");
+}
+
+TEST_F(CsvAnnotation, FindsColumnsInAnyOrderAmongOthers) {
+  EXPECT_EQ(Annotate("\xEF\xBB\xBFname,depth, azimuth ,\"footprint\",incidence,fetch,wind_speed\r\n"
+                     "\"a, \"\"b\"\"\", 7 ,30,\".6\",12.5,30000,5\r\n"),
+            "\xEF\xBB\xBFname,depth, azimuth ,\"footprint\",incidence,fetch,wind_speed" +
+                std::string(kAppended) + "\r\n\"a, \"\"b\"\"\", 7 ,30,\".6\",12.5,30000,5" + Cells(kPulse) +
+                "\r\n");
+}
+
+TEST_F(CsvAnnotation, TakesAMissingColumnFromAFlag) {
+  Fix(AxisId::kWindSpeed, 5);
+  Fix(AxisId::kFetch, 3e4f);
+  Fix(AxisId::kAzimuth, 30);
+  Fix(AxisId::kFootprint, 0.6f);
+  EXPECT_THAT(Annotate("incidence,depth\n12.5,7\n"), HasSubstr("12.5,7" + Cells(kPulse)));
+}
+
+TEST_F(CsvAnnotation, TakesEmptyFetchAndAzimuthForAbsent) {
+  Pulse pulse = kPulse;
+  pulse.fetch = std::numeric_limits<float>::infinity();
+  pulse.azimuth.reset();
+  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12.5, ,.6,7\n5,inf,12.5,,.6,7\n"),
+              ::testing::AllOf(HasSubstr("\n5,,12.5, ,.6,7" + Cells(pulse)),
+                               HasSubstr("\n5,inf,12.5,,.6,7" + Cells(pulse))));
+  EXPECT_THAT(Annotate("wind_speed,incidence,footprint,depth\n5,12.5,.6,7"), HasSubstr(Cells(pulse) + "\n"));
+  EXPECT_THAT(counts_.Text(), HasSubstr("1 pulse: 1 interpolated; all without azimuth: "));
+  Annotate(std::string(kHeader) + "\n5,,12.5,3,.6,7\n5,inf,12.5,,.6,7\n");
+  EXPECT_THAT(counts_.Text(), HasSubstr("; 1 without azimuth: "));
+}
+
+TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {
+  const std::string text =
+      Annotate(std::string(kHeader) +
+               "\n5,,12,,.6,7\n-5,,12,,.6,7\n5,,12,,.6,-1\n5,,12,,.6,nan\ninf,,12,,.6,7\n"
+               "5,,12,,.6,1e39\n5,-inf,12,,.6,7\n5,,91,,.6,7\n");
+  EXPECT_THAT(text, HasSubstr("\n-5,,12,,.6,7,,,,,,,OUT_OF_DOMAIN:wind_speed\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,-1,,,,,,,OUT_OF_DOMAIN:depth\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,nan,,,,,,,INVALID"));
+  EXPECT_THAT(text, HasSubstr("\ninf,,12,,.6,7,,,,,,,INVALID"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,1e39,,,,,,,OUT_OF_DOMAIN:depth\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,-inf,12,,.6,7,,,,,,,INVALID"));
+  EXPECT_THAT(text, HasSubstr("\n5,,91,,.6,7,,,,,,,OUT_OF_DOMAIN:incidence\n"));
+  EXPECT_EQ(counts_.total(), 8u);
+  EXPECT_EQ(counts_.interpolated(), 1u);
+}
+
+TEST_F(CsvAnnotation, RepeatsBlankLinesAndFilesWithoutPulses) {
+  const std::string header = std::string(kHeader) + kAppended;
+  EXPECT_EQ(Annotate(std::string(kHeader) + "\n"), header + "\n");
+  EXPECT_EQ(Annotate(kHeader), header + "\n");
+  EXPECT_EQ(Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n\n"),
+            header + "\n5,3e4,12.5,30,.6,7" + Cells(kPulse) + "\n\n");
+}
+
+TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44WhenAsked) {
+  style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b, .standard_errors = true};
+  const std::string text = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n5,,12,,.6,99\n");
+  EXPECT_THAT(text,
+              HasSubstr("outcome,refraction_along_wind_standard_error,refraction_cross_wind_standard_error,"
+                        "thu_standard_error,tvu_standard_error,bias_along_beam_standard_error,"
+                        "bias_vertical_standard_error,s44_best_order,s44_remaining_thu,s44_remaining_tvu\n"));
+  const PulseUncertainty p95 = albtpu::testing::AnswerOf(source_, kPulse, Coverage::kP95);
+  EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(p95[Quantity::kThu]), ",")));
+  const double left = RemainingBudget(ThuLimit(S44Order::k1b, 7), p95[Quantity::kThu]).value();
+  EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(static_cast<float>(left)), ",")));
+  EXPECT_THAT(text, HasSubstr(",OUT_OF_DOMAIN:depth,,,,,,,,,\n"));
+}
+
+TEST_F(CsvAnnotation, LeavesCellsEmptyThatTheTableCannotFill) {
+  source_ = LocalSource("", SyntheticTable({.published = true}));
+  style_.standard_errors = true;
+  const std::string text = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n");
+  EXPECT_THAT(text, HasSubstr(",,,INTERPOLATED,,,,,,\n"));
+}
+
+TEST_F(CsvAnnotation, NamesLineAndColumnOfAWord) {
+  const std::string ok = "5,,12,,.6,7\n";
+  EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + ok + "5,,12,,.6,deep\n"),
+              HasSubstr("in.csv line 4, column 'depth': 'deep' is not a number: "));
+  EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + "5,,,,.6,7\n"),
+              HasSubstr("line 3, column 'incidence': is empty"));
+}
+
+TEST_F(CsvAnnotation, NamesAMissingColumnAndTheFlagForIt) {
+  const std::string message = Annotate("wind_speed,incidence,Depth,footprint\n5,12,7,.6\n");
+  EXPECT_THAT(message, HasSubstr("line 1: no column 'depth': add it, or give one value for all by --depth"));
+  EXPECT_FALSE(IsUsageError(status_));
+  EXPECT_THAT(Annotate("wind_speed;incidence;depth;footprint\n5;12;7;.6\n"), HasSubstr("by commas"));
+}
+
+TEST_F(CsvAnnotation, RefusesAFlagBesideItsColumn) {
+  Fix(AxisId::kDepth, 3);
+  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6,7\n"), HasSubstr("--depth"));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
+TEST_F(CsvAnnotation, RefusesHeadersThatWouldBeAmbiguous) {
+  EXPECT_THAT(Annotate("depth,wind_speed,depth,incidence,footprint\n"), HasSubstr("'depth' stands twice"));
+  EXPECT_THAT(Annotate(std::string(kHeader) + ",thu\n"), HasSubstr("column 'thu' is there already"));
+  EXPECT_THAT(Annotate(""), HasSubstr("is empty"));
+  EXPECT_THAT(Annotate("\n1\n"), HasSubstr("is empty"));
+}
+
+TEST_F(CsvAnnotation, RefusesRecordsOfAnotherLength) {
+  EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6\n"),
+              HasSubstr("line 2: 5 cells under a header of 6"));
+}
+
+TEST_F(CsvAnnotation, DoesNotWriteOverItsInput) {
+  const std::filesystem::path input = folder_.Write("in.csv", kHeader);
+  Progress progress("pulses", 1, 0);
+  const auto status =
+      AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_, progress).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
+  EXPECT_EQ(ReadFile(input), kHeader);
+}
+
+TEST_F(CsvAnnotation, RefusesAnInputThatChangesWhileItIsRead) {
+  albtpu::testing::DisturbedSource source(
+      source_, [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
+  const std::filesystem::path input = folder_.Write("in.csv", std::string(kHeader) + "\n5,,12,,.6,7\n");
+  Progress progress("pulses", 1, 0);
+  const auto status =
+      AnnotateCsv(input, folder_ / "out.csv", Existing::kKeep, fixed_, style_, source, progress).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("in.csv: changed while it was read"));
+  EXPECT_EQ(folder_.file_count(), 1u);
+}
+
+TEST_F(CsvAnnotation, KeepsTheOrderAcrossChunks) {
+  std::string text = "id,depth\n";
+  for (int i = 0; i < 150000; ++i) absl::StrAppend(&text, i, ",", i % 20, "\n");
+  Fix(AxisId::kWindSpeed, 5);
+  Fix(AxisId::kIncidence, 12);
+  Fix(AxisId::kFootprint, 0.6f);
+  const std::string annotated = Annotate(text);
+  EXPECT_EQ(counts_.interpolated(), 150000u);
+  std::size_t at = annotated.find('\n') + 1;
+  for (int i = 0; i < 150000; ++i) {
+    const std::string begin = absl::StrCat(i, ",", i % 20, ",");
+    ASSERT_EQ(annotated.compare(at, begin.size(), begin), 0) << i;
+    at = annotated.find('\n', at) + 1;
+  }
+  EXPECT_EQ(at, annotated.size());
+}
+
+}  // namespace
+}  // namespace albtpu::client

@@ -1,0 +1,84 @@
+#include "survey/files/file_jobs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "survey/exit_status.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class FileJobs : public ::testing::Test {
+ protected:
+  FileJobs() {
+    for (const char* name : {"out", "in", "in/line", "in/line/deep"}) {
+      std::filesystem::create_directory(folder_ / name);
+    }
+    for (const char* name : {"b.las", "a.LAS", "notes.txt", "line/a.las", "line/deep/c.las"}) {
+      folder_.Write(std::string("in/") + name, "");
+    }
+    options_.output_folder = folder_ / "out";
+  }
+
+  // Outputs, below the output folder; an error as its message.
+  std::vector<std::string> Outputs() {
+    const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options_);
+    status_ = jobs.status();
+    if (!jobs.ok()) return {std::string(jobs.status().message())};
+    std::vector<std::string> outputs;
+    for (const Job& job : *jobs) outputs.push_back(job.output.lexically_relative(folder_ / "out").string());
+    return outputs;
+  }
+
+  TemporaryFolder folder_;
+  FileOptions options_;
+  absl::Status status_;
+};
+
+TEST_F(FileJobs, TakesAFolderForAllFilesInIt) {
+  options_.files = {folder_ / "in"};
+  EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las"));
+}
+
+TEST_F(FileJobs, RepeatsSubfoldersWhenRecursive) {
+  options_.files = {folder_ / "in/"};
+  options_.recursive = true;
+  EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las", "line/a.las", "line/deep/c.las"));
+}
+
+TEST_F(FileJobs, MixesFilesAndFolders) {
+  options_.files = {folder_ / "in/line/deep/c.las", folder_ / "in"};
+  EXPECT_THAT(Outputs(), ElementsAre("c.las", "a.LAS", "b.las"));
+}
+
+TEST_F(FileJobs, TakesNoOutputForAnInput) {
+  options_.output_folder = folder_ / "in/line";
+  options_.files = {folder_ / "in"};
+  options_.recursive = true;
+  EXPECT_EQ(Outputs().size(), 2u);
+}
+
+TEST_F(FileJobs, RefusesTwoInputsOfOneName) {
+  options_.files = {folder_ / "in/line", folder_ / "in/../in/line/a.las"};
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("two inputs are called a.las")));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
+TEST_F(FileJobs, SaysWhatIsMissing) {
+  options_.files = {folder_ / "out"};
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("out: no .las file in this folder")));
+  EXPECT_FALSE(IsUsageError(status_));
+  options_.output_folder = folder_ / "no";
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("no is no folder")));
+  options_.output_folder.clear();
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("IN.las OUT.las is right")));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
+}  // namespace
+}  // namespace albtpu::client

@@ -1,0 +1,130 @@
+#include "survey/files/summary_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/temporary_folder.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::ReadFile;
+using albtpu::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+class SummaryFile : public ::testing::Test {
+ protected:
+  SummaryFile() {
+    folder_.Write("in.las", "input");
+    making_.command = "las";
+    making_.parameters = {{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
+    making_.table.id = "survey";
+    making_.table.digest = "1234";
+  }
+
+  // Makes the output anew.
+  absl::Status Make(Existing existing = Existing::kKeep) {
+    absl::StatusOr<OutputFile> output = OutputFile::Create(job_.output, existing);
+    if (!output.ok()) return output.status();
+    EXPECT_TRUE(output->Write("output").ok());
+    const Findings findings{.input_bytes = 5, .input = {{"points", 1}}, .answers = {{"pulses", 1}}};
+    const std::string text = SummaryText(making_, job_, findings, output->size());
+    return CommitWithSummary(*std::move(output), job_, text, existing);
+  }
+
+  std::string Difference() { return std::string(CheckMade(making_, job_).message()); }
+
+  TemporaryFolder folder_;
+  Job job_{folder_ / "in.las", folder_ / "out.las"};
+  Making making_;
+};
+
+TEST_F(SummaryFile, KnowsWhatItMade) {
+  EXPECT_TRUE(absl::IsNotFound(CheckMade(making_, job_)));
+  ASSERT_TRUE(Make().ok());
+  EXPECT_TRUE(CheckMade(making_, job_).ok()) << Difference();
+  EXPECT_EQ(folder_.file_count(), 3u);
+}
+
+TEST_F(SummaryFile, HasTheSameBytesWhereverItIsMade) {
+  ASSERT_TRUE(Make().ok());
+  const std::string text = ReadFile(folder_ / "out.las.json");
+  EXPECT_THAT(text, ::testing::Not(HasSubstr(folder_ / "")));
+  const TemporaryFolder elsewhere;
+  elsewhere.Write("in.las", "input");
+  job_ = {elsewhere / "in.las", elsewhere / "out.las"};
+  ASSERT_TRUE(Make().ok());
+  EXPECT_EQ(ReadFile(elsewhere / "out.las.json"), text);
+}
+
+TEST_F(SummaryFile, SaysWhatIsDifferent) {
+  ASSERT_TRUE(Make().ok());
+  const Making made = making_;
+  making_.parameters["wind_speed"] = 6;
+  EXPECT_THAT(Difference(), HasSubstr("parameters.wind_speed is 5 there, 6 here"));
+  making_ = made;
+  making_.parameters["classes"] = {26};
+  EXPECT_THAT(Difference(), HasSubstr("parameters.classes is [26,40] there, [26] here"));
+  making_ = made;
+  making_.table.digest = "5678";
+  EXPECT_THAT(Difference(), HasSubstr("table.digest is \"1234\" there"));
+  making_ = made;
+  folder_.Write("out.las", "outpu");
+  EXPECT_THAT(Difference(), HasSubstr("output.bytes is 6 there, 5 here"));
+  ASSERT_TRUE(Make(Existing::kReplace).ok());
+  folder_.Write("in.las", "other input");
+  EXPECT_THAT(Difference(), HasSubstr("input.bytes is 5 there, 11 here"));
+}
+
+TEST_F(SummaryFile, SeesThatTheInputIsNewer) {
+  ASSERT_TRUE(Make().ok());
+  const auto later = std::filesystem::last_write_time(job_.output) + std::chrono::seconds(1);
+  std::filesystem::last_write_time(job_.input, later);
+  EXPECT_THAT(Difference(), HasSubstr("in.las is newer"));
+}
+
+TEST_F(SummaryFile, TakesAnOutputWithoutSummaryForUnknown) {
+  for (const char* text : {"", "{", "[]", "{\"program\": 1}", "{\"parameters\": 1, \"command\": \"las\"}"}) {
+    folder_.Write("out.las", "output");
+    folder_.Write("out.las.json", text);
+    EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_))) << text;
+  }
+}
+
+TEST_F(SummaryFile, TakesADeepOrLongSummaryForUnknown) {
+  const auto nested = [](std::size_t depth) {
+    return "{\"parameters\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
+  };
+  folder_.Write("out.las", "output");
+  for (const std::string& text : {nested(200'000), nested(500'000), std::string(2 << 20, ' ')}) {
+    folder_.Write("out.las.json", text);
+    EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_)));
+  }
+}
+
+TEST_F(SummaryFile, NamesTheOutputBeforeItself) {
+  ASSERT_TRUE(Make().ok());
+  EXPECT_THAT(CheckSummaryCanBeWritten(job_, Existing::kKeep).message(),
+              HasSubstr("out.las: exists already"));
+}
+
+TEST_F(SummaryFile, KeepsWhatStandsInItsPlace) {
+  folder_.Write("out.las.json", "{\"precious\": 1}");
+  EXPECT_TRUE(absl::IsAlreadyExists(Make()));
+  EXPECT_FALSE(std::filesystem::exists(job_.output));
+  EXPECT_EQ(ReadFile(folder_ / "out.las.json"), "{\"precious\": 1}");
+  EXPECT_TRUE(Make(Existing::kReplace).ok());
+}
+
+TEST_F(SummaryFile, ReplacesASummaryThatAKilledRunLeft) {
+  ASSERT_TRUE(Make().ok());
+  std::filesystem::remove(job_.output);
+  EXPECT_TRUE(absl::IsNotFound(CheckMade(making_, job_)));
+  EXPECT_TRUE(Make().ok());
+  EXPECT_TRUE(CheckMade(making_, job_).ok());
+}
+
+}  // namespace
+}  // namespace albtpu::client

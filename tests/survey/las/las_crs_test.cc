@@ -1,0 +1,79 @@
+#include "survey/las/las_crs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "survey/las/little_endian.h"
+#include "tests/survey/las/las_builder.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::client {
+namespace {
+
+std::string GeoKeys(std::initializer_list<std::pair<int, int>> keys) {
+  std::string bytes(8 * (keys.size() + 1), '\0');
+  std::size_t at = 8;
+  for (const auto& [key, value] : keys) {
+    Store(static_cast<std::uint16_t>(key), bytes.data() + at);
+    Store<std::uint16_t>(1, bytes.data() + at + 4);
+    Store(static_cast<std::uint16_t>(value), bytes.data() + at + 6);
+    at += 8;
+  }
+  return bytes;
+}
+
+TEST(LasCrs, FindsFeetInWellKnownText) {
+  for (const char* wkt : {
+           "PROJCS[\"x\",UNIT[\"US survey foot\",0.3048006096012192,AUTHORITY[\"EPSG\",\"9003\"]]]",
+           "PROJCS[\"x\",UNIT[\"metre\",1]],VERT_CS[\"NAVD88 height "
+           "(ftUS)\",UNIT[\"Foot_US\",0.304800609601219]]",
+           "PROJCRS[\"x\",LENGTHUNIT[\"foot\",0.3048]]",
+           "PROJCS[\"x\",UNIT (\"some name\", 0.3048)]",
+           "VERT_CS[\"x\",UNIT[\"ft\"]]",
+           "VERT_CS[\"x\",Unit[\"British feet\",0.30480061]]",
+       }) {
+    EXPECT_TRUE(FindFeetInWkt(wkt).has_value()) << wkt;
+  }
+}
+
+TEST(LasCrs, TakesAMomentForTheLongestText) {
+  std::string wkt;
+  while (wkt.size() < 1'000'000) wkt += "UNIT[";
+  EXPECT_FALSE(FindFeetInWkt(wkt + "\"metre\",1]").has_value());
+}
+
+TEST(LasCrs, FindsNoFeetInMetres) {
+  for (const char* wkt : {albtpu::testing::kMetricWkt, "", "UNIT[\"degree\",0.0174532925199433]",
+                          "UNIT[\"metre", "UNIT[", "UNITED STATES FOOT", "LENGTHUNIT[\"kilometre\",1000]"}) {
+    EXPECT_FALSE(FindFeetInWkt(wkt).has_value()) << wkt;
+  }
+}
+
+TEST(LasCrs, FindsFeetInGeoKeys) {
+  EXPECT_EQ(FindFeetInGeoKeys(GeoKeys({{1024, 1}, {3076, 9003}})), "GeoTIFF key 3076 = 9003");
+  EXPECT_EQ(FindFeetInGeoKeys(GeoKeys({{3076, 9001}, {4099, 9002}})), "GeoTIFF key 4099 = 9002");
+  EXPECT_FALSE(FindFeetInGeoKeys(GeoKeys({{3076, 9001}, {4099, 9001}, {3072, 9002}})).has_value());
+  EXPECT_FALSE(FindFeetInGeoKeys("").has_value());
+  EXPECT_FALSE(FindFeetInGeoKeys("short").has_value());
+}
+
+TEST(LasCrs, LooksIntoShortAndExtendedRecords) {
+  const albtpu::testing::TemporaryFolder folder;
+  const albtpu::testing::LasRecord in_feet = {"LASF_Projection", 2112, "X[UNIT[\"foot\",0.3048]]"};
+  albtpu::testing::LasSpec spec;
+  spec.points.resize(1);
+  const auto finds_feet = [&] {
+    return FindFeet(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value().has_value();
+  };
+  EXPECT_FALSE(finds_feet());
+  spec.vlrs.push_back({"somebody else", 2112, in_feet.data});
+  EXPECT_FALSE(finds_feet());
+  spec.evlrs.push_back(in_feet);
+  EXPECT_TRUE(finds_feet());
+  spec.evlrs.clear();
+  spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys({{4099, 9002}})});
+  EXPECT_TRUE(finds_feet());
+}
+
+}  // namespace
+}  // namespace albtpu::client

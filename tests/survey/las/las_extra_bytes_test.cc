@@ -1,0 +1,98 @@
+#include "survey/las/las_extra_bytes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "survey/las/little_endian.h"
+#include "tests/survey/las/las_builder.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::ExtraBytesEntry;
+using ::testing::HasSubstr;
+
+std::string Describe(const std::string& described, std::size_t extra_bytes) {
+  const auto record = DescribeUncertainty("in.las", described, extra_bytes, Coverage::kTwoSigma);
+  return record.ok() ? *record : std::string(record.status().message());
+}
+
+std::string NameOf(const std::string& record, std::size_t entry) {
+  return record.substr(192 * entry + 4, 32).c_str();
+}
+int TypeOf(const std::string& record, std::size_t entry) {
+  return Load<std::uint8_t>(record, 192 * entry + 2);
+}
+int OptionsOf(const std::string& record, std::size_t entry) {
+  return Load<std::uint8_t>(record, 192 * entry + 3);
+}
+
+TEST(LasExtraBytes, DescribesTwoFloatsWithTheirNoData) {
+  const std::string record = Describe("", 0);
+  ASSERT_EQ(record.size(), 2 * 192u);
+  EXPECT_EQ(NameOf(record, 0), "total_thu");
+  EXPECT_EQ(NameOf(record, 1), "total_tvu");
+  for (const std::size_t entry : {0, 1}) {
+    EXPECT_EQ(TypeOf(record, entry), 9);     // float
+    EXPECT_EQ(OptionsOf(record, entry), 1);  // Only no-data is set.
+    EXPECT_EQ(Load<double>(record, 192 * entry + 40), -1.0);
+    EXPECT_STREQ(record.substr(192 * entry + 160, 32).c_str(), "sea surface only, 2 sigma, m");
+  }
+}
+
+TEST(LasExtraBytes, SaysTheCoverageItHas) {
+  const auto record = DescribeUncertainty("in.las", "", 0, Coverage::kP95);
+  EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
+}
+
+TEST(LasExtraBytes, DescribesUndocumentedBytesFirst) {
+  const std::string record = Describe("", 6);
+  ASSERT_EQ(record.size(), 3 * 192u);
+  EXPECT_EQ(NameOf(record, 0), "undocumented");
+  EXPECT_EQ(TypeOf(record, 0), 0);
+  EXPECT_EQ(OptionsOf(record, 0), 6);
+  EXPECT_EQ(NameOf(record, 1), "total_thu");
+}
+
+TEST(LasExtraBytes, SplitsManyUndocumentedBytes) {
+  const std::string record = Describe("", 600);
+  ASSERT_EQ(record.size(), 5 * 192u);
+  EXPECT_EQ(OptionsOf(record, 0) + OptionsOf(record, 1) + OptionsOf(record, 2), 600);
+  EXPECT_EQ(NameOf(record, 2), "undocumented_3");
+}
+
+TEST(LasExtraBytes, KeepsWhatIsDescribedAndAddsWhatIsNot) {
+  const std::string described = ExtraBytesEntry(4, 0, "echo width") + ExtraBytesEntry(0, 5, "undocumented");
+  const std::string record = Describe(described, 2 + 5 + 7);
+  ASSERT_EQ(record.size(), 5 * 192u);
+  EXPECT_EQ(record.substr(0, described.size()), described);
+  EXPECT_EQ(NameOf(record, 2), "undocumented_2");
+  EXPECT_EQ(OptionsOf(record, 2), 7);
+}
+
+TEST(LasExtraBytes, KnowsTheSizeOfEveryType) {
+  const int sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  for (int type = 1; type <= 30; ++type) {
+    const int size = sizes[(type - 1) % 10] * ((type - 1) / 10 + 1);
+    const std::string described = ExtraBytesEntry(static_cast<std::uint8_t>(type), 0, "x");
+    EXPECT_EQ(Describe(described, size).size(), 3 * 192u) << type;  // Nothing is left to describe.
+    EXPECT_THAT(Describe(described, size - 1), HasSubstr("extra bytes, its records have")) << type;
+  }
+}
+
+TEST(LasExtraBytes, RefusesNamesThatAreThere) {
+  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "total_tvu"), 4), HasSubstr("in.las: has total_tvu already"));
+}
+
+TEST(LasExtraBytes, RefusesRecordsThatCannotBeRead) {
+  EXPECT_THAT(Describe("short", 4), HasSubstr("a multiple of 192"));
+  EXPECT_THAT(Describe(ExtraBytesEntry(31, 0, "x"), 4), HasSubstr("type 31"));
+  std::string full;
+  for (int i = 0; i < 340; ++i) full += ExtraBytesEntry(1, 0, std::to_string(i));
+  EXPECT_THAT(Describe(full, 340), HasSubstr("do not fit"));
+}
+
+}  // namespace
+}  // namespace albtpu::client

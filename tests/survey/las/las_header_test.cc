@@ -1,0 +1,156 @@
+#include "survey/las/las_header.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "survey/las/little_endian.h"
+#include "tests/survey/las/las_builder.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::BuildLas;
+using albtpu::testing::LasSpec;
+using ::testing::HasSubstr;
+
+LasSpec Spec(int version_minor = 4, int point_format = 6) {
+  LasSpec spec;
+  spec.version_minor = version_minor;
+  spec.point_format = point_format;
+  spec.points.resize(10);
+  spec.extra_bytes = 3;
+  return spec;
+}
+
+absl::StatusOr<LasHeader> Parse(const std::string& file) {
+  return ParseLasHeader("in.las", file, file.size());
+}
+
+std::string ErrorOf(const std::string& file) { return std::string(Parse(file).status().message()); }
+
+// The file with another number in a field.
+template <typename Number>
+std::string With(std::string file, std::size_t field, Number number) {
+  Store(number, file.data() + field);
+  return file;
+}
+
+TEST(LasHeader, ReadsEveryVersionAndFormat) {
+  for (int version = 2; version <= 4; ++version) {
+    for (int format = 0; format <= (version == 2 ? 3 : version == 3 ? 5 : 10); ++format) {
+      const LasSpec spec = Spec(version, format);
+      const absl::StatusOr<LasHeader> header = Parse(BuildLas(spec));
+      ASSERT_TRUE(header.ok()) << header.status();
+      EXPECT_EQ(header->version_minor, version);
+      EXPECT_EQ(header->point_format, format);
+      EXPECT_EQ(header->point_count, 10u);
+      EXPECT_EQ(header->extra_bytes(), 3u);
+      EXPECT_EQ(header->scale_z, 0.001);
+      EXPECT_EQ(MinimumRecordLength(format), albtpu::testing::PointSize(format));
+    }
+  }
+}
+
+TEST(LasHeader, RefusesWhatIsNotLas) {
+  EXPECT_THAT(ErrorOf(""), HasSubstr("in.las: is not a LAS file"));
+  EXPECT_THAT(ErrorOf("PK\3\4 something else"), HasSubstr("is not a LAS file"));
+}
+
+TEST(LasHeader, RefusesOtherVersions) {
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 1)),
+              HasSubstr("is LAS 1.1"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 5)),
+              HasSubstr("is LAS 1.5"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMajor, 2)),
+              HasSubstr("is LAS 2.4"));
+}
+
+TEST(LasHeader, NamesAConverterForLaz) {
+  for (const int bits : {0x80, 0x40}) {
+    const std::string message = ErrorOf(
+        With<std::uint8_t>(BuildLas(Spec()), las_field::kPointFormat, static_cast<std::uint8_t>(6 | bits)));
+    EXPECT_THAT(message, HasSubstr("compressed (LAZ)"));
+    EXPECT_THAT(message, HasSubstr("pdal translate"));
+  }
+}
+
+TEST(LasHeader, RefusesFormatsThatTheVersionDoesNotHave) {
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec(2, 3)), las_field::kPointFormat, 4)),
+              HasSubstr("point format 4 in LAS 1.2: 0 to 3 are right"));
+  EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec(4, 10)), las_field::kPointFormat, 11)),
+              HasSubstr("0 to 10 are right"));
+}
+
+TEST(LasHeader, FindsATruncatedFileAtEveryLength) {
+  const std::string file = BuildLas(Spec());
+  for (std::size_t size = 4; size < file.size(); ++size) {
+    ASSERT_EQ(Parse(file.substr(0, size)).status().code(), absl::StatusCode::kDataLoss) << size;
+  }
+}
+
+TEST(LasHeader, RefusesCountsThatTheFileDoesNotHold) {
+  const std::string file = BuildLas(Spec());
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kPointCount, 11)),
+              HasSubstr("counts 11 points, the file holds 10"));
+  // So many that their bytes overflow 64 bits.
+  EXPECT_THAT(ErrorOf(With(file, las_field::kPointCount, std::numeric_limits<std::uint64_t>::max())),
+              HasSubstr("the file holds 10"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kPointCount, 8)),
+              HasSubstr("counts 8 points, but 66 bytes, room for 2 more"));
+  EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kLegacyPointCount, 9)),
+              HasSubstr("counts 10 points, and 9 in its legacy field"));
+  EXPECT_THAT(ErrorOf(With<std::uint32_t>(BuildLas(Spec(2, 1)), las_field::kLegacyPointCount, 11)),
+              HasSubstr("counts 11 points"));
+}
+
+TEST(LasHeader, RefusesPlacesThatOverlap) {
+  const std::string file = BuildLas(Spec());
+  EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kHeaderSize, 227)), HasSubstr("header size 227"));
+  EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kOffsetToPoints, 100)),
+              HasSubstr("begin at byte 100, inside the header"));
+  EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kOffsetToPoints, 0xFFFFFFFF)),
+              HasSubstr("begin at byte 4294967295"));
+  EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 29)),
+              HasSubstr("records of 29 bytes: point format 6 needs 30 or more"));
+  EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 0)),
+              HasSubstr("records of 0 bytes"));
+}
+
+TEST(LasHeader, RefusesRecordsBehindThePointsThatAreElsewhere) {
+  LasSpec spec = Spec();
+  spec.evlrs.push_back({"someone", 1, "data"});
+  const std::string file = BuildLas(spec);
+  ASSERT_TRUE(Parse(file).ok());
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 400)),
+              HasSubstr("begin at byte 400"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, file.size() + 1)),
+              HasSubstr("extended variable length records begin at byte"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 0)), HasSubstr("begin nowhere"));
+}
+
+TEST(LasHeader, RefusesHeightsThatAreNoNumbers) {
+  const std::string file = BuildLas(Spec());
+  EXPECT_THAT(ErrorOf(With(file, las_field::kScaleZ, 0.0)), HasSubstr("z scale 0"));
+  EXPECT_THAT(ErrorOf(With(file, las_field::kOffsetZ, std::numeric_limits<double>::quiet_NaN())),
+              HasSubstr("offset nan"));
+}
+
+TEST(LasHeader, SurvivesAnyByteBeingWrong) {
+  LasSpec spec = Spec(4, 9);
+  spec.evlrs.push_back({"someone", 1, "data"});
+  spec.waveform_packet = "waveform";
+  const std::string file = BuildLas(spec);
+  for (std::size_t i = 0; i < kLargestLasHeader; ++i) {
+    for (const int value : {0x00, 0x01, 0x7F, 0x80, 0xFF}) {
+      const auto header = Parse(With<std::uint8_t>(file, i, static_cast<std::uint8_t>(value)));
+      if (header.ok()) {
+        EXPECT_LE(header->end_of_points(), file.size());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace albtpu::client

@@ -1,0 +1,133 @@
+#include "tables/file/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/temporary_folder.h"
+
+namespace albtpu {
+namespace {
+
+namespace fs = std::filesystem;
+using ::albtpu::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+std::string Contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t FileCount(const TemporaryFolder& folder) {
+  const fs::directory_iterator begin(folder.path());
+  return static_cast<std::size_t>(std::distance(begin, fs::directory_iterator()));
+}
+
+TEST(AtomicFile, WritesANewFile) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "new", "bytes", Existing::kKeep).ok());
+  EXPECT_EQ(Contents(folder / "new"), "bytes");
+  EXPECT_EQ(FileCount(folder), 1u);
+}
+
+TEST(AtomicFile, HasThePermissionsOfAnyNewFile) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "new", "", Existing::kKeep).ok());
+  std::ofstream(folder / "other");
+  EXPECT_EQ(fs::status(folder / "new").permissions(), fs::status(folder / "other").permissions());
+}
+
+TEST(AtomicFile, KeepsWhatIsThere) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "old") << "precious";
+  const absl::Status status = WriteFileAtomically(folder / "old", "bytes", Existing::kKeep);
+  EXPECT_EQ(status.code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("old' exists"));
+  EXPECT_EQ(Contents(folder / "old"), "precious");
+  EXPECT_EQ(FileCount(folder), 1u);
+}
+
+TEST(AtomicFile, ReplacesWhatIsThereIfAskedTo) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "old") << "stale";
+  ASSERT_TRUE(WriteFileAtomically(folder / "old", "bytes", Existing::kReplace).ok());
+  EXPECT_EQ(Contents(folder / "old"), "bytes");
+}
+
+TEST(AtomicFile, LetsOneOfManyWritersWinANewName) {
+  const TemporaryFolder folder;
+  std::vector<int> won(8);
+  std::vector<std::thread> writers;
+  for (std::size_t i = 0; i < won.size(); ++i) {
+    writers.emplace_back(
+        [&, i] { won[i] = WriteFileAtomically(folder / "new", std::to_string(i), Existing::kKeep).ok(); });
+  }
+  for (std::thread& writer : writers) writer.join();
+  ASSERT_EQ(std::count(won.begin(), won.end(), 1), 1);
+  EXPECT_EQ(won[std::stoul(Contents(folder / "new"))], 1);
+  EXPECT_EQ(FileCount(folder), 1u);
+}
+
+TEST(AtomicFile, SaysThatTheFolderIsMissing) {
+  const TemporaryFolder folder;
+  const absl::Status status = WriteFileAtomically(folder / "no/file", "bytes", Existing::kKeep);
+  EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
+}
+
+TEST(AtomicFile, SaysThatTheFolderIsNotWritable) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  const absl::Status status = WriteFileAtomically(folder / "file", "bytes", Existing::kKeep);
+  fs::permissions(folder.path(), fs::perms::owner_all);
+  EXPECT_EQ(status.code(), absl::StatusCode::kPermissionDenied);
+}
+
+TEST(AtomicFile, SaysThatTheFolderIsAFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file");
+  EXPECT_FALSE(WriteFileAtomically(folder / "file/x", "bytes", Existing::kReplace).ok());
+}
+
+TEST(AtomicFile, LeavesFoldersAndDevicesAlone) {
+  const TemporaryFolder folder;
+  for (const fs::path& path : {folder.path(), fs::path("/dev/null")}) {
+    const absl::Status status = WriteFileAtomically(path, "bytes", Existing::kReplace);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), HasSubstr("not a regular file"));
+  }
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_FALSE(WriteFileAtomically("", "bytes", Existing::kReplace).ok());
+}
+
+// A limit on the size of files fails writes where a full disk does: in the middle.
+TEST(AtomicFile, LeavesNothingBehindWhenTheWriteFails) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "old") << "precious";
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small = {10'000, before.rlim_max};
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const absl::Status status =
+      WriteFileAtomically(folder / "old", std::string(1'000'000, 'x'), Existing::kReplace);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  signal(SIGXFSZ, handler);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("old': File too large"));
+  EXPECT_EQ(Contents(folder / "old"), "precious");
+  EXPECT_EQ(FileCount(folder), 1u);
+}
+
+}  // namespace
+}  // namespace albtpu

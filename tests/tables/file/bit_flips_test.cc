@@ -1,0 +1,100 @@
+// Every bit of a small table, flipped: refused or harmless, never a changed answer. Behind the seal every
+// 31st, or all of them, which takes minutes: ALBTPU_EVERY_BIT=1 bit_flips_test
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
+#include "tests/tables/synthetic_table.h"
+
+namespace albtpu {
+namespace {
+
+constexpr std::size_t kUserBlockBits = 8 * seal::kSize;
+
+// The smallest of our tables: two nodes an axis or one, without biases and standard errors.
+UncertaintyTable SmallTable() {
+  const UncertaintyTable tiny = testing::TinyTable();
+  UncertaintyTable::Variables variables;
+  for (const Quantity quantity : kQuantities) {
+    if (Describe(quantity).is_bias) continue;
+    variables[Index(quantity)] = Variable{.values = tiny.variable(quantity)->values, .standard_errors = {}};
+  }
+  return UncertaintyTable::Create(tiny.axes(), std::move(variables), tiny.provenance()).value();
+}
+
+void Flip(std::string& file, std::size_t bit) {
+  file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8));
+}
+
+TEST(BitFlips, OfAFileAreRefusedAllOfThem) {
+  std::string file = EncodeTable(SmallTable()).value();
+  ASSERT_TRUE(DecodeTable(file).ok());
+  for (std::size_t bit = 0; bit < 8 * file.size(); ++bit) {
+    Flip(file, bit);
+    ASSERT_FALSE(DecodeTable(file).ok()) << "byte " << bit / 8 << " bit " << bit % 8;
+    Flip(file, bit);
+  }
+  EXPECT_TRUE(DecodeTable(file).ok());
+}
+
+// As a computer with bad memory would write it: the seal is right and what it seals is not. Of those files
+// that are taken, the content digest says that they answer as the table does; and it is not just repeated
+// from the file.
+TEST(BitFlips, BeforeTheSealWasMadeChangeNoAnswer) {
+  const UncertaintyTable table = SmallTable();
+  const std::string file = EncodeTable(table).value();
+  const std::size_t stride = std::getenv("ALBTPU_EVERY_BIT") != nullptr ? 1 : 31;
+  std::size_t refused = 0, harmless = 0;
+  for (std::size_t bit = kUserBlockBits; bit < 8 * file.size(); bit += stride) {
+    std::string flipped = file;
+    Flip(flipped, bit);
+    seal::Apply(flipped);
+    const absl::StatusOr<UncertaintyTable> decoded = DecodeTable(flipped);
+    ASSERT_EQ(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0) << "byte " << bit / 8 << " bit " << bit % 8;
+    if (!decoded.ok()) {
+      ++refused;
+      continue;
+    }
+    ++harmless;
+    ASSERT_EQ(decoded->digest(), table.digest()) << "byte " << bit / 8 << " bit " << bit % 8;
+    for (const Quantity quantity : kQuantities) {
+      const Variable* variable = table.variable(quantity);
+      ASSERT_EQ(decoded->variable(quantity) == nullptr, variable == nullptr);
+      if (variable == nullptr) continue;
+      ASSERT_EQ(decoded->variable(quantity)->values, variable->values);
+      ASSERT_EQ(decoded->variable(quantity)->standard_errors, variable->standard_errors);
+      ASSERT_EQ(decoded->variable(quantity)->scale, variable->scale);
+    }
+    for (const AxisId axis : kAxes) ASSERT_EQ(decoded->axis(axis).nodes(), table.axis(axis).nodes());
+  }
+  EXPECT_GT(refused, 0u);
+  EXPECT_GT(harmless, 0u);  // Half of what HDF5 writes is room for more.
+  std::cout << refused << " flips refused, " << harmless << " harmless\n";
+  EXPECT_EQ(DecodeTable(file)->digest(), table.digest());  // None of those before it is read in its place.
+}
+
+// Of objects whose beginning is damaged, HDF5 loses a part in its own memory, and at exit would say so.
+TEST(BitFlips, AreNotSpokenOfAtTheEndOfTheProgram) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto refuse_and_exit = [] {
+    const std::string file = EncodeTable(SmallTable()).value();
+    for (std::size_t bit = kUserBlockBits; bit < kUserBlockBits + 8 * 1024; bit += 31) {
+      std::string flipped = file;
+      Flip(flipped, bit);
+      seal::Apply(flipped);
+      (void)DecodeTable(flipped);
+    }
+    std::exit(0);
+  };
+  EXPECT_EXIT(refuse_and_exit(), ::testing::ExitedWithCode(0), ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,221 @@
+// Sealed files that would make a reader open other files, load programs, or take memory without end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tables/format.h"
+#include "tests/tables/file/forged_table.h"
+
+namespace albtpu {
+namespace {
+
+using hdf5::Handle;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using testing::ProblemAfter;
+
+const std::vector<hsize_t> kShape = {2, 1, 2, 2, 1, 2};  // of the tiny table
+
+// A dataset as a variable should be, but for how it is stored, in the place of THU.
+void ReplaceThu(hid_t file, hid_t creation) {
+  H5Ldelete(file, "thu", H5P_DEFAULT);
+  const Handle space(H5Screate_simple(6, kShape.data(), nullptr), H5Sclose);
+  const Handle dataset(H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                       H5Dclose);
+  EXPECT_TRUE(dataset);
+  EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
+  EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
+}
+
+Handle Creation() { return Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose); }
+
+// In one chunk of all 16 values.
+Handle DeflatedCreation() {
+  Handle creation = Creation();
+  H5Pset_chunk(creation, 6, kShape.data());
+  H5Pset_deflate(creation, 1);
+  return creation;
+}
+
+std::string Deflated(const std::string& bytes) {
+  std::string deflated(compressBound(bytes.size()), '\0');
+  uLongf size = deflated.size();
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(deflated.data()), &size,
+                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()),
+            Z_OK);
+  return deflated.substr(0, size);
+}
+
+TEST(ForeignStorage, IsRefusedBehindLinks) {
+  const auto problem_of_link = [](auto make_link) {
+    return ProblemAfter([&](hid_t file) {
+      H5Ldelete(file, "thu", H5P_DEFAULT);
+      EXPECT_GE(make_link(file), 0);
+    });
+  };
+  const std::string refusal = "variable 'thu' is a link: it should be a dataset of this file";
+  EXPECT_EQ(problem_of_link([](hid_t file) {
+              return H5Lcreate_external("/dev/zero", "/thu", file, "thu", H5P_DEFAULT, H5P_DEFAULT);
+            }),
+            refusal);
+  EXPECT_EQ(problem_of_link(
+                [](hid_t file) { return H5Lcreate_soft("/tvu", file, "thu", H5P_DEFAULT, H5P_DEFAULT); }),
+            refusal);
+}
+
+TEST(ForeignStorage, IsRefusedInOtherFiles) {
+  EXPECT_EQ(ProblemAfter([](hid_t file) {
+              const Handle creation = Creation();
+              H5Pset_external(creation, "/dev/zero", 0, H5F_UNLIMITED);
+              ReplaceThu(file, creation);
+            }),
+            "variable 'thu' has its values in other files: they should be in this one");
+  EXPECT_EQ(ProblemAfter([](hid_t file) {
+              const Handle creation = Creation();
+              const Handle space(H5Screate_simple(6, kShape.data(), nullptr), H5Sclose);
+              H5Pset_virtual(creation, space, "/dev/zero", "/thu", space);
+              ReplaceThu(file, creation);
+            }),
+            "variable 'thu' has its values in other files: they should be in this one");
+}
+
+TEST(ForeignStorage, IsRefusedThroughOtherFilters) {
+  EXPECT_THAT(ProblemAfter([](hid_t file) {
+                const Handle creation = Creation();
+                H5Pset_chunk(creation, 6, kShape.data());
+                H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, 2);
+                ReplaceThu(file, creation);
+              }),
+              EndsWith("of HDF5: shuffle and deflate are right"));
+}
+
+TEST(ForeignStorage, IsRefusedInChunksWithoutDeflate) {
+  EXPECT_EQ(ProblemAfter([](hid_t file) {
+              const Handle creation = Creation();
+              H5Pset_chunk(creation, 6, kShape.data());
+              ReplaceThu(file, creation);
+            }),
+            "variable 'thu' is in chunks without deflate: shuffle and deflate are right");
+}
+
+TEST(ForeignStorage, IsRefusedThroughFiltersInAnotherOrder) {
+  EXPECT_EQ(ProblemAfter([](hid_t file) {
+              const Handle creation = DeflatedCreation();
+              H5Pset_shuffle(creation);
+              ReplaceThu(file, creation);
+            }),
+            "variable 'thu' goes through filter 2 of HDF5: shuffle and deflate are right");
+}
+
+// What HDF5 1.10 takes for a whole chunk, and reads on behind.
+TEST(ForeignStorage, IsRefusedInChunksThatAreTooShort) {
+  const auto problem_of_chunk = [](std::string stored, std::uint32_t skipped_filters) {
+    return ProblemAfter([&](hid_t file) {
+      ReplaceThu(file, DeflatedCreation());
+      const Handle dataset(H5Dopen2(file, "thu", H5P_DEFAULT), H5Dclose);
+      const std::vector<hsize_t> first(6, 0);
+      EXPECT_GE(
+          H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped_filters, first.data(), stored.size(), stored.data()),
+          0);
+    });
+  };
+  constexpr std::size_t kChunkBytes = 16 * sizeof(float);
+  const std::string refusal = "variable 'thu' has a chunk that is missing or damaged";
+  EXPECT_EQ(problem_of_chunk(Deflated(std::string(kChunkBytes - 1, '\0')), 0), refusal);
+  EXPECT_EQ(problem_of_chunk(Deflated(std::string(kChunkBytes + 1, '\0')), 0), refusal);
+  EXPECT_EQ(problem_of_chunk(Deflated(std::string(kChunkBytes, '\0')).substr(0, 5), 0), refusal);
+  EXPECT_EQ(problem_of_chunk(std::string(kChunkBytes, '\0'), 1), refusal);
+  EXPECT_EQ(problem_of_chunk(std::string(4096, '\0'), 0), refusal);
+  EXPECT_THAT(problem_of_chunk(Deflated(std::string(kChunkBytes, '\0')), 0), HasSubstr("'content_digest'"));
+}
+
+TEST(ForeignStorage, IsRefusedWhereAChunkIsMissing) {
+  EXPECT_EQ(ProblemAfter([](hid_t file) { ReplaceThu(file, DeflatedCreation()); }),
+            "variable 'thu' has a chunk that is missing or damaged");
+}
+
+TEST(ForeignStorage, IsRefusedWhereItIsSharedByDatasets) {
+  EXPECT_THAT(ProblemAfter([](hid_t file) {
+                ReplaceThu(file, DeflatedCreation());
+                const Handle thu(H5Dopen2(file, "thu", H5P_DEFAULT), H5Dclose);
+                const std::vector<hsize_t> first(6, 0);
+                const std::string stored(60000, '\0');
+                EXPECT_GE(H5Dwrite_chunk(thu, H5P_DEFAULT, 0, first.data(), stored.size(), stored.data()), 0);
+                for (const char* name : {"tvu", "bias_vertical"}) {
+                  H5Ldelete(file, name, H5P_DEFAULT);
+                  EXPECT_GE(H5Lcreate_hard(file, "thu", file, name, H5P_DEFAULT, H5P_DEFAULT), 0);
+                }
+              }),
+              EndsWith("each should have bytes of its own"));
+}
+
+TEST(ForeignStorage, IsRefusedInLargeChunks) {
+  EXPECT_THAT(ProblemAfter([](hid_t file) {
+                const Handle creation = Creation();
+                const std::vector<hsize_t> chunk = {2, 1, 2, 2, 1, 1 << 16};
+                H5Pset_chunk(creation, 6, chunk.data());
+                const std::vector<hsize_t> most(6, H5S_UNLIMITED);
+                H5Ldelete(file, "thu", H5P_DEFAULT);
+                const Handle space(H5Screate_simple(6, kShape.data(), most.data()), H5Sclose);
+                const Handle dataset(
+                    H5Dcreate2(file, "thu", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                    H5Dclose);
+                EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
+                EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
+              }),
+              HasSubstr("is in chunks of more than 65536 values"));
+}
+
+TEST(ForeignStorage, IsRefusedWhereNothingIsStored) {
+  EXPECT_EQ(ProblemAfter([](hid_t file) {
+              H5Ldelete(file, "depth", H5P_DEFAULT);
+              const hsize_t size = 60000;
+              const Handle creation = Creation();
+              const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+              const Handle dataset(
+                  H5Dcreate2(file, "depth", H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                  H5Dclose);
+              EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
+              EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
+            }),
+            "axis 'depth' has 60000 values in 0 bytes: it should have 240000");
+}
+
+// HDF5 1.10 would read on behind the piece, in memory that is not its own.
+TEST(ForeignStorage, IsRefusedInAPieceOfTheHeaderThatIsTooShort) {
+  const std::vector<float> values(16, 42.5f);
+  std::string file = testing::Forge([&](hid_t root) {
+    const Handle creation = Creation();
+    H5Pset_layout(creation, H5D_COMPACT);
+    ReplaceThu(root, creation);
+    const Handle thu(H5Dopen2(root, "thu", H5P_DEFAULT), H5Dclose);
+    H5Dwrite(thu, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  std::string piece = {64, 0};  // Its length, two bytes, comes first.
+  piece.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  const std::size_t at = file.find(piece);
+  ASSERT_NE(at, std::string::npos);
+  file[at] = 21;
+  seal::Apply(file);
+  EXPECT_EQ(testing::Problem(file), "variable 'thu' has 16 values in 21 bytes: it should have 64");
+}
+
+TEST(ForeignStorage, IsRefusedInAttributesWithoutEnd) {
+  EXPECT_THAT(ProblemAfter([](hid_t file) {
+                const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+                H5Tset_size(type, format::kMaxAttributeBytes + 1);
+                const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+                H5Adelete(file, "title");
+                const Handle title(H5Acreate2(file, "title", type, space, H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose);
+                EXPECT_TRUE(title);
+              }),
+              HasSubstr("attribute 'title' is longer than 16777216 bytes"));
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,46 @@
+// Files with an unbroken seal whose HDF5 part was edited, and what the decoder says of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include "tables/file/hdf5.h"
+#include "tables/file/seal.h"
+#include "tables/file/table_encoding.h"
+#include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::testing {
+
+// A valid table whose HDF5 part `change` has edited, sealed again.
+inline std::string Forge(const std::function<void(hid_t file)>& change) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "t.h5").string();
+  std::ofstream(path, std::ios::binary) << *EncodeTable(TinyTable());
+  {
+    const hdf5::Session session;
+    const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    EXPECT_TRUE(file);
+    change(file);
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  seal::Apply(bytes);
+  return bytes;
+}
+
+inline std::string Problem(const std::string& file) {
+  const absl::Status status = DecodeTable(file).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+  return std::string(status.message());
+}
+
+inline std::string ProblemAfter(const std::function<void(hid_t file)>& change) {
+  return Problem(Forge(change));
+}
+
+}  // namespace albtpu::testing

@@ -1,0 +1,86 @@
+#include "tables/file/seal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace albtpu {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string Sealed(std::size_t length = 700) {
+  std::string file(length, 'x');
+  seal::Apply(file);
+  return file;
+}
+
+void ExpectDataLoss(const std::string& file, const std::string& message) {
+  const absl::Status status = seal::Check(file);
+  EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+  EXPECT_THAT(std::string(status.message()), HasSubstr(message));
+}
+
+TEST(Seal, HoldsOnTheFileItWasMadeFor) {
+  EXPECT_TRUE(seal::Check(Sealed()).ok());
+  EXPECT_TRUE(seal::Check(Sealed(seal::kSize)).ok());
+}
+
+TEST(Seal, LiesAsSpecified) {
+  const std::string file = Sealed(0x0201 + 512);
+  EXPECT_EQ(file.substr(0, 8),
+            "\x89"
+            "ALBTPU\n");
+  EXPECT_EQ(file.substr(8, 8), std::string("\1\0\0\0\0\0\0\0", 8));
+  EXPECT_EQ(file.substr(16, 8), std::string("\1\4\0\0\0\0\0\0", 8));
+  EXPECT_EQ(file.substr(56, 456), std::string(456, '\0'));
+  EXPECT_EQ(file.substr(512), std::string(0x0201, 'x'));
+}
+
+TEST(Seal, BreaksAtEveryFlippedBit) {
+  const std::string whole = Sealed(520);
+  for (std::size_t byte = 0; byte < whole.size(); ++byte) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string flipped = whole;
+      flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << bit));
+      EXPECT_FALSE(seal::Check(flipped).ok()) << "byte " << byte << " bit " << bit;
+    }
+  }
+}
+
+TEST(Seal, BreaksAtEveryTruncation) {
+  const std::string whole = Sealed(520);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_EQ(seal::Check(whole.substr(0, length)).code(), absl::StatusCode::kDataLoss) << length;
+  }
+}
+
+TEST(Seal, SaysWhatIsWrong) {
+  const std::string whole = Sealed(700);
+  ExpectDataLoss("", "is empty");
+  ExpectDataLoss("wind_speed,depth\n5,10\n", "does not begin with its seal");
+  ExpectDataLoss("\x89HDF\r\n\x1a\n" + std::string(600, '\0'), "HDF5 file without the seal");
+  ExpectDataLoss(whole.substr(0, 5), "is truncated: 5 bytes are there");
+  ExpectDataLoss(whole.substr(0, 600), "is truncated: 600 of its 700 bytes");
+  ExpectDataLoss(whole + "x", "has 701 bytes, its seal says 700");
+  std::string changed = whole;
+  changed[650] = 'y';
+  ExpectDataLoss(changed, "do not have the SHA-256");
+}
+
+TEST(Seal, NamesTheVersionItCannotRead) {
+  std::string newer = Sealed();
+  newer[seal::kVersionOffset] = 2;
+  const absl::Status status = seal::Check(newer);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.message(), "has format version 2: this program reads version 1");
+}
+
+TEST(Seal, KnowsAForeignFileByItsFirstBytes) {
+  EXPECT_EQ(seal::CheckHeader(std::string(seal::kSize, 'z'), std::uint64_t{1} << 40).code(),
+            absl::StatusCode::kDataLoss);
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,194 @@
+#include "tables/file/table_io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/tables/synthetic_table.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu {
+namespace {
+
+namespace fs = std::filesystem;
+using ::albtpu::testing::SyntheticTable;
+using ::albtpu::testing::TemporaryFolder;
+using ::albtpu::testing::TinyTable;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string Contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void Save(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+void ExpectSame(const UncertaintyTable& a, const UncertaintyTable& b) {
+  for (AxisId axis : kAxes) {
+    EXPECT_EQ(a.axis(axis).nodes(), b.axis(axis).nodes());
+    EXPECT_EQ(a.axis(axis).scale(), b.axis(axis).scale());
+  }
+  for (Quantity quantity : kQuantities) {
+    const Variable *from = a.variable(quantity), *to = b.variable(quantity);
+    ASSERT_EQ(from == nullptr, to == nullptr);
+    if (from == nullptr) continue;
+    EXPECT_EQ(from->values, to->values);
+    EXPECT_EQ(from->standard_errors, to->standard_errors);
+    EXPECT_EQ(from->scale, to->scale);
+  }
+  EXPECT_EQ(a.provenance().id, b.provenance().id);
+  EXPECT_EQ(a.provenance().version, b.provenance().version);
+  EXPECT_EQ(a.provenance().title, b.provenance().title);
+  EXPECT_EQ(a.provenance().campaign, b.provenance().campaign);
+  EXPECT_EQ(a.provenance().attributes, b.provenance().attributes);
+  EXPECT_EQ(a.digest(), b.digest());
+}
+
+void ExpectRoundTrip(const UncertaintyTable& table) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteTable(table, folder / "t.h5", Existing::kKeep).ok());
+  const absl::StatusOr<UncertaintyTable> read = ReadTable(folder / "t.h5");
+  ASSERT_TRUE(read.ok()) << read.status();
+  ExpectSame(table, *read);
+}
+
+// `table` with another provenance.
+UncertaintyTable With(const UncertaintyTable& table, Provenance provenance) {
+  UncertaintyTable::Variables variables;
+  for (Quantity quantity : kQuantities) {
+    if (const Variable* variable = table.variable(quantity)) variables[Index(quantity)] = *variable;
+  }
+  return *UncertaintyTable::Create(table.axes(), std::move(variables), std::move(provenance));
+}
+
+TEST(TableIo, ReadsWhatItWrote) {
+  ExpectRoundTrip(SyntheticTable());
+  ExpectRoundTrip(SyntheticTable({.published = true}));
+  ExpectRoundTrip(TinyTable());
+  ExpectRoundTrip(TinyTable(Scale::kLog));
+}
+
+TEST(TableIo, KeepsTheTypesOfAttributes) {
+  Provenance provenance = TinyTable().provenance();
+  provenance.title = "";
+  provenance.campaign = "";
+  provenance.attributes = {{"text", std::string("Höhe über See")},
+                           {"no_text", std::string()},
+                           {"integer", std::int64_t{-9'007'199'254'740'993}},
+                           {"real", 0.1},
+                           {"list", std::vector<double>{1, 2.5}},
+                           {"one", std::vector<double>{1}},
+                           {"none", std::vector<double>{}}};
+  ExpectRoundTrip(With(TinyTable(), provenance));
+}
+
+// Attributes above 64 KiB lie elsewhere in HDF5.
+TEST(TableIo, KeepsALongCampaign) {
+  Provenance provenance = TinyTable().provenance();
+  provenance.campaign = std::string(300'000, '#') + "\n";
+  provenance.attributes["list"] = std::vector<double>(20'000, 0.5);
+  ExpectRoundTrip(With(TinyTable(), provenance));
+}
+
+TEST(TableIo, WritesTheSameTableAsTheSameBytes) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteTable(SyntheticTable(), folder / "a.h5", Existing::kKeep).ok());
+  ASSERT_TRUE(WriteTable(TinyTable(), folder / "other.h5", Existing::kKeep).ok());
+  ASSERT_TRUE(WriteTable(*ReadTable(folder / "a.h5"), folder / "b.h5", Existing::kKeep).ok());
+  EXPECT_EQ(Contents(folder / "a.h5"), Contents(folder / "b.h5"));
+}
+
+TEST(TableIo, KeepsAnExistingFileUnlessAskedToReplaceIt) {
+  const TemporaryFolder folder;
+  Save(folder / "t.h5", "precious");
+  EXPECT_EQ(WriteTable(TinyTable(), folder / "t.h5", Existing::kKeep).code(),
+            absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(Contents(folder / "t.h5"), "precious");
+  EXPECT_TRUE(WriteTable(TinyTable(), folder / "t.h5", Existing::kReplace).ok());
+  EXPECT_TRUE(ReadTable(folder / "t.h5").ok());
+}
+
+// HDF5 looks for a file of the name that one in memory goes by.
+TEST(TableIo, DoesNotCareWhatElseIsInTheFolderWhereItRuns) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"table", "tables", "survey.h5"}) Save(folder / name, "something else");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  ExpectRoundTrip(TinyTable());
+  fs::current_path(before);
+}
+
+TEST(TableIo, NamesTheFileThatIsNotThere) {
+  const absl::Status status = ReadTable("no/such.h5").status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(status.message(), "no/such.h5: no such file");
+}
+
+TEST(TableIo, DoesNotReadWhatIsNotAFile) {
+  const TemporaryFolder folder;
+  for (const fs::path& path : {folder.path(), fs::path("/dev/zero")}) {
+    const absl::Status status = ReadTable(path).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+    EXPECT_THAT(std::string(status.message()), HasSubstr("is not a regular file"));
+  }
+}
+
+TEST(TableIo, SaysWhatIsWrongWithADamagedFile) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "t.h5";
+  ASSERT_TRUE(WriteTable(TinyTable(), path, Existing::kKeep).ok());
+  const std::string whole = Contents(path);
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
+  std::string text = whole;  // What a transfer in text mode makes of it.
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "is empty"},
+      {"depth,thu\n1,2\n", "does not begin with its seal"},
+      {whole.substr(512), "HDF5 file without the seal"},
+      {whole.substr(0, 100), "is truncated: 100 bytes are there"},
+      {whole.substr(0, whole.size() - 1), "is truncated: "},
+      {whole + "x", "is damaged: it has"},
+      {flipped, "is damaged: its bytes"},
+      {text, "does not begin with its seal"},
+  };
+  for (const auto& [bytes, message] : cases) {
+    Save(path, bytes);
+    const absl::Status status = ReadTable(path).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+    EXPECT_THAT(std::string(status.message()), StartsWith(path.string() + ": "));
+    EXPECT_THAT(std::string(status.message()), HasSubstr(message));
+  }
+}
+
+TEST(TableIo, ReadsAndWritesFromManyThreads) {
+  const TemporaryFolder folder;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&folder, i] {
+      const fs::path path = folder / (std::to_string(i) + ".h5");
+      const UncertaintyTable table = SyntheticTable({.factor = 1.0 + i});
+      ASSERT_TRUE(WriteTable(table, path, Existing::kKeep).ok());
+      const absl::StatusOr<UncertaintyTable> read = ReadTable(path);
+      ASSERT_TRUE(read.ok()) << read.status();
+      EXPECT_EQ(read->digest(), table.digest());
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(TableIo, SaysThatTheFolderToWriteIntoIsMissing) {
+  const TemporaryFolder folder;
+  const absl::Status status = WriteTable(TinyTable(), folder / "no/t.h5", Existing::kKeep);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,107 @@
+#include "tables/query/sorted_pulses.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tests/instruction_sets.h"
+#include "tests/tables/synthetic_table.h"
+
+namespace albtpu {
+namespace {
+
+using ::albtpu::testing::SyntheticTable;
+
+constexpr std::size_t kSize = 4096;
+
+class SortedPulsesTest : public testing::OnInstructionSet {
+ protected:
+  // Anywhere in the table, incidence and depth by pulse, the others constant.
+  SortedPulsesTest()
+      : table_(SyntheticTable()), grid_(table_), incidence_(kSize), depth_(kSize), thu_(kSize) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> incidence(0, 25), depth(0, 20);
+    for (float& number : incidence_) number = incidence(random);
+    for (float& number : depth_) number = depth(random);
+    pulses_.size = kSize;
+    pulses_.axis = {std::span(&wind_speed_, 1), {}, incidence_, {}, std::span(&footprint_, 1), depth_};
+    wanted_.values[Index(Quantity::kThu)] = thu_.data();
+  }
+
+  bool IsScattered(const PulseColumns& pulses) const {
+    PulseBlock block(grid_, pulses, kBlock);
+    block.MoveTo(kBlock, kBlock);
+    return block.IsScattered();
+  }
+
+  const float wind_speed_ = 5, footprint_ = 0.5f;
+  const UncertaintyTable table_;
+  const Grid grid_;
+  std::vector<float> incidence_, depth_, thu_;
+  PulseColumns pulses_;
+  AnswerColumns wanted_;
+};
+ALBTPU_ON_EACH_INSTRUCTION_SET(SortedPulsesTest);
+
+// AnswerOnAllCores cuts a message of 65 536 pulses into pieces of 8192, of which a block comes first.
+TEST(FewestPulsesToSort, AreFewerThanAPieceInTheTablesThatWeShip) {
+  constexpr std::size_t kSurvey = 721'280, kPiece = 8192 - kBlock;
+  EXPECT_LE(SortedPulses::Fewest(kSurvey), kPiece);
+  EXPECT_GT(SortedPulses::Fewest(kSurvey), kBlock);
+}
+
+TEST(FewestPulsesToSort, AreMoreThanThereAreInTablesThatStayInTheCacheOrAreTooLarge) {
+  EXPECT_EQ(SortedPulses::Fewest(0), SortedPulses::kNever);
+  EXPECT_EQ(SortedPulses::Fewest(50'000), SortedPulses::kNever);
+  EXPECT_EQ(SortedPulses::Fewest(20'000'000), SortedPulses::kNever);
+}
+
+TEST_P(SortedPulsesTest, NeighboursShareACell) {
+  EXPECT_TRUE(IsScattered(pulses_));
+  const SortedPulses sorted(grid_, pulses_, 0, kSize, wanted_);
+  ASSERT_EQ(sorted.pulses().size, kSize);
+  EXPECT_FALSE(IsScattered(sorted.pulses()));
+}
+
+TEST_P(SortedPulsesTest, PulsesStayWholeAndConstantColumnsWhereTheyAre) {
+  const SortedPulses sorted(grid_, pulses_, 8, kSize - 8, wanted_);
+  using Pair = std::pair<float, float>;
+  std::vector<Pair> before, after;
+  for (std::size_t i = 8; i < kSize; ++i) before.emplace_back(incidence_[i], depth_[i]);
+  for (std::size_t i = 0; i + 8 < kSize; ++i) {
+    after.emplace_back(sorted.pulses()[AxisId::kIncidence][i], sorted.pulses()[AxisId::kDepth][i]);
+  }
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  EXPECT_EQ(before, after);
+  EXPECT_EQ(sorted.pulses()[AxisId::kWindSpeed].data(), &wind_speed_);
+  EXPECT_TRUE(sorted.pulses()[AxisId::kAzimuth].empty());
+}
+
+TEST_P(SortedPulsesTest, AnswersGoWhereTheyWereWanted) {
+  constexpr std::size_t kBegin = 16, kCount = 4000;
+  std::vector<std::uint8_t> outcomes(kSize, 9);
+  std::fill(thu_.begin(), thu_.end(), -1.0f);
+  wanted_.outcomes = outcomes.data();
+  SortedPulses sorted(grid_, pulses_, kBegin, kCount, wanted_);
+  const std::span<const float> depths = sorted.pulses()[AxisId::kDepth];
+  for (std::size_t i = 0; i < kCount; ++i) {
+    sorted.answers().values[Index(Quantity::kThu)][i] = 2 * depths[i];
+    sorted.answers().outcomes[i] = depths[i] < 10 ? 1 : 2;
+  }
+  EXPECT_EQ(sorted.answers().values[Index(Quantity::kTvu)], nullptr);
+  sorted.CopyAnswers();
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const bool asked = i >= kBegin && i < kBegin + kCount;
+    ASSERT_EQ(thu_[i], asked ? 2 * depth_[i] : -1);
+    ASSERT_EQ(outcomes[i], asked ? (depth_[i] < 10 ? 1 : 2) : 9);
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,41 @@
+// What the studies of the laboratory hand over. What they find is in tests/validation.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "validation/laboratory/laboratory_study.h"
+#include "validation/laboratory/wave_staff_study.h"
+
+namespace albtpu {
+namespace {
+
+TEST(LaboratoryStudy, SaysWhichPublishedTableIsMissing) {
+  StudyOptions options;
+  options.published = "nowhere";
+  EXPECT_EQ(LaboratoryStudy(options).status().code(), absl::StatusCode::kNotFound);
+  EXPECT_NE(std::string(LaboratoryStudy(options).status().message()).find("nowhere/table4_empirical.csv"),
+            std::string::npos);
+}
+
+TEST(WaveStaffStudy, SaysWhichPublishedTableIsMissing) {
+  StudyOptions options;
+  options.published = "nowhere";
+  EXPECT_NE(std::string(WaveStaffStudy(options).status().message()).find("nowhere/table2_wave_staff.csv"),
+            std::string::npos);
+}
+
+TEST(WaveStaffStudy, SetsEveryPublishedNumberBesideOurs) {
+  StudyOptions options;
+  options.published = PAPER_FOLDER;
+  options.quick = true;
+  const auto study = WaveStaffStudy(options);
+  ASSERT_TRUE(study.ok()) << study.status();
+  EXPECT_EQ(study->comparisons.size(), 18u);  // six fetches, three quantities
+  for (const DataTable& table : study->tables) {
+    ASSERT_FALSE(table.rows.empty()) << table.name;
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

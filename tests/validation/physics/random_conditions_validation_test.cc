@@ -1,0 +1,75 @@
+// What `albtpu-generate point` computes against the small-slope theory, at conditions drawn at random over
+// the domain of a survey.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "absl/strings/str_format.h"
+#include "sea/angle.h"
+#include "validation/studies/closed_form_ratio.h"
+
+namespace albtpu {
+namespace {
+
+constexpr int kConditions = 40;
+constexpr int kRealizations = 200;
+
+// std::mt19937_64 gives the same numbers everywhere, the standard library's distributions do not.
+class Draws {
+ public:
+  double Between(double low, double high) {
+    return low + (high - low) * 0x1p-53 * static_cast<double>(bits_() >> 11);
+  }
+  double LogBetween(double low, double high) { return std::exp(Between(std::log(low), std::log(high))); }
+  bool OneIn(int n) { return Between(0, n) < 1; }
+
+ private:
+  std::mt19937_64 bits_{20180315};
+};
+
+Encounter Draw(Draws& draws) {
+  Encounter encounter;
+  encounter.sea.wind_speed_10m = draws.Between(1, 15);
+  const double fetch = draws.LogBetween(100, 1e6);
+  encounter.sea.fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch;
+  encounter.beams = {{.incidence = RadiansOfDegrees(draws.Between(0, 25)),
+                      .azimuth = RadiansOfDegrees(draws.Between(0, 360)),
+                      .footprint = draws.LogBetween(0.1, 5),
+                      .profile = draws.OneIn(2) ? BeamProfile::kUniform : BeamProfile::kGaussian}};
+  encounter.depths = {draws.LogBetween(1, 50)};
+  return encounter;
+}
+
+std::string Describe(const Encounter& encounter) {
+  const BeamOptions& beam = encounter.beams[0];
+  return absl::StrFormat("%g m/s, %g m of fetch, incidence %g, azimuth %g, %g m of footprint, depth %g m",
+                         encounter.sea.wind_speed_10m, encounter.sea.fetch, DegreesOfRadians(beam.incidence),
+                         DegreesOfRadians(beam.azimuth), beam.footprint, encounter.depths[0]);
+}
+
+TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
+  Draws draws;
+  int judged = 0;
+  // Three quantities each: so many standard errors that chance alone fails this test once in twenty.
+  const double k = StandardErrorsFor(3 * kConditions);
+  for (std::uint32_t cell = 0; judged < kConditions; ++cell) {
+    ASSERT_LT(cell, 3u * kConditions) << "most footprints see still water";
+    const Encounter encounter = Draw(draws);
+    const EncounterRatios ratios = CompareWithClosedForm(encounter, kRealizations, 1, cell);
+    if (ratios.seen_fraction < kLeastSeenFraction) continue;
+    ++judged;
+    const ClosedFormRatio& beam = ratios.beams[0];
+    EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), k) << "along wind at " << Describe(encounter);
+    EXPECT_LE(ExcessInStandardErrors(beam.cross, beam.allowed), k) << "cross wind at " << Describe(encounter);
+    EXPECT_LE(ExcessInStandardErrors(beam.thu, beam.allowed), k) << "THU at " << Describe(encounter);
+    // The judgement is worth something where a standard error is small beside what is allowed.
+    EXPECT_LT(beam.thu.standard_error, 0.03) << Describe(encounter);
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

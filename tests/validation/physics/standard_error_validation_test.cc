@@ -1,0 +1,84 @@
+// The standard errors that the Monte Carlo states, against how its estimates scatter, and its estimates against
+// those of tracing alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "generator/monte_carlo/monte_carlo.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr int kRepetitions = 200;
+constexpr int kRealizations = 64;  // of each repetition
+constexpr std::size_t kNadir = 0, kSlanted = 1;
+constexpr std::size_t kNoDepth = 0, kShallow = 1, kDeep = 2;
+
+struct Quantity {
+  const char* name;
+  std::size_t beam;
+  std::function<Estimate(const BeamUncertainty&)> of;
+};
+
+const std::vector<Quantity> kQuantities = {
+    {"refraction along wind, nadir", kNadir, [](const auto& beam) { return beam.refraction_along_wind; }},
+    {"THU, nadir", kNadir, [](const auto& beam) { return beam.thu[kDeep]; }},
+    {"THU, nadir, depth 0", kNadir, [](const auto& beam) { return beam.thu[kNoDepth]; }},
+    {"TVU, nadir", kNadir, [](const auto& beam) { return beam.tvu[kDeep]; }},
+    {"vertical bias, nadir", kNadir, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
+    {"refraction along wind, 20 degrees", kSlanted,
+     [](const auto& beam) { return beam.refraction_along_wind; }},
+    {"refraction cross wind, 20 degrees", kSlanted,
+     [](const auto& beam) { return beam.refraction_cross_wind; }},
+    {"THU, 20 degrees", kSlanted, [](const auto& beam) { return beam.thu[kDeep]; }},
+    {"THU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.thu[kNoDepth]; }},
+    {"THU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.thu[kShallow]; }},
+    {"TVU, 20 degrees", kSlanted, [](const auto& beam) { return beam.tvu[kDeep]; }},
+    {"TVU, 20 degrees, depth 0", kSlanted, [](const auto& beam) { return beam.tvu[kNoDepth]; }},
+    {"TVU, 20 degrees, 0.1 m", kSlanted, [](const auto& beam) { return beam.tvu[kShallow]; }},
+    {"bias along the beam, 20 degrees", kSlanted,
+     [](const auto& beam) { return beam.bias_along_beam[kDeep]; }},
+    {"vertical bias, 20 degrees", kSlanted, [](const auto& beam) { return beam.bias_vertical[kDeep]; }},
+};
+
+std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, std::uint32_t cell) {
+  Encounter encounter;
+  encounter.sea.wind_speed_10m = 5;
+  encounter.beams = {{.footprint = 0.5},
+                     {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
+  encounter.depths = {0, 0.1, 10};
+  return Simulate(encounter,
+                  {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
+                  5, cell)
+      .beams;
+}
+
+TEST(StandardErrors, AreHowTheEstimatesScatterAboutTracingAlone) {
+  std::vector<std::vector<BeamUncertainty>> repetitions;
+  for (int i = 0; i < kRepetitions; ++i) {
+    repetitions.push_back(Simulated(kRealizations, Estimator::kControlVariate, 1 + i));
+  }
+  const std::vector<BeamUncertainty> plain = Simulated(6000, Estimator::kPlain, 0);
+  for (const Quantity& quantity : kQuantities) {
+    Eigen::ArrayXd values(kRepetitions);
+    double claimed = 0;  // the root of the mean square
+    for (int i = 0; i < kRepetitions; ++i) {
+      const Estimate estimate = quantity.of(repetitions[i][quantity.beam]);
+      values[i] = estimate.value;
+      claimed += estimate.standard_error * estimate.standard_error / kRepetitions;
+    }
+    claimed = std::sqrt(claimed);
+    const Estimate mean = Mean(values), twin = quantity.of(plain[quantity.beam]);
+    EXPECT_NEAR(mean.value, twin.value, 3.5 * std::hypot(mean.standard_error, twin.standard_error))
+        << quantity.name;
+    // Of 200 values the scatter is known to 5 %, of such as are means of heavy-tailed products to a little less.
+    EXPECT_NEAR(0.5 * TwoSigma(values).value / claimed, 1, 3 * 0.06) << quantity.name;
+  }
+}
+
+}  // namespace
+}  // namespace albtpu

@@ -1,0 +1,57 @@
+#include "validation/published/published_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "validation/published/published_angles.h"
+
+namespace albtpu {
+namespace {
+
+TEST(AngleModel, IsFoundFromItsOwnAngles) {
+  std::vector<AngleSample> samples;
+  for (const double wind_speed : {2.0, 3.0, 5.25}) {
+    for (const double incidence : {0.0, 10.0, 20.0})
+      samples.push_back({wind_speed, incidence, kPublishedAlongWind(wind_speed, incidence)});
+  }
+  const AngleModel fit = FitAngleModel(samples);
+  EXPECT_NEAR(fit.wind_incidence, 0.003, 1e-10);
+  EXPECT_NEAR(fit.wind, 0.4193, 1e-10);
+  EXPECT_NEAR(fit.incidence, 0.0276, 1e-10);
+  EXPECT_NEAR(fit.constant, 1.6208, 1e-10);
+}
+
+// The reading of the printed coefficients: with them the equations pass through the table that they
+// summarize, with a decimal less they don't.
+TEST(AngleModel, PassesThroughTable3AsReadAndNotAsPrinted) {
+  const absl::StatusOr<PublishedAngles> table_3 = ReadTable3(PAPER_FOLDER);
+  ASSERT_TRUE(table_3.ok()) << table_3.status();
+  const AngleModel along_as_printed = {0.003, 0.4193, 0.00276, 1.6208};
+  const AngleModel cross_as_printed = {-0.0009, 0.0063, -0.00281, 2.3};
+  double along = 0, along_printed = 0, cross = 0, cross_printed = 0;
+  for (std::size_t w = 0; w < table_3->wind_speeds.size(); ++w) {
+    for (std::size_t i = 0; i < table_3->incidences.size(); ++i) {
+      const double wind_speed = table_3->wind_speeds[w], incidence = table_3->incidences[i];
+      const PublishedAngles::Cell& cell = table_3->At(w, i);
+      along += (kPublishedAlongWind(wind_speed, incidence) - cell.along) / 30;
+      along_printed += (along_as_printed(wind_speed, incidence) - cell.along) / 30;
+      cross += (kPublishedCrossWind(wind_speed, incidence) - cell.cross) / 30;
+      cross_printed += (cross_as_printed(wind_speed, incidence) - cell.cross) / 30;
+    }
+  }
+  EXPECT_NEAR(along, 0, 0.03);
+  EXPECT_LT(along_printed, -0.2);
+  EXPECT_NEAR(cross, 0, 0.03);
+  EXPECT_GT(cross_printed, 0.2);
+}
+
+TEST(AngleModel, StandsForTheDiameterOfItsTable) {
+  EXPECT_EQ(PublishedAlongWindDiameterFactor(0.25), 1);
+  EXPECT_EQ(PublishedCrossWindDiameterFactor(0.25), 1);
+  EXPECT_NEAR(PublishedAlongWindDiameterFactor(4), std::pow(16, -0.641), 1e-12);
+}
+
+}  // namespace
+}  // namespace albtpu

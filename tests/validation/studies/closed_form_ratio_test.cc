@@ -1,0 +1,49 @@
+#include "validation/studies/closed_form_ratio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace albtpu {
+namespace {
+
+TEST(StandardErrors, AreThoseOfTheNormalDistribution) {
+  EXPECT_NEAR(StandardErrorsFor(1), 1.95996, 1e-4);    // 5 % of one
+  EXPECT_NEAR(StandardErrorsFor(1000), 4.0556, 1e-3);  // 5e-5 of each
+}
+
+TEST(AllowedDeparture, GrowsWithSlopeAndIncidence) {
+  EXPECT_DOUBLE_EQ(AllowedDeparture(0, 0), 0.015);
+  EXPECT_DOUBLE_EQ(AllowedDeparture(0.1, 20), 0.065);
+}
+
+TEST(Excess, CountsWhatIsBeyondTheAllowedInStandardErrors) {
+  EXPECT_NEAR(ExcessInStandardErrors({0.90, 0.01}, 0.07), 3, 1e-9);
+  EXPECT_LT(ExcessInStandardErrors({0.99, 0.01}, 0.07), 0);
+}
+
+// Snell's law does not bend upwards: no more is allowed there for a rough sea.
+TEST(Excess, AllowsOnlyTheDiscretizationAboveTheClosedForm) {
+  EXPECT_NEAR(ExcessInStandardErrors({1.03 + kDiscretizationError, 0.01}, 0.07), 3, 1e-9);
+  EXPECT_LT(ExcessInStandardErrors({1 + kDiscretizationError / 2, 0.01}, 0.07), 0);
+}
+
+TEST(ClosedFormRatio, IsNearOneAndLacksVerticalErrorsAtNadir) {
+  Encounter encounter;
+  encounter.sea.wind_speed_10m = 3;
+  encounter.beams = {{.footprint = 0.5}, {.incidence = 0.35, .footprint = 0.5}};
+  encounter.depths = {5};
+  const EncounterRatios ratios = CompareWithClosedForm(encounter, 64, 1, 0);
+  ASSERT_EQ(ratios.beams.size(), 2u);
+  for (const ClosedFormRatio& beam : ratios.beams) {
+    EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), 4);
+    EXPECT_LE(ExcessInStandardErrors(beam.thu, beam.allowed), 4);
+  }
+  EXPECT_TRUE(std::isnan(ratios.beams[0].tvu.value));
+  EXPECT_TRUE(std::isfinite(ratios.beams[1].tvu.value));
+  EXPECT_GT(ratios.seen_fraction, kLeastSeenFraction);
+  EXPECT_LT(ratios.seen_fraction, 1);
+}
+
+}  // namespace
+}  // namespace albtpu

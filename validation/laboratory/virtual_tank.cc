@@ -1,0 +1,168 @@
+#include "validation/laboratory/virtual_tank.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "generator/surface/cross_fade.h"
+#include "generator/surface/height_field.h"
+#include "generator/surface/wave_patch.h"
+#include "sea/angle.h"
+#include "validation/laboratory/evolving_patch.h"
+
+namespace albtpu {
+namespace {
+
+// What the detectors say of one frame.
+struct Frame {
+  Eigen::Vector2d full_beam;
+  std::vector<std::optional<Eigen::Vector2d>> arrays;
+};
+
+Eigen::Vector2d MeanOf(const std::vector<Eigen::Vector2d>& spots) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& spot : spots) sum += spot;
+  return sum / static_cast<double>(spots.size());
+}
+
+// A beam with its rays and the arrays in its light.
+struct PreparedBeam {
+  std::vector<Ray> rays;
+  std::vector<PhotodiodeArray> arrays;
+
+  PreparedBeam(const BeamOptions& options, const TankExperiment& experiment) {
+    const Beam beam(options, experiment.rays);
+    rays = beam.Rays(0);
+    const double tangent = std::tan(StillWaterRefraction(options.incidence, experiment.refractive_index));
+    for (const PhotodiodeArrayOptions& array : experiment.arrays) {
+      arrays.emplace_back(array, experiment.depth * tangent * beam.azimuth_direction());
+    }
+  }
+
+  Frame Photograph(const HeightField& water, const TankExperiment& experiment) const {
+    const auto spots = SpotsAtDepth(rays, water, experiment.refractive_index, experiment.depth);
+    Frame frame{MeanOf(spots), {}};
+    for (const PhotodiodeArray& array : arrays) frame.arrays.push_back(array.Centroid(spots));
+    return frame;
+  }
+};
+
+// The patch about the origin as far as `points` reach; the patch repeats.
+HeightField WindowOf(const std::vector<double>& patch, const TankGrid& grid, int points) {
+  std::vector<double> heights(static_cast<std::size_t>(points) * points);
+  for (int i = 0; i < points; ++i) {
+    for (int j = 0; j < points; ++j) {
+      heights[static_cast<std::size_t>(i) * points + j] =
+          patch[static_cast<std::size_t>(i % grid.size) * grid.size + j % grid.size];
+    }
+  }
+  return HeightField(std::move(heights), points, grid.length / grid.size);
+}
+
+// Points along a window that holds every ray, an odd number. Waves of a few centimetres move the meeting by
+// less than the margin.
+int PointsToHold(const std::vector<PreparedBeam>& beams, double spacing) {
+  constexpr double kMargin = 0.02;  // m
+  double reach = 0;
+  for (const PreparedBeam& beam : beams) {
+    for (const Ray& ray : beam.rays) reach = std::max(reach, ray.at_zero.cwiseAbs().maxCoeff());
+  }
+  return 2 * static_cast<int>(std::ceil((reach + kMargin) / spacing)) + 1;
+}
+
+CentroidAngles AnglesOf(const std::vector<std::optional<Eigen::Vector2d>>& centroids,
+                        const std::optional<Eigen::Vector2d>& still, double depth) {
+  assert(still.has_value());
+  const auto lit = std::count_if(centroids.begin(), centroids.end(), [](auto& c) { return c.has_value(); });
+  CentroidAngles angles{Eigen::ArrayXd(lit), Eigen::ArrayXd(lit)};
+  Eigen::Index i = 0;
+  for (const std::optional<Eigen::Vector2d>& centroid : centroids) {
+    if (!centroid) continue;
+    angles.along_wind[i] = std::atan((centroid->x() - still->x()) / depth);
+    angles.cross_wind[i] = std::atan((centroid->y() - still->y()) / depth);
+    ++i;
+  }
+  return angles;
+}
+
+}  // namespace
+
+double OwnTankWaveHeight(double wind_speed_10m) {
+  return 4 * std::sqrt(ElevationVariance(SeaState(wind_speed_10m, kTankFetch)));
+}
+
+SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
+  SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch};
+  options.height_scale = significant_wave_height / OwnTankWaveHeight(wind_speed_10m);
+  return SeaState(options);
+}
+
+WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
+                               std::uint32_t cell) {
+  // The tank's waves are much shorter than the patch, so it takes all of them.
+  const double longer_than_all = 0.5 * sea.energetic_range().lowest;
+  const auto model = std::make_shared<const WavePatchModel>(
+      sea, grid.length, grid.size, CrossFade(0.5 * longer_than_all, longer_than_all));
+  return [model, seed, cell](int frame) { return model->Draw(NormalStream(seed, cell, frame)); };
+}
+
+WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
+                              std::uint32_t cell) {
+  const auto patch =
+      std::make_shared<const EvolvingPatch>(sea, grid.length, grid.size, NormalStream(seed, cell, 0));
+  return [patch, rate](int frame) { return patch->HeightsAt(frame / rate); };
+}
+
+CentroidScatter ScatterOf(const CentroidAngles& angles) {
+  const auto two_sigma = [](const Eigen::ArrayXd& sample) {
+    const Estimate radians = TwoSigma(sample);
+    return Estimate{DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
+  };
+  return {two_sigma(angles.along_wind), two_sigma(angles.cross_wind)};
+}
+
+std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water) {
+  assert(experiment.frames >= 2);
+  std::vector<PreparedBeam> beams;
+  for (const BeamOptions& options : experiment.beams) beams.emplace_back(options, experiment);
+  const int points = PointsToHold(beams, experiment.grid.length / experiment.grid.size);
+  const HeightField still_water(std::vector<double>(9, 0.0), 3, 1.0);
+
+  std::vector<std::vector<Frame>> frames(experiment.frames);  // of each beam
+  tbb::parallel_for(0, experiment.frames, [&](int f) {
+    const HeightField window = WindowOf(water(f), experiment.grid, points);
+    for (const PreparedBeam& beam : beams) frames[f].push_back(beam.Photograph(window, experiment));
+  });
+
+  std::vector<TankReading> readings;
+  for (std::size_t b = 0; b < beams.size(); ++b) {
+    const Frame still = beams[b].Photograph(still_water, experiment);
+    const auto angles_of = [&](auto&& centroid_of) {
+      std::vector<std::optional<Eigen::Vector2d>> centroids;
+      for (const std::vector<Frame>& frame : frames) centroids.push_back(centroid_of(frame[b]));
+      return AnglesOf(centroids, centroid_of(still), experiment.depth);
+    };
+    TankReading reading;
+    reading.full_beam = angles_of([](const Frame& frame) { return std::optional(frame.full_beam); });
+    for (std::size_t a = 0; a < experiment.arrays.size(); ++a) {
+      reading.arrays.push_back(angles_of([a](const Frame& frame) { return frame.arrays[a]; }));
+    }
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
+std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment,
+                                          const std::vector<double>& water) {
+  const PreparedBeam beam(experiment.beams.front(), experiment);
+  const int points = PointsToHold({beam}, experiment.grid.length / experiment.grid.size);
+  return SpotsAtDepth(beam.rays, WindowOf(water, experiment.grid, points), experiment.refractive_index,
+                      experiment.depth);
+}
+
+}  // namespace albtpu

@@ -1,0 +1,150 @@
+#include "validation/published/published_tables.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/campaign/provenance.h"
+#include "sea/angle.h"
+#include "sea/response/refraction.h"
+#include "tables/version.h"
+#include "validation/published/angle_method.h"
+#include "validation/published/published_model.h"
+
+namespace albtpu {
+namespace {
+
+// 2 sigma along and across the wind, degrees, as the paper has them.
+struct Angles {
+  double along, cross;
+};
+using AnglesAt = std::function<Angles(double wind_speed, double incidence_degrees, double footprint)>;
+
+struct Nodes {
+  std::vector<double> wind_speeds, incidences, footprints, depths;
+};
+
+// The fetch of the sea that the paper fits to its tank and takes as fully developed; an axis of one fetch
+// answers at any. The plane of incidence lies along the wind.
+constexpr double kFetch = 30, kAzimuth = 0;
+
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const Nodes& nodes) {
+  std::vector<Axis> axes;
+  for (const auto& [id, values] :
+       {std::pair{AxisId::kWindSpeed, nodes.wind_speeds}, std::pair{AxisId::kFetch, std::vector{kFetch}},
+        std::pair{AxisId::kIncidence, nodes.incidences}, std::pair{AxisId::kAzimuth, std::vector{kAzimuth}},
+        std::pair{AxisId::kFootprint, nodes.footprints}, std::pair{AxisId::kDepth, nodes.depths}}) {
+    absl::StatusOr<Axis> axis = Axis::Create(id, values);
+    if (!axis.ok()) return axis.status();
+    axes.push_back(*std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
+// The angles at each node, THU and TVU from both of them together, as Table 5 comes from Table 4.
+UncertaintyTable::Variables MakeVariables(const Nodes& nodes, const AnglesAt& angles_at) {
+  Variable along, cross, thu, tvu;
+  for (const double wind_speed : nodes.wind_speeds) {
+    for (const double incidence : nodes.incidences) {
+      const double refracted = StillWaterRefraction(RadiansOfDegrees(incidence), kRefractiveIndex);
+      for (const double footprint : nodes.footprints) {
+        const Angles angles = angles_at(wind_speed, incidence, footprint);
+        const AngleMethodUncertainty uncertainty =
+            AngleMethod(refracted, RadiansOfDegrees(std::hypot(angles.along, angles.cross)));
+        along.values.push_back(static_cast<float>(angles.along));
+        cross.values.push_back(static_cast<float>(angles.cross));
+        for (const double depth : nodes.depths) {
+          thu.values.push_back(static_cast<float>(depth * uncertainty.thu_per_depth));
+          tvu.values.push_back(static_cast<float>(depth * uncertainty.tvu_per_depth));
+        }
+      }
+    }
+  }
+  UncertaintyTable::Variables variables;
+  variables[Index(Quantity::kRefractionAlongWind)] = std::move(along);
+  variables[Index(Quantity::kRefractionCrossWind)] = std::move(cross);
+  variables[Index(Quantity::kThu)] = std::move(thu);
+  variables[Index(Quantity::kTvu)] = std::move(tvu);
+  return variables;
+}
+
+constexpr char kAlongTheWind[] =
+    " For a beam along the wind alone: ask with azimuth 0; a question without an azimuth is for the "
+    "worse of 0 and 90 degrees, and out of the domain.";
+
+// What both tables say of themselves.
+Provenance MakeProvenance(std::string id, std::string title, std::string source, const std::string& comment) {
+  return {
+      .id = std::move(id),
+      .version = "1",
+      .title = std::move(title),
+      .campaign = "",
+      .attributes = {
+          {"source", std::move(source)},
+          {"references",
+           "Birkebak, M., Eren, F., Pe'eri, S., Weston, N. (2018): The Effect of Surface Waves on Airborne "
+           "Lidar Bathymetry (ALB) Measurement Uncertainties. Remote Sensing 10(3), 453, "
+           "doi:10.3390/rs10030453"},
+          {"license", "CC BY 4.0, https://creativecommons.org/licenses/by/4.0/"},
+          {"comment", comment + kAlongTheWind},
+          {"component", "sea surface only: no water column, air side, platform or system"},
+          {"refractive_index", kRefractiveIndex},
+          {"program_version", std::string(Version())},
+          {"date_created", DateCreated()},
+      }};
+}
+
+absl::StatusOr<UncertaintyTable> Make(const Nodes& nodes, const AnglesAt& angles_at, Provenance provenance) {
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
+  if (!axes.ok()) return axes.status();
+  return UncertaintyTable::Create(*std::move(axes), MakeVariables(nodes, angles_at), std::move(provenance));
+}
+
+}  // namespace
+
+absl::StatusOr<UncertaintyTable> MeasuredTable(const PublishedAngles& table_4) {
+  Nodes nodes{table_4.wind_speeds, table_4.incidences, {0.25}, {}};
+  for (int depth = 1; depth <= 10; ++depth) nodes.depths.push_back(depth);
+  std::size_t cell = 0;  // the cells come in the order of the nodes
+  const auto angles = [&](double, double, double) {
+    const PublishedAngles::Cell& measured = table_4.cells[cell++];
+    return Angles{measured.along, measured.cross};
+  };
+  return Make(
+      nodes, angles,
+      MakeProvenance("birkebak2018-measured",
+                     "Birkebak et al. (2018), Table 4: refraction measured in a wave tank",
+                     "Measured angles of a published table, THU and TVU from them by its angle method (Eq. "
+                     "24-26)",
+                     "Measured with an array of 6 x 6 photodiodes 0.25 m below the water of a wave tank, 3.5 "
+                     "to 8.5 m from a fan, the plane of incidence along the wind. The array samples the beam "
+                     "at 36 points: much of these angles may be the sampling of caustics rather than the "
+                     "motion of the beam. Depths are extrapolated from 0.25 m by the angle method. THU and "
+                     "TVU take the angle in still water as theta and the root of the summed squares of both "
+                     "axes as delta theta."));
+}
+
+absl::StatusOr<UncertaintyTable> ModelTable() {
+  Nodes nodes{{2, 2.5, 3, 3.5, 4, 5.25}, {}, {}, {1, 10}};  // THU and TVU are proportional to depth
+  for (int incidence = 0; incidence <= 20; ++incidence) nodes.incidences.push_back(incidence);
+  for (int i = 0; i <= 16; ++i) nodes.footprints.push_back(static_cast<float>(0.25 * std::pow(2, i / 4.0)));
+  const auto angles = [](double wind_speed, double incidence, double footprint) {
+    return Angles{kPublishedAlongWind(wind_speed, incidence) * PublishedAlongWindDiameterFactor(footprint),
+                  kPublishedCrossWind(wind_speed, incidence) * PublishedCrossWindDiameterFactor(footprint)};
+  };
+  return Make(
+      nodes, angles,
+      MakeProvenance("birkebak2018-model",
+                     "Birkebak et al. (2018), Eq. 27-30: the fit to its simulated refraction",
+                     "Equations of a published fit to its Monte Carlo simulation, THU and TVU from them by "
+                     "its angle method (Eq. 24-26)",
+                     "Eq. 27 and 28 with 0.0276 theta and 0.0281 theta (printed a decimal smaller, against "
+                     "Table 3), Eq. 29 and 30 as the ratio to their value at 0.25 m (as printed they are not "
+                     "1 there); winds, incidences and diameters of Table 1, the plane of incidence along the "
+                     "wind. THU and TVU take the angle in still water as theta and the root of the summed "
+                     "squares of both axes as delta theta."));
+}
+
+}  // namespace albtpu

@@ -1,0 +1,87 @@
+// 2 sigma refraction angles over winds and incidences, as Table 3 has them: by the closed form and by Monte
+// Carlo. The beam points downwind, the sea is fully developed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "generator/math/statistics.h"
+#include "generator/monte_carlo/monte_carlo.h"
+#include "validation/published/line_fit.h"
+#include "validation/published/published_angles.h"
+#include "validation/published/published_model.h"
+
+namespace albtpu {
+
+struct GridOptions {
+  std::vector<double> wind_speeds;  // m/s
+  std::vector<double> incidences;   // degree, in air
+  double footprint = 0.25;          // m, of a uniform collimated beam
+  double height_scale = 1;          // of all waves
+};
+
+struct RefractionGrid {
+  struct Cell {
+    Estimate along, cross;  // degree; the closed form has no standard error
+  };
+
+  GridOptions options;
+  std::vector<Cell> cells;  // incidence fastest
+
+  const Cell& At(std::size_t wind_speed, std::size_t incidence) const {
+    return cells[wind_speed * options.incidences.size() + incidence];
+  }
+};
+
+RefractionGrid ClosedFormGrid(const GridOptions& options);
+
+struct SimulationSize {
+  int surfaces;
+  std::optional<int> rays;  // chosen where absent
+  Estimator estimator = Estimator::kControlVariate;
+};
+
+// All incidences of a wind see the same surfaces; each wind and footprint draws its own, which do not depend
+// on `height_scale`.
+RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& size, std::uint64_t seed);
+
+// Of the along-wind angles.
+double GreatestRelativeStandardError(const RefractionGrid& grid);
+
+// The paper's Table 3 as a grid, without standard errors.
+RefractionGrid GridOf(const PublishedAngles& published);
+
+// The mean over all winds and incidences of one axis of the cells, as Figure 9 takes it. The incidences of a
+// wind share their surfaces, so their errors are taken as one.
+Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis);
+
+// Line through the along-wind angles over wind, one for each incidence.
+std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid);
+double LowestRSquared(const RefractionGrid& grid);  // of these lines
+
+// Angles as samples to fit the paper's model to.
+std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid);
+std::vector<AngleSample> CrossWindSamples(const RefractionGrid& grid);
+
+// How ln(factor * ours / paper) lies over the clean cells of a published table.
+struct LogRatio {
+  double mean, rms, greatest;  // the greatest in magnitude
+};
+LogRatio AlongWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);
+LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);
+
+// In how many cases something holds, of how many.
+struct Count {
+  int holds = 0, all = 0;
+
+  void Add(bool case_holds) {
+    holds += case_holds;
+    ++all;
+  }
+};
+Count AlongWindRisesWithWind(const RefractionGrid& grid);  // from each node to the next
+Count AlongWindRisesWithIncidence(const RefractionGrid& grid);
+Count AlongWindExceedsCrossWind(const RefractionGrid& grid);
+
+}  // namespace albtpu
