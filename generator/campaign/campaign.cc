@@ -234,32 +234,32 @@ absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {
   return campaign;
 }
 
-std::size_t EncounterCount(const Campaign& campaign) {
+std::size_t SeaCaseCount(const Campaign& campaign) {
   return campaign.nodes(AxisId::kWindSpeed).size() * campaign.nodes(AxisId::kFetch).size() *
          campaign.nodes(AxisId::kFootprint).size();
 }
 
-Encounter EncounterOf(const Campaign& campaign, std::size_t index) {
+SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
   const std::size_t footprints = campaign.nodes(AxisId::kFootprint).size();
   const std::size_t fetches = campaign.nodes(AxisId::kFetch).size();
-  Encounter encounter;
+  SeaCase sea_case;
   const std::size_t fetch = index / footprints % fetches;
-  encounter.sea = campaign.sea;
-  encounter.sea.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
-  encounter.sea.fetch = fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity;
-  encounter.refractive_index = campaign.refractive_index;
-  encounter.depths = campaign.nodes(AxisId::kDepth);
-  encounter.rays = campaign.rays;
+  sea_case.sea = campaign.sea;
+  sea_case.sea.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
+  sea_case.sea.fetch = fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity;
+  sea_case.refractive_index = campaign.refractive_index;
+  sea_case.depths = campaign.nodes(AxisId::kDepth);
+  sea_case.rays = campaign.rays;
   for (const double incidence : campaign.nodes(AxisId::kIncidence)) {
     for (const double azimuth : campaign.nodes(AxisId::kAzimuth)) {
-      encounter.beams.push_back({.incidence = RadiansOfDegrees(incidence),
-                                 .azimuth = RadiansOfDegrees(azimuth),
-                                 .footprint = campaign.nodes(AxisId::kFootprint)[index % footprints],
-                                 .profile = campaign.profile,
-                                 .source_height = campaign.source_height});
+      sea_case.beams.push_back({.incidence = RadiansOfDegrees(incidence),
+                                .azimuth = RadiansOfDegrees(azimuth),
+                                .footprint = campaign.nodes(AxisId::kFootprint)[index % footprints],
+                                .profile = campaign.profile,
+                                .source_height = campaign.source_height});
     }
   }
-  return encounter;
+  return sea_case;
 }
 
 }  // namespace albtpu

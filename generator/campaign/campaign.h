@@ -72,15 +72,15 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view toml);
 // The same from a file. NotFound when there is none; messages begin with the path.
 absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path);
 
-// The cell of the random numbers (random_stream.h) of every encounter and every checked pulse of a table. The
+// The cell of the random numbers (random_stream.h) of every sea case and every checked pulse of a table. The
 // same for all: what chance does to one node it does to its neighbours, so that a table is smoother than its
 // standard errors, which are those of each value by itself.
 inline constexpr std::uint32_t kCellOfTables = 0;
 
-// A campaign is worked off in encounters: seas and footprints, each with all incidences, azimuths and depths.
+// A campaign is worked off in sea cases: seas and footprints, each with all incidences, azimuths and depths.
 // Their order is wind, fetch, footprint, the last fastest.
-std::size_t EncounterCount(const Campaign& campaign);
-Encounter EncounterOf(const Campaign& campaign, std::size_t index);
+std::size_t SeaCaseCount(const Campaign& campaign);
+SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
 
 std::string_view Name(BeamProfile profile);  // "uniform", "gaussian"
 std::optional<BeamProfile> FindBeamProfile(std::string_view name);

@@ -59,20 +59,20 @@ Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
 }
 
 std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse) {
-  Encounter encounter = EncounterOf(campaign, 0);  // for what all have in common
-  encounter.sea.wind_speed_10m = pulse.wind_speed;
-  encounter.sea.fetch = pulse.fetch;
-  encounter.depths = {pulse.depth};
+  SeaCase sea_case = SeaCaseOf(campaign, 0);  // for what all have in common
+  sea_case.sea.wind_speed_10m = pulse.wind_speed;
+  sea_case.sea.fetch = pulse.fetch;
+  sea_case.depths = {pulse.depth};
   const BeamOptions beam{.incidence = RadiansOfDegrees(pulse.incidence),
                          .azimuth = RadiansOfDegrees(*pulse.azimuth),
                          .footprint = pulse.footprint,
                          .profile = campaign.profile,
                          .source_height = campaign.source_height};
-  // The widest beam of an encounter decides on grid, patch and rays: it comes along, as at the nodes.
+  // The widest beam of a sea case decides on grid, patch and rays: it comes along, as at the nodes.
   BeamOptions widest = beam;
   widest.incidence = RadiansOfDegrees(campaign.nodes(AxisId::kIncidence).back());
-  encounter.beams = {beam, widest};
-  const EncounterResult result = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
+  sea_case.beams = {beam, widest};
+  const SeaCaseResult result = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
   std::vector<Estimate> answers;
   for (const Quantity quantity : kChecked) answers.push_back(ValueOf(result.beams[0], quantity));
   return answers;

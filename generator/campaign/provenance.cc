@@ -15,12 +15,12 @@
 namespace albtpu {
 namespace {
 
-// The least and the greatest of a number over the encounters.
+// The least and the greatest of a number over the sea cases.
 template <typename Number>
-std::vector<double> Range(const std::vector<EncounterResult>& results, Number EncounterResult::*member) {
+std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaCaseResult::*member) {
   std::vector<double> range = {static_cast<double>(results.front().*member),
                                static_cast<double>(results.front().*member)};
-  for (const EncounterResult& result : results) {
+  for (const SeaCaseResult& result : results) {
     range[0] = std::min(range[0], static_cast<double>(result.*member));
     range[1] = std::max(range[1], static_cast<double>(result.*member));
   }
@@ -62,7 +62,7 @@ SpectrumDescription Describe(const SeaOptions& sea) {
 
 }  // namespace
 
-Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results) {
+Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results) {
   const SpectrumDescription spectrum = Describe(campaign.sea);
   Provenance provenance;
   provenance.id = campaign.id;
@@ -97,15 +97,15 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterR
                                                 "but depth, ends aside, which nearly halves "
                                                 "the error of interpolation in the root mean square"
                                               : "as computed at the nodes"},
-      {"realizations", Range(results, &EncounterResult::realizations)},
+      {"realizations", Range(results, &SeaCaseResult::realizations)},
       {"encounters_above_relative_error",
        std::int64_t{std::count_if(results.begin(), results.end(),
-                                  [](const EncounterResult& result) { return !result.converged; })}},
-      {"rays", Range(results, &EncounterResult::rays)},
-      {"domain", Range(results, &EncounterResult::patch_length)},
-      {"spacing", Range(results, &EncounterResult::spacing)},
-      {"footprint_slope_variance_fraction", Range(results, &EncounterResult::footprint_slope_fraction)},
-      {"resolved_slope_variance_fraction", Range(results, &EncounterResult::resolved_slope_fraction)},
+                                  [](const SeaCaseResult& result) { return !result.converged; })}},
+      {"rays", Range(results, &SeaCaseResult::rays)},
+      {"domain", Range(results, &SeaCaseResult::patch_length)},
+      {"spacing", Range(results, &SeaCaseResult::spacing)},
+      {"footprint_slope_variance_fraction", Range(results, &SeaCaseResult::footprint_slope_fraction)},
+      {"resolved_slope_variance_fraction", Range(results, &SeaCaseResult::resolved_slope_fraction)},
   };
   return provenance;
 }

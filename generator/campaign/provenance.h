@@ -11,7 +11,7 @@
 
 namespace albtpu {
 
-Provenance MakeProvenance(const Campaign& campaign, const std::vector<EncounterResult>& results);
+Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results);
 
 // Adds how far the table is off between its nodes. `errors` are those of kChecked.
 void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance);

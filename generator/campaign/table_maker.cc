@@ -26,15 +26,15 @@ class VariableGrid {
     }
   }
 
-  // `beam` counts the beams of the encounter, `depth` the nodes of its axis: 0 for quantities without depth.
-  void Set(Quantity quantity, std::size_t encounter, std::size_t beam, std::size_t depth,
+  // `beam` counts the beams of the sea case, `depth` the nodes of its axis: 0 for quantities without depth.
+  void Set(Quantity quantity, std::size_t sea_case, std::size_t beam, std::size_t depth,
            const Estimate& estimate) {
     Variable& variable = *variables_[Index(quantity)];
     const std::size_t footprints = campaign_.nodes(AxisId::kFootprint).size();
     const std::size_t beams =
         campaign_.nodes(AxisId::kIncidence).size() * campaign_.nodes(AxisId::kAzimuth).size();
     const std::size_t depths = Describe(quantity).over_depth ? campaign_.nodes(AxisId::kDepth).size() : 1;
-    const std::size_t sea = encounter / footprints, footprint = encounter % footprints;
+    const std::size_t sea = sea_case / footprints, footprint = sea_case % footprints;
     const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
     variable.values[at] = static_cast<float>(estimate.value);
     variable.standard_errors[at] = static_cast<float>(estimate.standard_error);
@@ -59,18 +59,18 @@ Estimate InDegrees(const Estimate& radians) {
   return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
 }
 
-void Store(const BeamUncertainty& result, std::size_t encounter, std::size_t beam, VariableGrid& grid) {
-  grid.Set(Quantity::kRefractionAlongWind, encounter, beam, 0, InDegrees(result.refraction_along_wind));
-  grid.Set(Quantity::kRefractionCrossWind, encounter, beam, 0, InDegrees(result.refraction_cross_wind));
+void Store(const BeamUncertainty& result, std::size_t sea_case, std::size_t beam, VariableGrid& grid) {
+  grid.Set(Quantity::kRefractionAlongWind, sea_case, beam, 0, InDegrees(result.refraction_along_wind));
+  grid.Set(Quantity::kRefractionCrossWind, sea_case, beam, 0, InDegrees(result.refraction_cross_wind));
   for (std::size_t d = 0; d < result.thu.size(); ++d) {
-    grid.Set(Quantity::kThu, encounter, beam, d, result.thu[d]);
-    grid.Set(Quantity::kTvu, encounter, beam, d, result.tvu[d]);
-    grid.Set(Quantity::kBiasAlongBeam, encounter, beam, d, result.bias_along_beam[d]);
-    grid.Set(Quantity::kBiasVertical, encounter, beam, d, result.bias_vertical[d]);
+    grid.Set(Quantity::kThu, sea_case, beam, d, result.thu[d]);
+    grid.Set(Quantity::kTvu, sea_case, beam, d, result.tvu[d]);
+    grid.Set(Quantity::kBiasAlongBeam, sea_case, beam, d, result.bias_along_beam[d]);
+    grid.Set(Quantity::kBiasVertical, sea_case, beam, d, result.bias_vertical[d]);
   }
 }
 
-bool HasShapeOf(const Campaign& campaign, const EncounterResult& result) {
+bool HasShapeOf(const Campaign& campaign, const SeaCaseResult& result) {
   const std::size_t beams =
       campaign.nodes(AxisId::kIncidence).size() * campaign.nodes(AxisId::kAzimuth).size();
   const std::size_t depths = campaign.nodes(AxisId::kDepth).size();
@@ -91,13 +91,13 @@ struct TableBuilder::Parts {
   const Campaign& campaign;
   UnitOrigin origin;
   VariableGrid grid;
-  std::vector<EncounterResult> results;        // without their beams, which are in the grid
+  std::vector<SeaCaseResult> results;          // without their beams, which are in the grid
   std::vector<std::vector<Estimate>> answers;  // to the checked pulses
 };
 
 TableBuilder::TableBuilder(const Campaign& campaign)
     : parts_(new Parts{campaign, OriginOf(campaign), VariableGrid(campaign),
-                       std::vector<EncounterResult>(EncounterCount(campaign)),
+                       std::vector<SeaCaseResult>(SeaCaseCount(campaign)),
                        std::vector<std::vector<Estimate>>(campaign.checked_pulses)}) {}
 
 TableBuilder::~TableBuilder() = default;
@@ -112,7 +112,7 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
     parts_->answers[unit.index] = *std::move(answers);
     return absl::OkStatus();
   }
-  absl::StatusOr<EncounterResult> result = DecodeResult(*content);
+  absl::StatusOr<SeaCaseResult> result = DecodeResult(*content);
   if (!result.ok()) return result.status();
   if (!HasShapeOf(parts_->campaign, *result)) return OfAnotherShape();
   for (std::size_t beam = 0; beam < result->beams.size(); ++beam)

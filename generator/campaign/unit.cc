@@ -23,7 +23,7 @@ constexpr std::size_t kDigestSize = std::tuple_size_v<Sha256Digest>;
 
 std::string KindName(UnitKind kind) {
   switch (kind) {
-    case UnitKind::kEncounter:
+    case UnitKind::kSeaCase:
       return "encounter";
     case UnitKind::kPulse:
       return "pulse";
@@ -45,7 +45,7 @@ std::string Name(UnitId unit) { return absl::StrFormat("%s-%05d", KindName(unit.
 
 std::vector<UnitId> UnitsOf(const Campaign& campaign) {
   std::vector<UnitId> units;
-  for (std::size_t i = 0; i < EncounterCount(campaign); ++i) units.push_back({UnitKind::kEncounter, i});
+  for (std::size_t i = 0; i < SeaCaseCount(campaign); ++i) units.push_back({UnitKind::kSeaCase, i});
   for (std::size_t i = 0; i < campaign.checked_pulses; ++i) units.push_back({UnitKind::kPulse, i});
   return units;
 }

@@ -15,12 +15,12 @@
 namespace albtpu {
 
 enum class UnitKind {
-  kEncounter,  // `index` counts the encounters of the campaign
-  kPulse,      // `index` counts the pulses that the table is held to (interpolation_check.h)
+  kSeaCase,  // `index` counts the sea cases of the campaign
+  kPulse,    // `index` counts the pulses that the table is held to (interpolation_check.h)
 };
 
 struct UnitId {
-  UnitKind kind = UnitKind::kEncounter;
+  UnitKind kind = UnitKind::kSeaCase;
   std::size_t index = 0;
 
   auto operator<=>(const UnitId&) const = default;

@@ -20,7 +20,7 @@ void Fields(Stream& stream, Self& self) {
          realizations);
 }
 
-template <typename Stream, SameStruct<EncounterResult> Self>
+template <typename Stream, SameStruct<SeaCaseResult> Self>
 void Fields(Stream& stream, Self& self) {
   auto& [beams, realizations, converged, rays, patch_length, spacing, footprint_slope_fraction,
          resolved_slope_fraction] = self;
@@ -53,11 +53,9 @@ absl::StatusOr<Content> Decode(std::string_view bytes) {
 
 }  // namespace
 
-std::string EncodeResult(const EncounterResult& result) { return Encode(result); }
+std::string EncodeResult(const SeaCaseResult& result) { return Encode(result); }
 
-absl::StatusOr<EncounterResult> DecodeResult(std::string_view bytes) {
-  return Decode<EncounterResult>(bytes);
-}
+absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes) { return Decode<SeaCaseResult>(bytes); }
 
 std::string EncodeAnswers(const std::vector<Estimate>& answers) { return Encode(answers); }
 

@@ -10,10 +10,10 @@
 
 namespace albtpu {
 
-std::string EncodeResult(const EncounterResult& result);
+std::string EncodeResult(const SeaCaseResult& result);
 
-// DataLoss when the bytes are not those of an EncounterResult of this program.
-absl::StatusOr<EncounterResult> DecodeResult(std::string_view bytes);
+// DataLoss when the bytes are not those of an SeaCaseResult of this program.
+absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes);
 
 // The same of AnswerDirectly (interpolation_check.h).
 std::string EncodeAnswers(const std::vector<Estimate>& answers);

@@ -48,9 +48,9 @@ UnitId ReadUnitMessage(const std::string& message, std::string_view& bytes) {
 
 std::string Compute(const Campaign& campaign, const UnitOrigin& origin, UnitId unit) {
   switch (unit.kind) {
-    case UnitKind::kEncounter:
+    case UnitKind::kSeaCase:
       return SealUnit(unit, origin,
-                      EncodeResult(Simulate(EncounterOf(campaign, unit.index), campaign.effort, campaign.seed,
+                      EncodeResult(Simulate(SeaCaseOf(campaign, unit.index), campaign.effort, campaign.seed,
                                             kCellOfTables)));
     case UnitKind::kPulse:
       return SealUnit(unit, origin,

@@ -16,7 +16,7 @@ namespace albtpu {
 using UnitSink = std::function<absl::Status(UnitId unit, const std::string& bytes, const std::string& from)>;
 
 // Works off `units`, as many at a time as there are threads; what threads have nothing else to do help with
-// the surfaces of others' encounters. Other ranks, which are in FollowRankZero, get units one by one as they
+// the surfaces of others' sea cases. Other ranks, which are in FollowRankZero, get units one by one as they
 // ask for more. `sink` is called by one thread at a time, once for each unit, in no order; its first failure
 // ends the work and is returned. For rank 0.
 absl::Status WorkOff(const Campaign& campaign, const std::vector<UnitId>& units, Ranks& ranks,

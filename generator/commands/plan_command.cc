@@ -24,30 +24,30 @@ double SecondsOf(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-double SecondsOf(const Encounter& encounter, int realizations, Estimator estimator) {
+double SecondsOf(const SeaCase& sea_case, int realizations, Estimator estimator) {
   const Effort effort{
       .realizations = realizations, .most_realizations = realizations, .estimator = estimator};
-  return SecondsOf([&] { Simulate(encounter, effort, 1, 0); });
+  return SecondsOf([&] { Simulate(sea_case, effort, 1, 0); });
 }
 
-// Processor time of a campaign, s: what is prepared, and what each realization of all encounters takes more.
+// Processor time of a campaign, s: what is prepared, and what each realization of all sea cases takes more.
 struct Cost {
   double preparation = 0, realization = 0;
   double Of(int realizations) const { return preparation + realizations * realization; }
 };
 
-// From a few realizations of a few encounters spread over the campaign.
+// From a few realizations of a few sea cases spread over the campaign.
 Cost Measure(const Campaign& campaign) {
   constexpr std::size_t kProbes = 24;
   constexpr int kFew = 4, kMore = 24;
-  const std::size_t encounters = EncounterCount(campaign), probes = std::min(kProbes, encounters);
+  const std::size_t sea_cases = SeaCaseCount(campaign), probes = std::min(kProbes, sea_cases);
   Cost cost;
   for (std::size_t p = 0; p < probes; ++p) {
-    const Encounter encounter = EncounterOf(campaign, (2 * p + 1) * encounters / (2 * probes));
-    const double few = SecondsOf(encounter, kFew, campaign.effort.estimator);
-    const double more = SecondsOf(encounter, kMore, campaign.effort.estimator);
+    const SeaCase sea_case = SeaCaseOf(campaign, (2 * p + 1) * sea_cases / (2 * probes));
+    const double few = SecondsOf(sea_case, kFew, campaign.effort.estimator);
+    const double more = SecondsOf(sea_case, kMore, campaign.effort.estimator);
     const double realization = std::max(0.0, (more - few) / (kMore - kFew));
-    const double share = static_cast<double>(encounters) / static_cast<double>(probes);
+    const double share = static_cast<double>(sea_cases) / static_cast<double>(probes);
     cost.realization += share * realization;
     cost.preparation += share * std::max(0.0, few - kFew * realization);
   }
@@ -79,8 +79,8 @@ absl::Status RunPlan(const PlanOptions& options) {
     std::cout << absl::StrFormat("%-24s%s\n", what, value);
   };
   line("campaign", campaign->id + ", version " + campaign->version);
-  line("seas and footprints", std::to_string(EncounterCount(*campaign)));
-  line("beams of each", std::to_string(EncounterOf(*campaign, 0).beams.size()));
+  line("seas and footprints", std::to_string(SeaCaseCount(*campaign)));
+  line("beams of each", std::to_string(SeaCaseOf(*campaign, 0).beams.size()));
   line("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
   line("checked pulses", std::to_string(campaign->checked_pulses));
   line("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));

@@ -15,23 +15,23 @@ namespace {
 // The least the variance of a variance is trusted with, and where a point ends that does not meet its error.
 constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
-Encounter EncounterAt(const PointOptions& options) {
-  Encounter encounter;
-  encounter.sea = {.wind_speed_10m = options.wind_speed,
-                   .fetch = options.fetch,
-                   .spectrum = *FindSpectrum(options.spectrum),
-                   .corrected_above = options.corrected_above};
-  encounter.refractive_index = options.refractive_index;
-  encounter.depths = options.depth;
+SeaCase SeaCaseAt(const PointOptions& options) {
+  SeaCase sea_case;
+  sea_case.sea = {.wind_speed_10m = options.wind_speed,
+                  .fetch = options.fetch,
+                  .spectrum = *FindSpectrum(options.spectrum),
+                  .corrected_above = options.corrected_above};
+  sea_case.refractive_index = options.refractive_index;
+  sea_case.depths = options.depth;
   const std::vector<double> azimuths =
       options.azimuth ? std::vector<double>{*options.azimuth} : std::vector<double>{0, 90};
   for (const double azimuth : azimuths) {
-    encounter.beams.push_back({.incidence = RadiansOfDegrees(options.incidence),
-                               .azimuth = RadiansOfDegrees(azimuth),
-                               .footprint = options.footprint,
-                               .profile = *FindBeamProfile(options.profile)});
+    sea_case.beams.push_back({.incidence = RadiansOfDegrees(options.incidence),
+                              .azimuth = RadiansOfDegrees(azimuth),
+                              .footprint = options.footprint,
+                              .profile = *FindBeamProfile(options.profile)});
   }
-  return encounter;
+  return sea_case;
 }
 
 // Each value the larger in magnitude of two beams, as tables answer where the azimuth is not known.
@@ -61,7 +61,7 @@ void AddToJson(nlohmann::ordered_json& json, const std::string& name,
   json[name + "_standard_error"] = standard_errors;
 }
 
-void PrintJson(const PointOptions& options, const EncounterResult& result, double seconds) {
+void PrintJson(const PointOptions& options, const SeaCaseResult& result, double seconds) {
   const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
   nlohmann::ordered_json json;
   const auto add_angle = [&](const std::string& name, const Estimate& estimate) {
@@ -81,7 +81,7 @@ void PrintJson(const PointOptions& options, const EncounterResult& result, doubl
   std::cout << json.dump() << '\n';
 }
 
-void PrintText(const PointOptions& options, const EncounterResult& result) {
+void PrintText(const PointOptions& options, const SeaCaseResult& result) {
   const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
   const auto angle = [](const char* name, const Estimate& estimate) {
     std::printf("%-22s %8.4f +- %.4f degree\n", name, DegreesOfRadians(estimate.value),
@@ -111,7 +111,7 @@ absl::Status RunPoint(const PointOptions& options) {
                       .relative_error = options.relative_error,
                       .estimator = *FindEstimator(options.estimator)};
   const auto start = std::chrono::steady_clock::now();
-  const EncounterResult result = Simulate(EncounterAt(options), effort, options.seed, 0);
+  const SeaCaseResult result = Simulate(SeaCaseAt(options), effort, options.seed, 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.converged) {
     std::fprintf(

@@ -57,7 +57,7 @@ struct Grid {
   V steps_per_metre, origin;
   V x_per_height, y_per_height;  // steps per m, of the rays
 
-  Grid(const RayBundle& rays, const HeightWindow& surface)
+  Grid(const RayBundle& rays, const HeightView& surface)
       : heights(surface.heights),
         stride(surface.stride),
         stride_steps(hn::Set(d, static_cast<float>(surface.stride))),

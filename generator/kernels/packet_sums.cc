@@ -15,8 +15,8 @@ StillWater StillWaterOf(const RayBundle& rays) {
           static_cast<float>(1 - r * r)};
 }
 
-void MeetOne(const RayBundle& rays, const HeightWindow& surface, int ray, float& height, float& rise_x,
-             float& rise_y) {
+void IntersectOne(const RayBundle& rays, const HeightView& surface, int ray, float& height, float& rise_x,
+                  float& rise_y) {
   const Hit hit = Intersect(surface, Ray{rays.direction(), {rays.x()[ray], rays.y()[ray]}});
   const Eigen::Vector2d rise = hit.facet.slope * static_cast<double>(surface.spacing);
   height = static_cast<float>(hit.height);
@@ -38,10 +38,10 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   traced.beam.slope = {mean[kSlopeX], mean[kSlopeY]};
   traced.beam.slope_squares = {mean[kSlopeXX], mean[kSlopeYY], mean[kSlopeXY]};
   traced.height = mean[kHeight];
-  traced.undisturbed_slope = {mean[kUndisturbedX], mean[kUndisturbedY]};
-  traced.undisturbed_slope_squares = {mean[kUndisturbedXX], mean[kUndisturbedYY], mean[kUndisturbedXY]};
-  traced.undisturbed_height_slope = Eigen::Vector2d(mean[kUndisturbedHeightX], mean[kUndisturbedHeightY]) -
-                                    mean[kUndisturbedHeight] * traced.undisturbed_slope;
+  traced.unshifted_slope = {mean[kUnshiftedX], mean[kUnshiftedY]};
+  traced.unshifted_slope_squares = {mean[kUnshiftedXX], mean[kUnshiftedYY], mean[kUnshiftedXY]};
+  traced.unshifted_height_slope = Eigen::Vector2d(mean[kUnshiftedHeightX], mean[kUnshiftedHeightY]) -
+                                  mean[kUnshiftedHeight] * traced.unshifted_slope;
   traced.met_alone = sums.met_alone;
   return traced;
 }

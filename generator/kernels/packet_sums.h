@@ -25,19 +25,19 @@ enum PacketSum {
   kSlopeXX,
   kSlopeYY,
   kSlopeXY,
-  kUndisturbedX,
-  kUndisturbedY,
-  kUndisturbedXX,
-  kUndisturbedYY,
-  kUndisturbedXY,
-  kUndisturbedHeight,
-  kUndisturbedHeightX,
-  kUndisturbedHeightY,
+  kUnshiftedX,
+  kUnshiftedY,
+  kUnshiftedXX,
+  kUnshiftedYY,
+  kUnshiftedXY,
+  kUnshiftedHeight,
+  kUnshiftedHeightX,
+  kUnshiftedHeightY,
   kPacketSums
 };
 
 // Which of them; a beam needs none of the undisturbed.
-enum class Wanted { kBeam, kBeamAndUndisturbed };
+enum class Wanted { kBeam, kBeamAndUnshifted };
 
 struct PacketSums {
   double sum[kPacketSums] = {};
@@ -59,9 +59,9 @@ struct TracedBundle {
   double height;  // m, of where the rays met the water
   // Of the facets over or under which the rays cross z = 0, where they would meet the water were its height
   // not to shift them: linear and quadratic in the heights.
-  Eigen::Vector2d undisturbed_slope;
-  Eigen::Vector3d undisturbed_slope_squares;  // as SlopeSquares
-  Eigen::Vector2d undisturbed_height_slope;   // m, covariance of height and slope (height_slope_product.h)
+  Eigen::Vector2d unshifted_slope;
+  Eigen::Vector3d unshifted_slope_squares;  // as SlopeSquares
+  Eigen::Vector2d unshifted_height_slope;   // m, covariance of height and slope (height_slope_product.h)
   int met_alone;  // rays that had to be met one by one, because their packet did not settle
 };
 
@@ -69,7 +69,7 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums);
 
 // The meeting of one ray by Intersect's exact search: its height [m] and the rises [m a step of the grid] of
 // the facet.
-void MeetOne(const RayBundle& rays, const HeightWindow& surface, int ray, float& height, float& rise_x,
-             float& rise_y);
+void IntersectOne(const RayBundle& rays, const HeightView& surface, int ray, float& height, float& rise_x,
+                  float& rise_y);
 
 }  // namespace albtpu

@@ -24,7 +24,7 @@ constexpr int kMostSteps = 8;
 class Block {
  public:
   // The rays `first` and on.
-  Block(const Grid& grid, const RayBundle& rays, const HeightWindow& surface, int first)
+  Block(const Grid& grid, const RayBundle& rays, const HeightView& surface, int first)
       : grid_(grid),
         rays_(rays),
         surface_(surface),
@@ -128,9 +128,9 @@ class Block {
       x = hn::MulAdd(z, SlopeX(ray), x);
       y = hn::MulAdd(z, SlopeY(ray), y);
     }
-    AddLanes(height, sums->sum + kUndisturbedHeight);
-    AddLanes(x, sums->sum + kUndisturbedHeightX);
-    AddLanes(y, sums->sum + kUndisturbedHeightY);
+    AddLanes(height, sums->sum + kUnshiftedHeight);
+    AddLanes(x, sums->sum + kUnshiftedHeightX);
+    AddLanes(y, sums->sum + kUnshiftedHeightY);
   }
 
  private:
@@ -167,7 +167,7 @@ class Block {
     for (int lane = 0; lane < kLanes; ++lane) {
       if (settled[lane] != 0) continue;
       const int one = ray + lane;
-      MeetOne(rays_, surface_, first_ + one, z_[one], rise_x_[one], rise_y_[one]);
+      IntersectOne(rays_, surface_, first_ + one, z_[one], rise_x_[one], rise_y_[one]);
       if (one < count_) ++count;
     }
     return count;
@@ -188,7 +188,7 @@ class Block {
 
   const Grid grid_;
   const RayBundle& rays_;
-  const HeightWindow& surface_;
+  const HeightView& surface_;
   int first_, count_;
   int end_;  // the rows are full, of `count_` rays and of some that stand for none
   Cells cells_;
@@ -196,16 +196,16 @@ class Block {
   HWY_ALIGN float rise_x_[kBlock], rise_y_[kBlock];  // m a step, of the facets that are met
 };
 
-void SumRays(const RayBundle& rays, const HeightWindow& surface, Wanted wanted, PacketSums* sums) {
+void SumRays(const RayBundle& rays, const HeightView& surface, Wanted wanted, PacketSums* sums) {
   const Grid grid(rays, surface);
   const StillWater still = StillWaterOf(rays);
   HWY_ALIGN float heights[RayBundle::kStrips] = {};
   for (int first = 0; first < rays.count(); first += kBlock) {
     Block block(grid, rays, surface, first);
-    const bool undisturbed = wanted == Wanted::kBeamAndUndisturbed;
+    const bool undisturbed = wanted == Wanted::kBeamAndUnshifted;
     if (undisturbed || rays.vertical()) block.MeetUndisturbed();
     if (undisturbed) {
-      block.AddSlopes(kUndisturbedX, sums);
+      block.AddSlopes(kUnshiftedX, sums);
       block.AddHeightSlopes(sums);
     }
     if (!rays.vertical()) block.Meet(heights, &sums->met_alone);
@@ -225,7 +225,7 @@ namespace albtpu {
 namespace {
 
 // Indexes are exact in single precision.
-[[maybe_unused]] bool MayBeTraced(const HeightWindow& surface) {
+[[maybe_unused]] bool MayBeTraced(const HeightView& surface) {
   return surface.points >= 3 && surface.points % 2 == 1 && surface.stride >= surface.points &&
          surface.points * surface.stride < 1 << 23;
 }
@@ -234,14 +234,14 @@ namespace {
 
 HWY_EXPORT(SumRays);
 
-TracedBundle TracePackets(const RayBundle& rays, const HeightWindow& surface) {
+TracedBundle TracePackets(const RayBundle& rays, const HeightView& surface) {
   assert(MayBeTraced(surface));
   PacketSums sums;
-  HWY_DYNAMIC_DISPATCH(SumRays)(rays, surface, Wanted::kBeamAndUndisturbed, &sums);
+  HWY_DYNAMIC_DISPATCH(SumRays)(rays, surface, Wanted::kBeamAndUnshifted, &sums);
   return MeansOf(rays, sums);
 }
 
-TracedBeam Trace(const RayBundle& rays, const HeightWindow& surface) {
+TracedBeam Trace(const RayBundle& rays, const HeightView& surface) {
   assert(MayBeTraced(surface));
   PacketSums sums;
   HWY_DYNAMIC_DISPATCH(SumRays)(rays, surface, Wanted::kBeam, &sums);

@@ -15,9 +15,9 @@
 namespace albtpu {
 
 // On the best instruction set of this machine. A result depends on that, by rounding, and on nothing else.
-TracedBundle TracePackets(const RayBundle& rays, const HeightWindow& surface);
+TracedBundle TracePackets(const RayBundle& rays, const HeightView& surface);
 
 // The same without what is undisturbed: the single-precision twin of Trace(rays, surface, refractive_index).
-TracedBeam Trace(const RayBundle& rays, const HeightWindow& surface);
+TracedBeam Trace(const RayBundle& rays, const HeightView& surface);
 
 }  // namespace albtpu

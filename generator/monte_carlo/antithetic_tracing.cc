@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "generator/kernels/fast_surface.h"
 #include "generator/kernels/packet_tracer.h"
-#include "generator/kernels/shared_window.h"
 #include "generator/monte_carlo/beam_tracing.h"
 #include "generator/monte_carlo/height_slope_product.h"
 #include "generator/surface/ray_tracer.h"
@@ -59,7 +59,7 @@ class AntitheticTracing final : public BeamTracing {
       PreparedBeam prepared{options,
                             per_height,
                             RayBundle(rays[b], n),
-                            Trace(rays[b], model.StillWindow(), n),
+                            Trace(rays[b], model.StillSurface(), n),
                             EffectOfUnresolvedWaves(options, n, traced.unresolved_slopes),
                             {}};
       if (b > 0 && OneBeam(beams_.back().options, options)) {
@@ -83,8 +83,8 @@ class AntitheticTracing final : public BeamTracing {
     workspace.turned.resize(heights.size());
     std::transform(heights.begin(), heights.end(), workspace.turned.begin(), std::negate<>());
     const int points = window_.points();
-    const HeightWindow upright{heights.data(), points, points, window_.spacing()};
-    const HeightWindow turned{workspace.turned.data(), points, points, window_.spacing()};
+    const HeightView upright{heights.data(), points, points, window_.spacing()};
+    const HeightView turned{workspace.turned.data(), points, points, window_.spacing()};
     for (std::size_t b = 0; b < beams_.size(); ++b) {
       if (!wanted[b]) continue;
       const PreparedBeam& beam = beams_[b];
@@ -99,9 +99,9 @@ class AntitheticTracing final : public BeamTracing {
       };
       const TracedBundle first = TracePackets(beam.rays, upright);
       realized[b].parts = {part(1 - lean, first.beam), part(1 + lean, Trace(beam.rays, turned))};
-      realized[b].mean_slope = first.undisturbed_slope;
-      realized[b].mean_squares = first.undisturbed_slope_squares;
-      realized[b].height_slope = first.undisturbed_height_slope;
+      realized[b].mean_slope = first.unshifted_slope;
+      realized[b].mean_squares = first.unshifted_slope_squares;
+      realized[b].height_slope = first.unshifted_height_slope;
     }
   }
 
@@ -111,7 +111,7 @@ class AntitheticTracing final : public BeamTracing {
 
  private:
   struct Workspace {
-    SharedWindow::Workspace window;
+    FastSurface::Workspace window;
     std::vector<float> turned;
   };
 
@@ -120,7 +120,7 @@ class AntitheticTracing final : public BeamTracing {
     return a.incidence == 0 && b.incidence == 0;
   }
 
-  SharedWindow window_;
+  FastSurface window_;
   std::vector<PreparedBeam> beams_;
   mutable tbb::enumerable_thread_specific<Workspace> workspaces_;
 };

@@ -1,4 +1,4 @@
-// All beams of an encounter through one realization of its sea after another.
+// All beams of a sea case through one realization of its sea after another.
 #pragma once
 
 #include <cstdint>

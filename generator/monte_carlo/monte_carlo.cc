@@ -63,32 +63,32 @@ std::optional<Estimator> FindEstimator(std::string_view name) {
   return std::nullopt;
 }
 
-EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::uint64_t seed,
-                         std::uint32_t cell) {
-  assert(!encounter.beams.empty() && effort.realizations >= 2);
-  const SeaState sea(encounter.sea);
+SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed,
+                       std::uint32_t cell) {
+  assert(!sea_case.beams.empty() && effort.realizations >= 2);
+  const SeaState sea(sea_case.sea);
   Discretization discretization =
-      encounter.discretization ? *encounter.discretization : ChooseDiscretization(sea, encounter.beams);
-  if (encounter.rays) discretization.rays = *encounter.rays;
-  const SurfaceModel model(sea, WidestBeam(encounter.beams), discretization);
+      sea_case.discretization ? *sea_case.discretization : ChooseDiscretization(sea, sea_case.beams);
+  if (sea_case.rays) discretization.rays = *sea_case.rays;
+  const SurfaceModel model(sea, WidestBeam(sea_case.beams), discretization);
 
-  EncounterResult result;
+  SeaCaseResult result;
   result.rays = discretization.rays;
   result.patch_length = model.patch().length();
   result.spacing = model.patch().spacing();
   const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
   const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
   result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
-  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(encounter.beams));
+  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(sea_case.beams));
 
-  const TracedBeams traced{encounter.beams, encounter.refractive_index, discretization.rays,
+  const TracedBeams traced{sea_case.beams, sea_case.refractive_index, discretization.rays,
                            all_slopes - facet_slopes};
-  const bool collimated = std::isinf(encounter.beams.front().source_height);
+  const bool collimated = std::isinf(sea_case.beams.front().source_height);
   const std::unique_ptr<BeamTracing> tracing = effort.estimator == Estimator::kControlVariate && collimated
                                                    ? MakeAntitheticTracing(model, traced)
                                                    : MakePlainTracing(model, traced);
 
-  const std::size_t count = encounter.beams.size();
+  const std::size_t count = sea_case.beams.size();
   result.beams.resize(count);
   std::vector<bool> wanted(count, true);  // those that want more realizations
   std::vector<std::vector<BeamRealization>> realizations;
@@ -103,8 +103,8 @@ EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::
       if (!wanted[b]) continue;
       std::vector<BeamRealization> sample;
       for (const std::vector<BeamRealization>& realization : realizations) sample.push_back(realization[b]);
-      result.beams[b] = UncertaintyOf(sample, encounter.beams[b], encounter.refractive_index,
-                                      tracing->known_slopes(b), encounter.depths);
+      result.beams[b] = UncertaintyOf(sample, sea_case.beams[b], sea_case.refractive_index,
+                                      tracing->known_slopes(b), sea_case.depths);
       wanted[b] = effort.relative_error > 0 && !Meets(result.beams[b], effort.relative_error);
       result.converged = result.converged && !wanted[b];
     }

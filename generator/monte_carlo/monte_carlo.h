@@ -33,7 +33,7 @@ struct Effort {
 inline constexpr int kBatch = 64;
 
 // Seas and beams that share their surfaces: one footprint and profile.
-struct Encounter {
+struct SeaCase {
   SeaOptions sea;
   double refractive_index = 1.33;
   std::vector<BeamOptions> beams;                // not empty; the same footprint, profile and source
@@ -42,7 +42,7 @@ struct Encounter {
   std::optional<Discretization> discretization;  // chosen from sea and beams where absent
 };
 
-struct EncounterResult {
+struct SeaCaseResult {
   std::vector<BeamUncertainty> beams;
   int realizations = 0;   // the most of any beam
   bool converged = true;  // false: `most_realizations` came before `relative_error`
@@ -55,7 +55,6 @@ struct EncounterResult {
 };
 
 // Runs on all threads of the current TBB arena. The result is a function of its arguments alone.
-EncounterResult Simulate(const Encounter& encounter, const Effort& effort, std::uint64_t seed,
-                         std::uint32_t cell);
+SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint64_t seed, std::uint32_t cell);
 
 }  // namespace albtpu

@@ -13,7 +13,7 @@ class PlainTracing final : public BeamTracing {
     for (const BeamOptions& options : traced.beams) {
       Beam beam(options, traced.rays);
       std::vector<Ray> rays = beam.Rays(0);
-      TracedBeam still = Trace(rays, model.StillWindow(), refractive_index_);
+      TracedBeam still = Trace(rays, model.StillSurface(), refractive_index_);
       beams_.push_back({std::move(beam), std::move(rays), still,
                         EffectOfUnresolvedWaves(options, refractive_index_, traced.unresolved_slopes)});
     }
@@ -30,7 +30,7 @@ class PlainTracing final : public BeamTracing {
         realized[b] = realized[b - 1];
         continue;
       }
-      const SeaSurface::Window window = surface.WindowUnder(prepared.beam);
+      const SeaSurface::LocalSurface window = surface.SurfaceUnder(prepared.beam);
       const TracedBeam traced =
           Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(window.elevation),
                 window.heights, refractive_index_);

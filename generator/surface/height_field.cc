@@ -60,7 +60,7 @@ HeightField::Facet HeightField::FacetOf(const Triangle& triangle) const {
   return {low[0] - rise.dot(Eigen::Vector2d(ix - centre, iy - centre)), rise * points_per_metre_};
 }
 
-HeightField::Triangle HeightWindow::TriangleAt(const Eigen::Vector2d& x) const {
+HeightField::Triangle HeightView::TriangleAt(const Eigen::Vector2d& x) const {
   const double last_cell = points - 2;
   const Eigen::Vector2d at = (x / static_cast<double>(spacing)).array() + (points - 1) / 2;
   const int ix = static_cast<int>(std::clamp(at.x(), 0.0, last_cell));
@@ -68,7 +68,7 @@ HeightField::Triangle HeightWindow::TriangleAt(const Eigen::Vector2d& x) const {
   return {ix, iy, at.x() - ix > at.y() - iy};
 }
 
-HeightField::Facet HeightWindow::FacetOf(const HeightField::Triangle& triangle) const {
+HeightField::Facet HeightView::FacetOf(const HeightField::Triangle& triangle) const {
   const auto [ix, iy, beside_x] = triangle;
   const float* low = heights + ix * stride + iy;
   const float* high = low + stride;
@@ -81,6 +81,6 @@ HeightField::Facet HeightWindow::FacetOf(const HeightField::Triangle& triangle) 
 
 Hit Intersect(const HeightField& surface, const Ray& ray) { return IntersectTriangles(surface, ray); }
 
-Hit Intersect(const HeightWindow& surface, const Ray& ray) { return IntersectTriangles(surface, ray); }
+Hit Intersect(const HeightView& surface, const Ray& ray) { return IntersectTriangles(surface, ray); }
 
 }  // namespace albtpu

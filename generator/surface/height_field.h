@@ -54,7 +54,7 @@ class HeightField {
 };
 
 // The surface of HeightField in memory that somebody else owns.
-struct HeightWindow {
+struct HeightView {
   const float* heights;   // m, at ((ix - centre) spacing, (iy - centre) spacing), ix slow
   int points;             // along a side, odd, at least 3
   std::ptrdiff_t stride;  // floats from a row to the next, at least `points`
@@ -75,6 +75,6 @@ struct Hit {
 // surface grows steadily upward as long as no facet turns away from the ray, which takes a slope of 1 /
 // tan(incidence), 2.1 at 25 degrees: then the meeting is the only one.
 Hit Intersect(const HeightField& surface, const Ray& ray);
-Hit Intersect(const HeightWindow& surface, const Ray& ray);
+Hit Intersect(const HeightView& surface, const Ray& ray);
 
 }  // namespace albtpu

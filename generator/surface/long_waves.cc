@@ -94,8 +94,8 @@ Eigen::VectorXcd LongWaveModel::Shifted(const Eigen::VectorXcd& amplitudes,
   return shifted;
 }
 
-double HeightOfMeeting(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
-                       const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height) {
+double HeightOfIntersection(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
+                            const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height) {
   constexpr int kMostSteps = 50;
   constexpr double kCloseEnough = 1e-9;  // m
   double z = 0;

@@ -39,7 +39,7 @@ class LongWaveModel {
 
 // Where the line that stands over `at_zero + z * per_height` at height z meets the long waves: the height z
 // [m]. The line must be steeper than the waves, which every beam within 60 degrees of nadir is.
-double HeightOfMeeting(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
-                       const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height);
+double HeightOfIntersection(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
+                            const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height);
 
 }  // namespace albtpu

@@ -105,8 +105,8 @@ Eigen::Matrix2d SurfaceModel::FacetSlopeCovariance(
   return patch_.FacetSlopeCovariance(weight) + long_waves_.SlopeCovariance(weight);
 }
 
-HeightField SurfaceModel::StillWindow() const {
-  const int points = window_points();
+HeightField SurfaceModel::StillSurface() const {
+  const int points = local_points();
   return HeightField(std::vector<double>(static_cast<std::size_t>(points) * points, 0.0), points,
                      patch_.spacing());
 }
@@ -114,10 +114,10 @@ HeightField SurfaceModel::StillWindow() const {
 SeaSurface::SeaSurface(const SurfaceModel& model, NormalStream stream)
     : model_(model), long_amplitudes_(model.long_waves_.Draw(stream)), patch_(model.patch_.Draw(stream)) {}
 
-SeaSurface::Window SeaSurface::WindowUnder(const Beam& beam) const {
+SeaSurface::LocalSurface SeaSurface::SurfaceUnder(const Beam& beam) const {
   const Eigen::Vector2d per_height = beam.per_height();
   const double elevation =
-      HeightOfMeeting(model_.long_waves_, long_amplitudes_, Eigen::Vector2d::Zero(), per_height);
+      HeightOfIntersection(model_.long_waves_, long_amplitudes_, Eigen::Vector2d::Zero(), per_height);
   const Eigen::VectorXcd amplitudes = model_.long_waves_.Shifted(long_amplitudes_, elevation * per_height);
 
   // The real part of phase_x diag(A) phase_y^T, as two products of real matrices.

@@ -44,8 +44,8 @@ class SurfaceModel {
   const Eigen::MatrixXcd& phases_y() const { return phase_y_; }
   const Eigen::MatrixXd& refinement() const { return refine_; }
 
-  HeightField StillWindow() const;  // the window's grid over still water
-  int window_points() const { return static_cast<int>(refine_.rows()); }  // along a side
+  HeightField StillSurface() const;                                      // the window's grid over still water
+  int local_points() const { return static_cast<int>(refine_.rows()); }  // along a side
 
   double elevation_variance() const { return patch_.elevation_variance() + long_waves_.elevation_variance(); }
 
@@ -66,11 +66,11 @@ class SeaSurface {
   // The surface about the point where the axis of `beam` meets the long waves, in coordinates about that
   // point. The patch of short waves is laid with its centre there: it is independent of the long waves and
   // alike everywhere, so the law of the sum is that of the whole sea.
-  struct Window {
+  struct LocalSurface {
     HeightField heights;
     double elevation;  // m, of the point above the mean surface
   };
-  Window WindowUnder(const Beam& beam) const;
+  LocalSurface SurfaceUnder(const Beam& beam) const;
 
  private:
   const SurfaceModel& model_;

@@ -26,7 +26,7 @@ float Remaining(double limit, double ours) {
 
 }  // namespace
 
-AnswerWriter::AnswerWriter(const Query& query, const RecordLayout& records, const AnswerColumns& answers)
+AnswerWriter::AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers)
     : query_(query),
       records_(records),
       answers_(answers),
@@ -45,7 +45,7 @@ AnswerWriter::AnswerWriter(const Query& query, const RecordLayout& records, cons
   if (needs_.radius) needs_.refraction = needs_.displacement = true;
 }
 
-void AnswerWriter::Write(const PulseBlock& block, const BlockNumbers& numbers) const {
+void AnswerWriter::Write(const PulseBlock& block, const BlockValues& numbers) const {
   WriteOutcomes(block);
   for (Quantity quantity : kQuantities) {
     const std::size_t q = Index(quantity);
@@ -97,7 +97,7 @@ void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, cons
   }
 }
 
-void AnswerWriter::WriteS44(const PulseBlock& block, const BlockNumbers& numbers) const {
+void AnswerWriter::WriteS44(const PulseBlock& block, const BlockValues& numbers) const {
   for (std::size_t i = 0; i < block.count(); ++i) {
     const std::size_t at = block.first() + i;
     const bool inside = block.codes()[i] == outcome_code::kInside;

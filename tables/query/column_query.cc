@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "tables/query/answer_writer.h"
-#include "tables/query/block_numbers.h"
+#include "tables/query/block_values.h"
+#include "tables/query/node_records.h"
 #include "tables/query/pulse_block.h"
-#include "tables/query/record_layout.h"
 #include "tables/query/sorted_pulses.h"
 
 namespace albtpu {
@@ -27,7 +27,7 @@ struct ColumnInterpolator::Layout {
                            const AnswerColumns& answers, std::size_t fewest) const;
 
   Grid grid;
-  RecordLayout records;
+  NodeRecords records;
   std::size_t fewest_to_sort;
 };
 
@@ -60,7 +60,7 @@ std::size_t ColumnInterpolator::Layout::AnswerBlocks(const Query& query, const P
   if (begin == end) return end;
   const AnswerWriter writer(query, records, answers);
   PulseBlock block(grid, pulses, std::min(kBlock, end - begin));
-  BlockNumbers numbers(records, writer.needs());
+  BlockValues numbers(records, writer.needs());
   while (begin < end) {
     block.MoveTo(begin, std::min(kBlock, end - begin));
     numbers.Find(block);

@@ -29,7 +29,7 @@ def campaign(folder, **changes):
 
 
 def cost(**changes):
-    """Seconds of one core for each encounter."""
+    """Seconds of one core for each sea case."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         path, encounters = campaign(folder, **changes)
@@ -43,7 +43,7 @@ def cost(**changes):
 
 
 def rows(title, name, values):
-    print(f"\n| {title} | one core, each encounter | over the first |\n|---|---:|---:|")
+    print(f"\n| {title} | one core, each sea case | over the first |\n|---|---:|---:|")
     first = None
     for label, value in values:
         seconds = cost(**(value if isinstance(value, dict) else {name: value}))

@@ -1,4 +1,4 @@
-// Any text as a campaign: refused with a reason, or one whose every encounter is a sea that can be simulated
+// Any text as a campaign: refused with a reason, or one whose every sea case is a sea that can be simulated
 // and whose table can be written.
 #include <cmath>
 #include <string_view>
@@ -11,12 +11,12 @@ namespace {
 
 using namespace albtpu;
 
-void CheckEncounter(const Encounter& encounter) {
-  ALBTPU_MUST(std::isfinite(encounter.sea.wind_speed_10m) && encounter.sea.wind_speed_10m > 0);
-  ALBTPU_MUST(encounter.sea.fetch > 0);
-  ALBTPU_MUST(encounter.refractive_index > 1 && std::isfinite(encounter.refractive_index));
-  ALBTPU_MUST(!encounter.depths.empty() && encounter.depths.front() >= 0);
-  for (const BeamOptions& beam : encounter.beams) {
+void CheckSeaCase(const SeaCase& sea_case) {
+  ALBTPU_MUST(std::isfinite(sea_case.sea.wind_speed_10m) && sea_case.sea.wind_speed_10m > 0);
+  ALBTPU_MUST(sea_case.sea.fetch > 0);
+  ALBTPU_MUST(sea_case.refractive_index > 1 && std::isfinite(sea_case.refractive_index));
+  ALBTPU_MUST(!sea_case.depths.empty() && sea_case.depths.front() >= 0);
+  for (const BeamOptions& beam : sea_case.beams) {
     ALBTPU_MUST(beam.incidence >= 0 && std::cos(beam.incidence) > 0.49);
     ALBTPU_MUST(beam.footprint > 0 && std::isfinite(beam.footprint));
     ALBTPU_MUST(beam.source_height > 0);
@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   ALBTPU_MUST(campaign->effort.realizations >= 2);
   ALBTPU_MUST(campaign->effort.most_realizations >= campaign->effort.realizations);
-  CheckEncounter(EncounterOf(*campaign, 0));
-  CheckEncounter(EncounterOf(*campaign, EncounterCount(*campaign) - 1));
+  CheckSeaCase(SeaCaseOf(*campaign, 0));
+  CheckSeaCase(SeaCaseOf(*campaign, SeaCaseCount(*campaign) - 1));
   return 0;
 }

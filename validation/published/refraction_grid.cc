@@ -14,13 +14,13 @@ Estimate InDegrees(const Estimate& radians) {
   return {DegreesOfRadians(radians.value), DegreesOfRadians(radians.standard_error)};
 }
 
-Encounter EncounterAt(const GridOptions& options, double wind_speed) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = wind_speed;
-  encounter.sea.height_scale = options.height_scale;
+SeaCase SeaCaseAt(const GridOptions& options, double wind_speed) {
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = wind_speed;
+  sea_case.sea.height_scale = options.height_scale;
   for (const double incidence : options.incidences)
-    encounter.beams.push_back({.incidence = RadiansOfDegrees(incidence), .footprint = options.footprint});
-  return encounter;
+    sea_case.beams.push_back({.incidence = RadiansOfDegrees(incidence), .footprint = options.footprint});
+  return sea_case;
 }
 
 std::vector<AngleSample> Samples(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis) {
@@ -50,10 +50,10 @@ LogRatio Summarize(const std::vector<double>& log_ratios) {
 RefractionGrid ClosedFormGrid(const GridOptions& options) {
   RefractionGrid grid{options, {}};
   for (const double wind_speed : options.wind_speeds) {
-    const Encounter encounter = EncounterAt(options, wind_speed);
-    const SeaState sea(encounter.sea);
-    for (const BeamOptions& beam : encounter.beams) {
-      const SmallSlopeUncertainty theory = ClosedForm(sea, beam, encounter.refractive_index);
+    const SeaCase sea_case = SeaCaseAt(options, wind_speed);
+    const SeaState sea(sea_case.sea);
+    for (const BeamOptions& beam : sea_case.beams) {
+      const SmallSlopeUncertainty theory = ClosedForm(sea, beam, sea_case.refractive_index);
       grid.cells.push_back(
           {InDegrees({theory.refraction_along_wind, 0}), InDegrees({theory.refraction_cross_wind, 0})});
     }
@@ -68,11 +68,11 @@ RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& si
                       .estimator = size.estimator};
   RefractionGrid grid{options, {}};
   for (std::size_t w = 0; w < options.wind_speeds.size(); ++w) {
-    Encounter encounter = EncounterAt(options, options.wind_speeds[w]);
-    encounter.rays = size.rays;
+    SeaCase sea_case = SeaCaseAt(options, options.wind_speeds[w]);
+    sea_case.rays = size.rays;
     // Footprints in mm and winds make the streams' cells.
     const auto cell = static_cast<std::uint32_t>(std::lround(1e3 * options.footprint) * 1000 + w);
-    const EncounterResult result = Simulate(encounter, effort, seed, cell);
+    const SeaCaseResult result = Simulate(sea_case, effort, seed, cell);
     for (const BeamUncertainty& beam : result.beams)
       grid.cells.push_back({InDegrees(beam.refraction_along_wind), InDegrees(beam.refraction_cross_wind)});
   }

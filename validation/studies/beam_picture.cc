@@ -92,7 +92,8 @@ BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
   const SurfaceModel model(sea, options, ChooseDiscretization(sea, {options}));
   const SeaSurface surface(model, NormalStream(seed, 0, 0));
   const Beam beam(options, kRays);
-  const SeaSurface::Window window = surface.WindowUnder(beam);  // about where the axis meets the long waves
+  const SeaSurface::LocalSurface window =
+      surface.SurfaceUnder(beam);  // about where the axis meets the long waves
   const HeightField& heights = window.heights;
 
   BeamPicture picture;

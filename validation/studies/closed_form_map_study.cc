@@ -34,7 +34,7 @@ const std::vector<Direction> kDirections = {{0, 0}, {5, 0}, {10, 0}, {15, 0}, {2
 
 struct MapPart {
   double wind_speed, fetch, footprint;
-  EncounterRatios ratios;  // beams as in kDirections
+  SeaCaseRatios ratios;  // beams as in kDirections
   bool is_judged() const { return ratios.seen_fraction >= kLeastSeenFraction; }
 };
 
@@ -43,18 +43,18 @@ std::vector<MapPart> MakeMap(const Domain& domain, std::uint64_t seed) {
   for (const double wind_speed : domain.wind_speeds) {
     for (const double fetch : domain.fetches) {
       for (const double footprint : domain.footprints) {
-        Encounter encounter;
-        encounter.sea.wind_speed_10m = wind_speed;
-        encounter.sea.fetch = fetch;
-        encounter.depths = {kDepth};
+        SeaCase sea_case;
+        sea_case.sea.wind_speed_10m = wind_speed;
+        sea_case.sea.fetch = fetch;
+        sea_case.depths = {kDepth};
         for (const Direction& direction : kDirections) {
-          encounter.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),
-                                     .azimuth = RadiansOfDegrees(direction.azimuth),
-                                     .footprint = footprint});
+          sea_case.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),
+                                    .azimuth = RadiansOfDegrees(direction.azimuth),
+                                    .footprint = footprint});
         }
         const auto cell = static_cast<std::uint32_t>(map.size());
-        map.push_back({wind_speed, fetch, footprint,
-                       CompareWithClosedForm(encounter, domain.realizations, seed, cell)});
+        map.push_back(
+            {wind_speed, fetch, footprint, CompareWithClosedForm(sea_case, domain.realizations, seed, cell)});
       }
     }
   }

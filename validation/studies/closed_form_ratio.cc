@@ -19,18 +19,18 @@ Estimate Over(const Estimate& ours, double theory) {
 
 }  // namespace
 
-EncounterRatios CompareWithClosedForm(const Encounter& encounter, int realizations, std::uint64_t seed,
-                                      std::uint32_t cell) {
-  assert(encounter.depths.size() == 1 && encounter.depths[0] > 0);
-  const EncounterResult result =
-      Simulate(encounter, {.realizations = realizations, .most_realizations = realizations}, seed, cell);
-  const SeaState sea(encounter.sea);
-  EncounterRatios ratios{{}, SlopeCovariance(sea).trace(), 1};
-  for (std::size_t b = 0; b < encounter.beams.size(); ++b) {
-    const BeamOptions& beam = encounter.beams[b];
+SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed,
+                                    std::uint32_t cell) {
+  assert(sea_case.depths.size() == 1 && sea_case.depths[0] > 0);
+  const SeaCaseResult result =
+      Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations}, seed, cell);
+  const SeaState sea(sea_case.sea);
+  SeaCaseRatios ratios{{}, SlopeCovariance(sea).trace(), 1};
+  for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
+    const BeamOptions& beam = sea_case.beams[b];
     const BeamUncertainty& ours = result.beams[b];
-    const SmallSlopeUncertainty theory = ClosedForm(sea, beam, encounter.refractive_index);
-    const double depth = encounter.depths[0];
+    const SmallSlopeUncertainty theory = ClosedForm(sea, beam, sea_case.refractive_index);
+    const double depth = sea_case.depths[0];
     const double tvu = beam.incidence == 0 ? 0 : depth * theory.tvu_per_depth;
     ratios.beams.push_back({Over(ours.refraction_along_wind, theory.refraction_along_wind),
                             Over(ours.refraction_cross_wind, theory.refraction_cross_wind),

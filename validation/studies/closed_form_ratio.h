@@ -16,7 +16,7 @@ struct ClosedFormRatio {
   double allowed;  // how far under 1 along, cross and THU may lie, standard errors aside
 };
 
-struct EncounterRatios {
+struct SeaCaseRatios {
   std::vector<ClosedFormRatio> beams;
   // Of all waves: those below the grid are not drawn, but what they do to refraction is.
   double mean_square_slope;
@@ -24,9 +24,9 @@ struct EncounterRatios {
   double seen_fraction;
 };
 
-// `encounter` has one depth, above 0.
-EncounterRatios CompareWithClosedForm(const Encounter& encounter, int realizations, std::uint64_t seed,
-                                      std::uint32_t cell);
+// `sea case` has one depth, above 0.
+SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed,
+                                    std::uint32_t cell);
 
 // What grid, patch and rays may do to a standard deviation (discretization.h): each is chosen to some half a
 // per cent of variance and a little more.

@@ -120,15 +120,15 @@ std::vector<SimulatedSea> SimulateSeas(const StudyOptions& options) {
   for (const double length : {kNothing, 30.0, 3.0, 1.0}) {
     BeamOptions nadir = BeamOf(kSimulated);
     nadir.incidence = 0;
-    Encounter encounter;
-    encounter.sea = SeaOf(kSimulated, length);
-    encounter.beams = {BeamOf(kSimulated), nadir};
-    encounter.depths = {kDepth};
+    SeaCase sea_case;
+    sea_case.sea = SeaOf(kSimulated, length);
+    sea_case.beams = {BeamOf(kSimulated), nadir};
+    sea_case.depths = {kDepth};
     const auto cell = static_cast<std::uint32_t>(seas.size());
-    const EncounterResult result = Simulate(encounter, effort, options.seed, cell);
+    const SeaCaseResult result = Simulate(sea_case, effort, options.seed, cell);
     const BeamUncertainty &slant = result.beams[0], &down = result.beams[1];
     const SmallSlopeUncertainty closed = ClosedFormOf(kSimulated, length);
-    seas.push_back({length, SlopeCovariance(SeaState(encounter.sea)).trace(), slant.thu[0], slant.tvu[0],
+    seas.push_back({length, SlopeCovariance(SeaState(sea_case.sea)).trace(), slant.thu[0], slant.tvu[0],
                     slant.bias_vertical[0], down.tvu[0], down.bias_vertical[0], kDepth * closed.thu_per_depth,
                     kDepth * closed.tvu_per_depth});
   }

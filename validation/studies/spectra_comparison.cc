@@ -141,12 +141,12 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
                              {10, 1e4, 20, 2}}) {
     BeamUncertainty by_spectrum[2];
     for (const SpectrumKind spectrum : {SpectrumKind::kApel, SpectrumKind::kElfouhaily}) {
-      Encounter encounter;
-      encounter.sea = SeaOf(point, spectrum);
-      encounter.beams = {{.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint}};
-      encounter.depths = {kDepth};
+      SeaCase sea_case;
+      sea_case.sea = SeaOf(point, spectrum);
+      sea_case.beams = {{.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint}};
+      sea_case.depths = {kDepth};
       by_spectrum[spectrum == SpectrumKind::kElfouhaily] =
-          Simulate(encounter, effort, options.seed, cell++).beams[0];
+          Simulate(sea_case, effort, options.seed, cell++).beams[0];
     }
     const auto& [apel, elfouhaily] = by_spectrum;
     const double ratio = elfouhaily.thu[0].value / apel.thu[0].value;

@@ -5,7 +5,7 @@
 
 #include "absl/status/statusor.h"
 #include "service/server/calls/pulse_columns.h"
-#include "service/server/calls/question.h"
+#include "service/server/calls/query_plan.h"
 #include "service/server/tables/table_messages.h"
 #include "service/server/tables/wire_enums.h"
 
@@ -53,23 +53,23 @@ std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelect
 }
 
 // Those columns alone that were asked for.
-AnswerColumns AddColumns(const Question& question, const QuantitySelection& selection, std::size_t count,
+AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selection, std::size_t count,
                          ColumnMessage& message) {
   using Fields = v1::QueryColumnsResponse;
   AnswerColumns columns;
   columns.outcomes = AddBytes(Fields::kOutcomesFieldNumber, count, message);
   columns.outcome_axes = AddBytes(Fields::kOutcomeAxesFieldNumber, count, message);
   columns.values = AddSeaSurface(Fields::kSeaSurfaceFieldNumber, selection, count, message);
-  if (question.standard_errors) {
+  if (plan.standard_errors) {
     columns.standard_errors =
         AddSeaSurface(Fields::kSeaSurfaceStandardErrorFieldNumber, selection, count, message);
   }
-  if (!question.asks_s44()) return columns;
+  if (!plan.asks_s44()) return columns;
   const std::size_t mark = message.Mark();
-  if (question.best_s44_order) {
+  if (plan.best_s44_order) {
     columns.best_s44_orders = AddBytes(v1::S44Columns::kBestOrdersFieldNumber, count, message);
   }
-  if (question.query.s44_order.has_value()) {
+  if (plan.query.s44_order.has_value()) {
     columns.remaining_thu = AddFloats(v1::S44Columns::kRemainingThuFieldNumber, count, message);
     columns.remaining_tvu = AddFloats(v1::S44Columns::kRemainingTvuFieldNumber, count, message);
   }
@@ -81,20 +81,20 @@ AnswerColumns AddColumns(const Question& question, const QuantitySelection& sele
 
 absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
                              ColumnMessage& response, OutcomeTally& tally) {
-  const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
-  if (!question.ok()) return question.status();
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
+  if (!plan.ok()) return plan.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
   if (!selection.ok()) return selection.status();
   const absl::StatusOr<PulseColumns> pulses = ReadColumns(request.pulses());
   if (!pulses.ok()) return pulses.status();
   v1::QueryColumnsResponse head;
-  *head.mutable_table() = WriteReference(*question->source);
-  head.set_coverage(ToWire(question->query.coverage));
+  *head.mutable_table() = WriteReference(*plan->source);
+  head.set_coverage(ToWire(plan->query.coverage));
   head.set_pulse_count(static_cast<int>(pulses->size));
   head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
   response.Add(head);
-  const AnswerColumns answers = AddColumns(*question, *selection, pulses->size, response);
-  AnswerOnAllCores(question->source->interpolator, question->query, *pulses, answers);
+  const AnswerColumns answers = AddColumns(*plan, *selection, pulses->size, response);
+  AnswerOnAllCores(plan->source->interpolator, plan->query, *pulses, answers);
   tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
   return absl::OkStatus();
 }

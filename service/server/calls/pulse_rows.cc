@@ -7,7 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "service/server/calls/question.h"
+#include "service/server/calls/query_plan.h"
 #include "service/server/ground/limits.h"
 #include "service/server/tables/field_violations.h"
 #include "service/server/tables/table_messages.h"
@@ -22,15 +22,15 @@ constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 using Rows = google::protobuf::RepeatedPtrField<v1::Pulse>;
 using Values = std::array<float, kQuantityCount>;
 
-absl::Status CheckCount(const Question& question, const Rows& rows) {
+absl::Status CheckCount(const QueryPlan& plan, const Rows& rows) {
   const auto count = static_cast<std::size_t>(rows.size());
   if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
-  const std::size_t limit = question.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
+  const std::size_t limit = plan.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
   if (count <= limit) return absl::OkStatus();
-  return FieldViolation("pulses",
-                        absl::StrCat("there are ", count, " pulses: a message takes ", limit,
-                                     question.standard_errors ? " with standard errors, or use QueryColumns"
-                                                              : ", send several"));
+  return FieldViolation(
+      "pulses",
+      absl::StrCat("there are ", count, " pulses: a message takes ", limit,
+                   plan.standard_errors ? " with standard errors, or use QueryColumns" : ", send several"));
 }
 
 v1::SeaSurface WriteSeaSurface(const Values& values) {
@@ -51,7 +51,7 @@ v1::SeaSurface WriteSeaSurface(const Values& values) {
 // The rows that have an azimuth, or those that have none, and their answers, in columns.
 class RowColumns {
  public:
-  RowColumns(const Question& question, const Rows& rows, bool with_azimuth) : question_(question) {
+  RowColumns(const QueryPlan& plan, const Rows& rows, bool with_azimuth) : plan_(plan) {
     for (int i = 0; i < rows.size(); ++i) {
       if (rows[i].has_azimuth() == with_azimuth) Add(i, rows[i]);
     }
@@ -62,7 +62,7 @@ class RowColumns {
     if (places_.empty()) return;
     PulseColumns pulses{.size = places_.size(), .axis = {}};
     for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
-    AnswerOnAllCores(question_.source->interpolator, question_.query, pulses, MakeAnswers());
+    AnswerOnAllCores(plan_.source->interpolator, plan_.query, pulses, MakeAnswers());
     tally.Add(outcomes_, outcome_axes_);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Write(i, *response.mutable_uncertainties(places_[i]));
@@ -92,10 +92,10 @@ class RowColumns {
     answers.outcome_axes = made(outcome_axes_);
     for (std::size_t q = 0; q < kQuantityCount; ++q) {
       answers.values[q] = made(values_[q]);
-      if (question_.standard_errors) answers.standard_errors[q] = made(standard_errors_[q]);
+      if (plan_.standard_errors) answers.standard_errors[q] = made(standard_errors_[q]);
     }
-    if (question_.best_s44_order) answers.best_s44_orders = made(best_orders_);
-    if (question_.query.s44_order.has_value()) {
+    if (plan_.best_s44_order) answers.best_s44_orders = made(best_orders_);
+    if (plan_.query.s44_order.has_value()) {
       answers.remaining_thu = made(remaining_thu_);
       answers.remaining_tvu = made(remaining_tvu_);
     }
@@ -108,15 +108,15 @@ class RowColumns {
     row.set_azimuth_absent(axes_[Index(AxisId::kAzimuth)].empty());
     if (row.outcome() != v1::OUTCOME_INTERPOLATED) return;
     *row.mutable_sea_surface() = WriteSeaSurface(At(values_, i));
-    if (question_.standard_errors) {
+    if (plan_.standard_errors) {
       *row.mutable_sea_surface_standard_error() = WriteSeaSurface(At(standard_errors_, i));
     }
-    if (question_.asks_s44()) WriteS44(i, *row.mutable_s44());
+    if (plan_.asks_s44()) WriteS44(i, *row.mutable_s44());
   }
 
   void WriteS44(std::size_t i, v1::S44& s44) const {
-    if (question_.best_s44_order) s44.set_best_order(static_cast<v1::S44Order>(best_orders_[i]));
-    if (!question_.query.s44_order.has_value()) return;
+    if (plan_.best_s44_order) s44.set_best_order(static_cast<v1::S44Order>(best_orders_[i]));
+    if (!plan_.query.s44_order.has_value()) return;
     if (!std::isnan(remaining_thu_[i])) s44.set_remaining_thu(remaining_thu_[i]);
     if (!std::isnan(remaining_tvu_[i])) s44.set_remaining_tvu(remaining_tvu_[i]);
   }
@@ -129,7 +129,7 @@ class RowColumns {
     return values;
   }
 
-  const Question& question_;
+  const QueryPlan& plan_;
   std::vector<int> places_;
   std::array<std::vector<float>, kAxisCount> axes_;
   std::vector<std::uint8_t> outcomes_, outcome_axes_, best_orders_;
@@ -141,16 +141,16 @@ class RowColumns {
 
 absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
                           v1::QueryPulsesResponse& response, OutcomeTally& tally) {
-  const absl::StatusOr<Question> question = ReadOptions(request.options(), catalog);
-  if (!question.ok()) return question.status();
-  const absl::Status status = CheckCount(*question, request.pulses());
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
+  if (!plan.ok()) return plan.status();
+  const absl::Status status = CheckCount(*plan, request.pulses());
   if (!status.ok()) return status;
-  *response.mutable_table() = WriteReference(*question->source);
-  response.set_coverage(ToWire(question->query.coverage));
+  *response.mutable_table() = WriteReference(*plan->source);
+  response.set_coverage(ToWire(plan->query.coverage));
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
   for (bool with_azimuth : {true, false}) {
-    RowColumns(*question, request.pulses(), with_azimuth).Answer(response, tally);
+    RowColumns(*plan, request.pulses(), with_azimuth).Answer(response, tally);
   }
   return absl::OkStatus();
 }

@@ -38,7 +38,7 @@ struct FloatWindow {
   std::vector<float> heights;  // m
   int points;                  // along a side, odd
   float spacing;               // m
-  HeightWindow View() const { return {heights.data(), points, points, spacing}; }
+  HeightView View() const { return {heights.data(), points, points, spacing}; }
   HeightField InDouble() const { return {{heights.begin(), heights.end()}, points, spacing}; }
 };
 

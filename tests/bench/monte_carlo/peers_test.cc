@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "generator/kernels/patch_window.h"
+#include "generator/kernels/fast_patch.h"
 #include "sea/response/refraction.h"
 #include "tests/bench/monte_carlo/beam_case.h"
 #include "tests/bench/monte_carlo/plain_realization.h"
@@ -63,8 +63,8 @@ TEST(OurRealization, HasTheMeansOfTheSlowOne) {
     FloatWindow fast = beam_case.Draw(1, beam_case.footprint_points());
     const BeamMeans expected = Exact(beam_case, fast);
     std::fill(fast.heights.begin(), fast.heights.end(), 0.0f);
-    PatchWindow::Workspace workspace;
-    PatchWindow(beam_case.patch(), fast.points).Draw(BeamCase::Stream(1), fast.heights, workspace);
+    FastPatch::Workspace workspace;
+    FastPatch(beam_case.patch(), fast.points).Draw(BeamCase::Stream(1), fast.heights, workspace);
     const BeamMeans means = MeansOf(Trace(beam_case.bundle(), fast.View()));
     EXPECT_LT(Difference(means, expected, beam_case.options().footprint), 1.0 / beam_case.bundle().count());
   }

@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "generator/kernels/patch_window.h"
+#include "generator/kernels/fast_patch.h"
 #include "generator/math/fftw_planner.h"
 #include "sea/response/refraction.h"
 #include "tests/bench/monte_carlo/beam_case.h"
@@ -62,8 +62,8 @@ class FastSurface {
   }
 
  private:
-  PatchWindow window_;
-  PatchWindow::Workspace workspace_;
+  FastPatch window_;
+  FastPatch::Workspace workspace_;
   std::vector<float> heights_;
 };
 
@@ -78,7 +78,7 @@ void Realize(const BeamCase& beam_case, FastSurface& surface, std::uint32_t firs
   const int points = beam_case.footprint_points();
   const float spacing = static_cast<float>(beam_case.patch().spacing());
   for (std::uint32_t realization = first; realization < last; ++realization) {
-    const HeightWindow window{surface.Draw(realization).data(), points, points, spacing};
+    const HeightView window{surface.Draw(realization).data(), points, points, spacing};
     benchmark::DoNotOptimize(SpotsOf(MeansOf(Trace(beam_case.bundle(), window))));
   }
 }

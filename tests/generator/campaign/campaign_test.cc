@@ -70,17 +70,17 @@ TEST(Campaign, ResolvesInfiniteFetchToFullDevelopmentOfTheStrongestWind) {
 TEST(Campaign, TakesTheSeaThatItsFileNames) {
   const absl::StatusOr<Campaign> apel = ParseCampaign(kSmall);
   ASSERT_TRUE(apel.ok()) << apel.status();
-  EXPECT_EQ(EncounterOf(*apel, 0).sea.spectrum, SpectrumKind::kApel);
-  EXPECT_TRUE(std::isinf(EncounterOf(*apel, 0).sea.corrected_above));
+  EXPECT_EQ(SeaCaseOf(*apel, 0).sea.spectrum, SpectrumKind::kApel);
+  EXPECT_TRUE(std::isinf(SeaCaseOf(*apel, 0).sea.corrected_above));
 
   const absl::StatusOr<Campaign> other =
       ParseCampaign(std::string(kSmall) + "[sea]\nspectrum = \"elfouhaily\"\ncorrected_above = 30\n");
   ASSERT_TRUE(other.ok()) << other.status();
-  EXPECT_EQ(EncounterOf(*other, 0).sea.spectrum, SpectrumKind::kElfouhaily);
-  EXPECT_EQ(EncounterOf(*other, 0).sea.corrected_above, 30);
+  EXPECT_EQ(SeaCaseOf(*other, 0).sea.spectrum, SpectrumKind::kElfouhaily);
+  EXPECT_EQ(SeaCaseOf(*other, 0).sea.corrected_above, 30);
   // Its sea develops over a longer fetch; the last node is the sea that has.
   EXPECT_NEAR(other->nodes(AxisId::kFetch).back() / ElfouhailySpectrum::FullyDevelopedFetch(6), 1, 1e-6);
-  EXPECT_TRUE(std::isinf(EncounterOf(*other, 7).sea.fetch));
+  EXPECT_TRUE(std::isinf(SeaCaseOf(*other, 7).sea.fetch));
 }
 
 TEST(Campaign, MayAskForTracingAlone) {
@@ -103,17 +103,17 @@ TEST(Campaign, NamesWhatIsWrongWithItsSea) {
               HasSubstr("'sea.spreading' is that of Apel's sea"));
 }
 
-TEST(Campaign, OrdersEncountersByWindFetchAndFootprint) {
+TEST(Campaign, OrdersSeaCasesByWindFetchAndFootprint) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
   ASSERT_TRUE(campaign.ok()) << campaign.status();
-  ASSERT_EQ(EncounterCount(*campaign), 8u);
-  const Encounter encounter = EncounterOf(*campaign, 5);  // wind 1, fetch 0, footprint 1
-  EXPECT_EQ(encounter.sea.wind_speed_10m, 6);
-  EXPECT_EQ(encounter.sea.fetch, 1000);
-  ASSERT_EQ(encounter.beams.size(), 4u);
-  EXPECT_EQ(encounter.beams[3].footprint, 1);
-  EXPECT_EQ(encounter.beams[3].incidence, RadiansOfDegrees(20));
-  EXPECT_EQ(encounter.beams[3].azimuth, RadiansOfDegrees(90));
+  ASSERT_EQ(SeaCaseCount(*campaign), 8u);
+  const SeaCase sea_case = SeaCaseOf(*campaign, 5);  // wind 1, fetch 0, footprint 1
+  EXPECT_EQ(sea_case.sea.wind_speed_10m, 6);
+  EXPECT_EQ(sea_case.sea.fetch, 1000);
+  ASSERT_EQ(sea_case.beams.size(), 4u);
+  EXPECT_EQ(sea_case.beams[3].footprint, 1);
+  EXPECT_EQ(sea_case.beams[3].incidence, RadiansOfDegrees(20));
+  EXPECT_EQ(sea_case.beams[3].azimuth, RadiansOfDegrees(90));
 }
 
 TEST(Campaign, NamesTheLineThatIsNotToml) {

@@ -65,9 +65,9 @@ TEST(InterpolationCheck, MeetsTheSurfacesOfTheNodes) {
   const Campaign campaign = TwoSeas();
   const Pulse pulse{
       .wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
-  const Encounter encounter = EncounterOf(campaign, 4);  // the second wind, the first fetch and footprint
-  ASSERT_EQ(encounter.sea.wind_speed_10m, 6);
-  const EncounterResult node = Simulate(encounter, campaign.effort, campaign.seed, kCellOfTables);
+  const SeaCase sea_case = SeaCaseOf(campaign, 4);  // the second wind, the first fetch and footprint
+  ASSERT_EQ(sea_case.sea.wind_speed_10m, 6);
+  const SeaCaseResult node = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
   EXPECT_EQ(AnswerDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
 }
 

@@ -15,13 +15,13 @@ absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
   return MakeTable(campaign, [](std::size_t) {});
 }
 
-TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsEncounterGives) {
+TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsSeaCaseGives) {
   const Campaign campaign = TwoSeas();
   const absl::StatusOr<UncertaintyTable> table = Make(campaign);
   ASSERT_TRUE(table.ok()) << table.status();
   const std::size_t index = 7;  // 6 m/s, fully developed, 1 m
-  const EncounterResult result =
-      Simulate(EncounterOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
+  const SeaCaseResult result =
+      Simulate(SeaCaseOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
   const BeamUncertainty& beam = result.beams[3];  // 20 degrees, across the wind
   const PulseUncertainty answer =
       Interpolate(*table, {.wind_speed = 6, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});

@@ -1,4 +1,4 @@
-// A campaign of eight encounters, for tests: seconds at most.
+// A campaign of eight sea cases, for tests: seconds at most.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 
 const UnitOrigin kOrigin = {"c0ffee", "0.1.0 (1a2b3c4d5e6f)", "x86-64-v3"};
-constexpr UnitId kUnit = {UnitKind::kEncounter, 12};
+constexpr UnitId kUnit = {UnitKind::kSeaCase, 12};
 
 std::string Sealed() { return SealUnit(kUnit, kOrigin, "what was computed"); }
 
@@ -44,11 +44,11 @@ TEST(Unit, IsNamedByKindAndIndex) {
   EXPECT_EQ(Name({UnitKind::kPulse, 3}), "pulse-00003");
 }
 
-TEST(Unit, IsAnEncounterOrACheckedPulseOfTheCampaign) {
+TEST(Unit, IsASeaCaseOrACheckedPulseOfTheCampaign) {
   const Campaign campaign = TwoSeas();
   const std::vector<UnitId> units = UnitsOf(campaign);
   ASSERT_EQ(units.size(), 8 + campaign.checked_pulses);
-  EXPECT_EQ(units[7], (UnitId{UnitKind::kEncounter, 7}));
+  EXPECT_EQ(units[7], (UnitId{UnitKind::kSeaCase, 7}));
   EXPECT_EQ(units[8], (UnitId{UnitKind::kPulse, 0}));
   EXPECT_EQ(units.back(), (UnitId{UnitKind::kPulse, campaign.checked_pulses - 1}));
 }
@@ -88,8 +88,7 @@ TEST(Unit, IsRefusedWhenSomethingElseMadeIt) {
 }
 
 TEST(Unit, IsRefusedInThePlaceOfAnother) {
-  EXPECT_THAT(Refusal({UnitKind::kEncounter, 13}, kOrigin, Sealed()),
-              HasSubstr("holds the unit encounter 12"));
+  EXPECT_THAT(Refusal({UnitKind::kSeaCase, 13}, kOrigin, Sealed()), HasSubstr("holds the unit encounter 12"));
 }
 
 TEST(Unit, HasTheOriginOfItsCampaign) {
@@ -103,7 +102,7 @@ TEST(Unit, HasTheOriginOfItsCampaign) {
 
 TEST(UnitContent, IsTheResultToTheLastBit) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  EncounterResult result;
+  SeaCaseResult result;
   result.beams.resize(2);
   result.beams[1].refraction_along_wind = {1.0 / 3, std::numeric_limits<double>::denorm_min()};
   result.beams[1].refraction_cross_wind = {-0.0, std::nan("")};
@@ -116,7 +115,7 @@ TEST(UnitContent, IsTheResultToTheLastBit) {
   result.patch_length = 0.1;
   result.resolved_slope_fraction = std::nextafter(1.0, 2.0);
 
-  const absl::StatusOr<EncounterResult> read = DecodeResult(EncodeResult(result));
+  const absl::StatusOr<SeaCaseResult> read = DecodeResult(EncodeResult(result));
   ASSERT_TRUE(read.ok()) << read.status();
   ASSERT_EQ(read->beams.size(), 2u);
   ExpectSame(read->beams[1].refraction_along_wind, result.beams[1].refraction_along_wind);
@@ -145,7 +144,7 @@ TEST(UnitContent, IsTheAnswersToACheckedPulse) {
 }
 
 TEST(UnitContent, OfAnotherLengthIsRefused) {
-  EncounterResult result;
+  SeaCaseResult result;
   result.beams.resize(1);
   result.beams[0].thu.resize(3);
   const std::string bytes = EncodeResult(result);

@@ -17,7 +17,7 @@ using ::albtpu::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr UnitId kThird = {UnitKind::kEncounter, 2}, kSixth = {UnitKind::kEncounter, 5};
+constexpr UnitId kThird = {UnitKind::kSeaCase, 2}, kSixth = {UnitKind::kSeaCase, 5};
 
 WorkFolder Open(const fs::path& folder) {
   const absl::StatusOr<WorkFolder> work = WorkFolder::Open(folder, TwoSeas());

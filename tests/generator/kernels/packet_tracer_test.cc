@@ -36,7 +36,7 @@ class Surface {
     }
     window_.heights = floats_.data();
   }
-  const HeightWindow& window() const { return window_; }
+  const HeightView& window() const { return window_; }
   const HeightField& field() const { return field_; }
 
  private:
@@ -45,7 +45,7 @@ class Surface {
     return heights;
   }
   std::vector<float> floats_;
-  HeightWindow window_;
+  HeightView window_;
   HeightField field_;
 };
 
@@ -74,25 +74,25 @@ Surface Plane(const Eigen::Vector2d& slope, double height = 0) {
 struct Twin {
   TracedBeam beam;
   double height = 0;
-  Eigen::Vector2d undisturbed_slope = Eigen::Vector2d::Zero();
-  Eigen::Vector3d undisturbed_slope_squares = Eigen::Vector3d::Zero();
-  Eigen::Vector2d undisturbed_height_slope = Eigen::Vector2d::Zero();
+  Eigen::Vector2d unshifted_slope = Eigen::Vector2d::Zero();
+  Eigen::Vector3d unshifted_slope_squares = Eigen::Vector3d::Zero();
+  Eigen::Vector2d unshifted_height_slope = Eigen::Vector2d::Zero();
 };
 Twin SlowTwin(const std::vector<Ray>& rays, const HeightField& surface) {
   Twin twin;
   twin.beam = Trace(rays, surface, kN);
-  double undisturbed_height = 0;
+  double unshifted_height = 0;
   for (const Ray& ray : rays) {
     const HeightField::Facet facet = surface.FacetAt(ray.at_zero);
     const Eigen::Vector2d slope = facet.slope;
     const double height = facet.HeightAt(ray.at_zero) / rays.size();
-    undisturbed_height += height;
-    twin.undisturbed_height_slope += height * slope;
+    unshifted_height += height;
+    twin.unshifted_height_slope += height * slope;
     twin.height += Intersect(surface, ray).height / rays.size();
-    twin.undisturbed_slope += slope / rays.size();
-    twin.undisturbed_slope_squares += SlopeSquares(slope) / rays.size();
+    twin.unshifted_slope += slope / rays.size();
+    twin.unshifted_slope_squares += SlopeSquares(slope) / rays.size();
   }
-  twin.undisturbed_height_slope -= undisturbed_height * twin.undisturbed_slope;
+  twin.unshifted_height_slope -= unshifted_height * twin.unshifted_slope;
   return twin;
 }
 
@@ -104,9 +104,9 @@ void ExpectEqual(const TracedBundle& fast, const Twin& slow, int rays, double sl
   EXPECT_NEAR(fast.height, slow.height, kHeightTolerance);
   EXPECT_LT((fast.beam.slope - slow.beam.slope).norm(), sum);
   EXPECT_LT((fast.beam.slope_squares - slow.beam.slope_squares).norm(), sum * slope);
-  EXPECT_LT((fast.undisturbed_slope - slow.undisturbed_slope).norm(), sum);
-  EXPECT_LT((fast.undisturbed_slope_squares - slow.undisturbed_slope_squares).norm(), sum * slope);
-  EXPECT_LT((fast.undisturbed_height_slope - slow.undisturbed_height_slope).norm(), product);
+  EXPECT_LT((fast.unshifted_slope - slow.unshifted_slope).norm(), sum);
+  EXPECT_LT((fast.unshifted_slope_squares - slow.unshifted_slope_squares).norm(), sum * slope);
+  EXPECT_LT((fast.unshifted_height_slope - slow.unshifted_height_slope).norm(), product);
   EXPECT_LT((fast.beam.tangent - slow.beam.tangent).norm(), sum);
   EXPECT_NEAR(fast.beam.secant, slow.beam.secant, sum);
   EXPECT_LT((fast.beam.height_tangent - slow.beam.height_tangent).norm(), product);
@@ -133,7 +133,7 @@ TEST_P(PacketTracer, EqualsTheDoubleTwinUnderASea) {
   const BeamOptions options{.incidence = 0.3, .azimuth = 0.7, .footprint = 0.5};
   const SurfaceModel model(sea, options, {2.0, 64, 2000});
   const Beam beam(options, 2000);
-  const HeightField field = SeaSurface(model, NormalStream(1, 2, 3)).WindowUnder(beam).heights;
+  const HeightField field = SeaSurface(model, NormalStream(1, 2, 3)).SurfaceUnder(beam).heights;
   const Surface surface(field.heights(), field.points(), field.spacing());
   ExpectEqual(TracePackets(RayBundle(beam, kN), surface.window()), SlowTwin(beam.Rays(0), surface.field()),
               2000, 0.3);

@@ -102,7 +102,7 @@ TEST(HeightSlopeProduct, IsHowManySurfacesScatter) {
     const Beam vertical({.footprint = footprint}, 1);  // meets the waves without a preference
     Eigen::ArrayX3d squares(kSurfaces, 3);
     for (int i = 0; i < kSurfaces; ++i) {
-      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).WindowUnder(vertical).heights;
+      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
       double height = 0;
       Eigen::Vector2d slope = Eigen::Vector2d::Zero(), product = Eigen::Vector2d::Zero();
       for (const Ray& ray : rays) {

@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 
-Encounter ModerateSea(std::vector<BeamOptions> beams) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = 4;
-  encounter.beams = std::move(beams);
-  encounter.depths = {0, 5, 20};
-  return encounter;
+SeaCase ModerateSea(std::vector<BeamOptions> beams) {
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = 4;
+  sea_case.beams = std::move(beams);
+  sea_case.depths = {0, 5, 20};
+  return sea_case;
 }
 
 Effort Exactly(int realizations) { return {.realizations = realizations, .most_realizations = realizations}; }
@@ -37,20 +37,20 @@ void ExpectWithinErrors(const Estimate& a, const Estimate& b) {
 }
 
 TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreads) {
-  const Encounter encounter =
+  const SeaCase sea_case =
       ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.25}});
   const auto run = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return Simulate(encounter, Exactly(101), 5, 6); });
+    return arena.execute([&] { return Simulate(sea_case, Exactly(101), 5, 6); });
   };
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 3);
-  const EncounterResult one = run(1);
+  const SeaCaseResult one = run(1);
   for (const int threads : {2, 3}) {
-    const EncounterResult many = run(threads);
-    for (std::size_t b = 0; b < encounter.beams.size(); ++b) {
+    const SeaCaseResult many = run(threads);
+    for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
       ExpectSame(one.beams[b].refraction_along_wind, many.beams[b].refraction_along_wind);
       ExpectSame(one.beams[b].refraction_cross_wind, many.beams[b].refraction_cross_wind);
-      for (std::size_t d = 0; d < encounter.depths.size(); ++d) {
+      for (std::size_t d = 0; d < sea_case.depths.size(); ++d) {
         ExpectSame(one.beams[b].thu[d], many.beams[b].thu[d]);
         ExpectSame(one.beams[b].tvu[d], many.beams[b].tvu[d]);
         ExpectSame(one.beams[b].bias_along_beam[d], many.beams[b].bias_along_beam[d]);
@@ -61,9 +61,9 @@ TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(MonteCarlo, DependsOnSeedAndCell) {
-  const Encounter encounter = ModerateSea({{.footprint = 0.25}});
+  const SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
   const auto refraction = [&](std::uint64_t seed, std::uint32_t cell) {
-    return Simulate(encounter, Exactly(20), seed, cell).beams[0].refraction_along_wind.value;
+    return Simulate(sea_case, Exactly(20), seed, cell).beams[0].refraction_along_wind.value;
   };
   EXPECT_EQ(refraction(1, 1), refraction(1, 1));
   EXPECT_NE(refraction(1, 1), refraction(2, 1));
@@ -73,12 +73,12 @@ TEST(MonteCarlo, DependsOnSeedAndCell) {
 // The mean path is longer than the depth by half of g^2 times the mean square slope, whatever the waves'
 // length: what the grid holds and what it does not add up. The next order is some mss of that.
 TEST(MonteCarlo, FindsTheBottomTooDeepAtNadirByTheSecondOrderOfSlope) {
-  const Encounter encounter = ModerateSea({{.footprint = 0.25}});
-  const EncounterResult result = Simulate(encounter, Exactly(2000), 1, 0);
+  const SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
+  const SeaCaseResult result = Simulate(sea_case, Exactly(2000), 1, 0);
   const double g = 1 - 1 / kRefractiveIndex;
   const double mss = SlopeCovariance(SeaState(4, std::numeric_limits<double>::infinity())).trace();
   const Estimate bias = result.beams[0].bias_vertical[2];
-  const double expected = -0.5 * g * g * mss * encounter.depths[2];
+  const double expected = -0.5 * g * g * mss * sea_case.depths[2];
   EXPECT_NEAR(bias.value, expected, 3 * bias.standard_error - mss * expected);
 }
 
@@ -102,22 +102,22 @@ TEST(MonteCarlo, IsAlikeInEveryQuadrantOfTheAzimuth) {
 
 // THU at depth is the refraction times the depth: both count the same tangents.
 TEST(MonteCarlo, TurnsRefractionIntoHorizontalUncertainty) {
-  Encounter encounter = ModerateSea({{.footprint = 0.25}});
-  encounter.depths = {100};
-  const BeamUncertainty beam = Simulate(encounter, Exactly(500), 1, 0).beams[0];
+  SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
+  sea_case.depths = {100};
+  const BeamUncertainty beam = Simulate(sea_case, Exactly(500), 1, 0).beams[0];
   const double both = std::hypot(beam.refraction_along_wind.value, beam.refraction_cross_wind.value);
   EXPECT_NEAR(beam.thu[0].value / 100 / both, 1, 0.003);  // tan for the angle, and waves within the footprint
 }
 
 // The same surfaces, with and without what is known of their mean slopes.
 TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
-  const Encounter encounter =
+  const SeaCase sea_case =
       ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
   Effort effort = Exactly(1000);
-  const EncounterResult controlled = Simulate(encounter, effort, 3, 0);
+  const SeaCaseResult controlled = Simulate(sea_case, effort, 3, 0);
   effort.estimator = Estimator::kPlain;
-  const EncounterResult plain = Simulate(encounter, effort, 3, 1);
-  for (std::size_t b = 0; b < encounter.beams.size(); ++b) {
+  const SeaCaseResult plain = Simulate(sea_case, effort, 3, 1);
+  for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
     const BeamUncertainty &c = controlled.beams[b], &p = plain.beams[b];
     ExpectWithinErrors(c.refraction_along_wind, p.refraction_along_wind);
     ExpectWithinErrors(c.refraction_cross_wind, p.refraction_cross_wind);
@@ -134,13 +134,13 @@ TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
 }
 
 TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
-  const Encounter encounter = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
-  const EncounterResult result = Simulate(encounter,
-                                          {.realizations = 50,
-                                           .most_realizations = 20000,
-                                           .relative_error = 0.03,
-                                           .estimator = Estimator::kPlain},
-                                          1, 0);
+  const SeaCase sea_case = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
+  const SeaCaseResult result = Simulate(sea_case,
+                                        {.realizations = 50,
+                                         .most_realizations = 20000,
+                                         .relative_error = 0.03,
+                                         .estimator = Estimator::kPlain},
+                                        1, 0);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ((result.realizations - 50) % kBatch, 0);
   EXPECT_GT(result.realizations, 300);  // 1 / sqrt(2 n) is 0.03 at n = 556
@@ -150,17 +150,17 @@ TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
 }
 
 TEST(MonteCarlo, SaysWhenTheErrorIsNotSmallEnough) {
-  const Encounter encounter = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
-  const EncounterResult result =
-      Simulate(encounter, {.realizations = 50, .most_realizations = 320, .relative_error = 1e-5}, 1, 0);
+  const SeaCase sea_case = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
+  const SeaCaseResult result =
+      Simulate(sea_case, {.realizations = 50, .most_realizations = 320, .relative_error = 1e-5}, 1, 0);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.realizations, 320);
 }
 
 TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
-  Encounter laboratory = ModerateSea({{.footprint = 0.25, .source_height = 4}});
+  SeaCase laboratory = ModerateSea({{.footprint = 0.25, .source_height = 4}});
   laboratory.sea.fetch = 1e4;
-  Encounter survey = ModerateSea({{.footprint = 0.25}});
+  SeaCase survey = ModerateSea({{.footprint = 0.25}});
   survey.sea.fetch = 1e4;
   const BeamUncertainty diverging = Simulate(laboratory, Exactly(1500), 1, 0).beams[0];
   const BeamUncertainty collimated = Simulate(survey, Exactly(1500), 1, 1).beams[0];
@@ -169,9 +169,9 @@ TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
 }
 
 TEST(MonteCarlo, RecordsWhatTheSurfaceWas) {
-  Encounter encounter = ModerateSea({{.footprint = 0.25}});
-  encounter.discretization = Discretization{.patch_per_beam = 3, .points_per_footprint = 20, .rays = 123};
-  const EncounterResult result = Simulate(encounter, Exactly(2), 1, 0);
+  SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
+  sea_case.discretization = Discretization{.patch_per_beam = 3, .points_per_footprint = 20, .rays = 123};
+  const SeaCaseResult result = Simulate(sea_case, Exactly(2), 1, 0);
   EXPECT_EQ(result.rays, 123);
   EXPECT_DOUBLE_EQ(result.patch_length, 0.75);
   EXPECT_DOUBLE_EQ(result.spacing, 0.0125);

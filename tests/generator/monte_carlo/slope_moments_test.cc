@@ -42,7 +42,7 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     Eigen::ArrayX2d means(kSurfaces, 2);
     Eigen::ArrayXd forms(kSurfaces);
     for (int i = 0; i < kSurfaces; ++i) {
-      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).WindowUnder(vertical).heights;
+      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
       Eigen::Vector2d slope = Eigen::Vector2d::Zero();
       Eigen::Vector3d squares = Eigen::Vector3d::Zero();
       for (const Ray& ray : rays) {
@@ -70,9 +70,9 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
 
 // The slope of the facet over which a ray crosses z = 0, along x and y, as weights of the heights of the window.
 std::array<Eigen::MatrixXd, 2> FacetSlope(const SurfaceModel& model, const Ray& ray) {
-  const int points = model.window_points();
+  const int points = model.local_points();
   const double spacing = model.patch().spacing();
-  const auto [ix, iy, beside_x] = model.StillWindow().TriangleAt(ray.at_zero);
+  const auto [ix, iy, beside_x] = model.StillSurface().TriangleAt(ray.at_zero);
   std::array<Eigen::MatrixXd, 2> weights = {Eigen::MatrixXd::Zero(points, points),
                                             Eigen::MatrixXd::Zero(points, points)};
   const int along_x = beside_x ? iy : iy + 1, along_y = beside_x ? ix + 1 : ix;

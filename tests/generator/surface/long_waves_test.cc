@@ -66,7 +66,7 @@ TEST(LongWaves, AboutAnotherOriginAreTheSameWaves) {
   }
 }
 
-TEST(HeightOfMeeting, IsOnTheLongWaves) {
+TEST(HeightOfIntersection, IsOnTheLongWaves) {
   const LongWaveModel model = Model();
   for (int draw = 0; draw < 100; ++draw) {
     NormalStream stream(1, 4, draw);
@@ -75,7 +75,7 @@ TEST(HeightOfMeeting, IsOnTheLongWaves) {
       const Eigen::Vector2d per_height =
           -std::tan(incidence) * Eigen::Vector2d(std::cos(draw), std::sin(draw));
       const Eigen::Vector2d at_zero(0.3, -0.1);
-      const double z = HeightOfMeeting(model, amplitudes, at_zero, per_height);
+      const double z = HeightOfIntersection(model, amplitudes, at_zero, per_height);
       EXPECT_NEAR(ElevationAt(model, amplitudes, at_zero + z * per_height), z, 1e-9);
     }
   }

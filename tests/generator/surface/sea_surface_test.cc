@@ -58,7 +58,7 @@ TEST(SurfaceModel, HoldsTheWindowInItsPatch) {
       const BeamOptions widest{.incidence = incidence, .footprint = 0.1, .profile = profile};
       const SurfaceModel model(SeaState(15, kFullyDeveloped), widest,
                                {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 1});
-      EXPECT_LT(model.window_points(), model.patch().size()) << incidence;
+      EXPECT_LT(model.local_points(), model.patch().size()) << incidence;
     }
   }
 }
@@ -84,7 +84,7 @@ TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
     const Eigen::VectorXcd amplitudes = model_.long_waves().Draw(stream);
     const std::vector<double> patch = model_.patch().Draw(stream);
     const double elevation =
-        HeightOfMeeting(model_.long_waves(), amplitudes, Eigen::Vector2d::Zero(), beam.per_height());
+        HeightOfIntersection(model_.long_waves(), amplitudes, Eigen::Vector2d::Zero(), beam.per_height());
     const Eigen::Vector2d origin = elevation * beam.per_height();
     double bound = 1e-12;
     for (std::size_t m = 0; m < waves.size(); ++m) {
@@ -92,7 +92,8 @@ TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
       bound += std::abs(amplitudes[m]) * 3.0 / 128 * (std::pow(phase.x(), 4) + 1.25 * std::pow(phase.y(), 4));
     }
 
-    const SeaSurface::Window window = SeaSurface(model_, NormalStream(1, 0, realization)).WindowUnder(beam);
+    const SeaSurface::LocalSurface window =
+        SeaSurface(model_, NormalStream(1, 0, realization)).SurfaceUnder(beam);
     EXPECT_NEAR(window.elevation, elevation, 1e-12);
     const int half = static_cast<int>(std::lround(window.heights.reach() / window.heights.spacing()));
     for (int i = -half; i <= half; ++i) {
@@ -116,7 +117,7 @@ TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
 
 TEST_F(ModerateSea, ReachesBeyondTheRaysOfItsBeam) {
   const Beam beam(options_, 1000);
-  const SeaSurface::Window window = SeaSurface(model_, NormalStream(1, 0, 0)).WindowUnder(beam);
+  const SeaSurface::LocalSurface window = SeaSurface(model_, NormalStream(1, 0, 0)).SurfaceUnder(beam);
   for (const Ray& ray : beam.Rays(window.elevation)) {
     const Hit hit = Intersect(window.heights, ray);
     EXPECT_LT((ray.at_zero + hit.height * ray.per_height()).cwiseAbs().maxCoeff(), window.heights.reach());
@@ -131,7 +132,7 @@ TEST_F(ModerateSea, HasTheVariancesOfTheSpectrum) {
   double elevation = 0;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   for (int draw = 0; draw < kDraws; ++draw) {
-    const SeaSurface::Window window = SeaSurface(model_, NormalStream(2, 0, draw)).WindowUnder(nadir);
+    const SeaSurface::LocalSurface window = SeaSurface(model_, NormalStream(2, 0, draw)).SurfaceUnder(nadir);
     const HeightField::Facet facet = window.heights.FacetAt({0, 0});
     elevation += std::pow(window.elevation + facet.HeightAt({0, 0}), 2) / kDraws;
     slope += facet.slope.cwiseAbs2() / kDraws;
@@ -147,7 +148,7 @@ TEST_F(ModerateSea, IsAFunctionOfTheStreamAlone) {
   const Beam beam(options_, 1);
   const auto height = [&](std::uint32_t realization) {
     return SeaSurface(model_, NormalStream(1, 0, realization))
-        .WindowUnder(beam)
+        .SurfaceUnder(beam)
         .heights.FacetAt({0.1, 0})
         .height_at_origin;
   };

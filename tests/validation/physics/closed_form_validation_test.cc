@@ -43,25 +43,25 @@ struct Direction {
 };
 const std::vector<Direction> kDirections = {{0, 0}, {10, 45}, {20, 0}, {20, 45}, {20, 90}};
 
-Encounter EncounterOf(const Sea& sea) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = sea.wind_speed;
-  encounter.sea.fetch = sea.fetch;
-  encounter.depths = {10};
+SeaCase SeaCaseOf(const Sea& sea) {
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = sea.wind_speed;
+  sea_case.sea.fetch = sea.fetch;
+  sea_case.depths = {10};
   for (const Direction& direction : kDirections) {
-    encounter.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),
-                               .azimuth = RadiansOfDegrees(direction.azimuth),
-                               .footprint = sea.footprint,
-                               .profile = sea.profile});
+    sea_case.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),
+                              .azimuth = RadiansOfDegrees(direction.azimuth),
+                              .footprint = sea.footprint,
+                              .profile = sea.profile});
   }
-  return encounter;
+  return sea_case;
 }
 
 TEST(MonteCarlo, AgreesWithTheClosedForm) {
   for (std::size_t s = 0; s < kSeas.size(); ++s) {
     const Sea& sea = kSeas[s];
-    const EncounterRatios ratios =
-        CompareWithClosedForm(EncounterOf(sea), kRealizations, 1, static_cast<std::uint32_t>(s));
+    const SeaCaseRatios ratios =
+        CompareWithClosedForm(SeaCaseOf(sea), kRealizations, 1, static_cast<std::uint32_t>(s));
     for (std::size_t b = 0; b < kDirections.size(); ++b) {
       const ClosedFormRatio& beam = ratios.beams[b];
       const auto expect_within = [&](const char* quantity, const Estimate& ratio) {

@@ -65,14 +65,13 @@ Discretization WithTwiceTheRays(Discretization choice) {
 
 std::vector<BeamUncertainty> Simulated(const Case& c, const Discretization& discretization, int realizations,
                                        std::uint32_t cell) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = c.wind_speed;
-  encounter.sea.fetch = c.fetch;
-  encounter.beams = Beams(c);
-  encounter.depths = {10};
-  encounter.discretization = discretization;
-  return Simulate(encounter, {.realizations = realizations, .most_realizations = realizations}, 7, cell)
-      .beams;
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = c.wind_speed;
+  sea_case.sea.fetch = c.fetch;
+  sea_case.beams = Beams(c);
+  sea_case.depths = {10};
+  sea_case.discretization = discretization;
+  return Simulate(sea_case, {.realizations = realizations, .most_realizations = realizations}, 7, cell).beams;
 }
 
 struct Quantity {

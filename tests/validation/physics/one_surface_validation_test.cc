@@ -113,12 +113,12 @@ TEST(OneSurface, DoesToABeamWhatTheSeaInBandsDoes) {
     }
   });
 
-  Encounter encounter;
-  encounter.sea = kSea;
-  encounter.beams = kBeams;
-  encounter.depths = {kDepth};
-  encounter.rays = kRays;
-  const EncounterResult bands = Simulate(encounter, {.realizations = 512, .most_realizations = 512}, 9, 1);
+  SeaCase sea_case;
+  sea_case.sea = kSea;
+  sea_case.beams = kBeams;
+  sea_case.depths = {kDepth};
+  sea_case.rays = kRays;
+  const SeaCaseResult bands = Simulate(sea_case, {.realizations = 512, .most_realizations = 512}, 9, 1);
   for (std::size_t b = 0; b < kBeams.size(); ++b) {
     const double incidence = kBeams[b].incidence;
     ExpectAlike(bands.beams[b].refraction_along_wind, TwoSigmaOf(of_beams[b], {0}), "refraction along wind",

@@ -31,24 +31,24 @@ class Draws {
   std::mt19937_64 bits_{20180315};
 };
 
-Encounter Draw(Draws& draws) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = draws.Between(1, 15);
+SeaCase Draw(Draws& draws) {
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = draws.Between(1, 15);
   const double fetch = draws.LogBetween(100, 1e6);
-  encounter.sea.fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch;
-  encounter.beams = {{.incidence = RadiansOfDegrees(draws.Between(0, 25)),
-                      .azimuth = RadiansOfDegrees(draws.Between(0, 360)),
-                      .footprint = draws.LogBetween(0.1, 5),
-                      .profile = draws.OneIn(2) ? BeamProfile::kUniform : BeamProfile::kGaussian}};
-  encounter.depths = {draws.LogBetween(1, 50)};
-  return encounter;
+  sea_case.sea.fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch;
+  sea_case.beams = {{.incidence = RadiansOfDegrees(draws.Between(0, 25)),
+                     .azimuth = RadiansOfDegrees(draws.Between(0, 360)),
+                     .footprint = draws.LogBetween(0.1, 5),
+                     .profile = draws.OneIn(2) ? BeamProfile::kUniform : BeamProfile::kGaussian}};
+  sea_case.depths = {draws.LogBetween(1, 50)};
+  return sea_case;
 }
 
-std::string Describe(const Encounter& encounter) {
-  const BeamOptions& beam = encounter.beams[0];
+std::string Describe(const SeaCase& sea_case) {
+  const BeamOptions& beam = sea_case.beams[0];
   return absl::StrFormat("%g m/s, %g m of fetch, incidence %g, azimuth %g, %g m of footprint, depth %g m",
-                         encounter.sea.wind_speed_10m, encounter.sea.fetch, DegreesOfRadians(beam.incidence),
-                         DegreesOfRadians(beam.azimuth), beam.footprint, encounter.depths[0]);
+                         sea_case.sea.wind_speed_10m, sea_case.sea.fetch, DegreesOfRadians(beam.incidence),
+                         DegreesOfRadians(beam.azimuth), beam.footprint, sea_case.depths[0]);
 }
 
 TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
@@ -58,16 +58,16 @@ TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
   const double k = StandardErrorsFor(3 * kConditions);
   for (std::uint32_t cell = 0; judged < kConditions; ++cell) {
     ASSERT_LT(cell, 3u * kConditions) << "most footprints see still water";
-    const Encounter encounter = Draw(draws);
-    const EncounterRatios ratios = CompareWithClosedForm(encounter, kRealizations, 1, cell);
+    const SeaCase sea_case = Draw(draws);
+    const SeaCaseRatios ratios = CompareWithClosedForm(sea_case, kRealizations, 1, cell);
     if (ratios.seen_fraction < kLeastSeenFraction) continue;
     ++judged;
     const ClosedFormRatio& beam = ratios.beams[0];
-    EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), k) << "along wind at " << Describe(encounter);
-    EXPECT_LE(ExcessInStandardErrors(beam.cross, beam.allowed), k) << "cross wind at " << Describe(encounter);
-    EXPECT_LE(ExcessInStandardErrors(beam.thu, beam.allowed), k) << "THU at " << Describe(encounter);
+    EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), k) << "along wind at " << Describe(sea_case);
+    EXPECT_LE(ExcessInStandardErrors(beam.cross, beam.allowed), k) << "cross wind at " << Describe(sea_case);
+    EXPECT_LE(ExcessInStandardErrors(beam.thu, beam.allowed), k) << "THU at " << Describe(sea_case);
     // The judgement is worth something where a standard error is small beside what is allowed.
-    EXPECT_LT(beam.thu.standard_error, 0.03) << Describe(encounter);
+    EXPECT_LT(beam.thu.standard_error, 0.03) << Describe(sea_case);
   }
 }
 

@@ -46,12 +46,12 @@ const std::vector<Quantity> kQuantities = {
 };
 
 std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, std::uint32_t cell) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = 5;
-  encounter.beams = {{.footprint = 0.5},
-                     {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
-  encounter.depths = {0, 0.1, 10};
-  return Simulate(encounter,
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = 5;
+  sea_case.beams = {{.footprint = 0.5},
+                    {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
+  sea_case.depths = {0, 0.1, 10};
+  return Simulate(sea_case,
                   {.realizations = realizations, .most_realizations = realizations, .estimator = estimator},
                   5, cell)
       .beams;

@@ -29,11 +29,11 @@ TEST(Excess, AllowsOnlyTheDiscretizationAboveTheClosedForm) {
 }
 
 TEST(ClosedFormRatio, IsNearOneAndLacksVerticalErrorsAtNadir) {
-  Encounter encounter;
-  encounter.sea.wind_speed_10m = 3;
-  encounter.beams = {{.footprint = 0.5}, {.incidence = 0.35, .footprint = 0.5}};
-  encounter.depths = {5};
-  const EncounterRatios ratios = CompareWithClosedForm(encounter, 64, 1, 0);
+  SeaCase sea_case;
+  sea_case.sea.wind_speed_10m = 3;
+  sea_case.beams = {{.footprint = 0.5}, {.incidence = 0.35, .footprint = 0.5}};
+  sea_case.depths = {5};
+  const SeaCaseRatios ratios = CompareWithClosedForm(sea_case, 64, 1, 0);
   ASSERT_EQ(ratios.beams.size(), 2u);
   for (const ClosedFormRatio& beam : ratios.beams) {
     EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), 4);

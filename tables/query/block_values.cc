@@ -1,4 +1,4 @@
-#include "tables/query/block_numbers.h"
+#include "tables/query/block_values.h"
 
 #include <cmath>
 
@@ -38,24 +38,24 @@ std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
 
 }  // namespace
 
-const BlockOf<float>& BlockNumbers::AtOneAzimuth::value(Quantity quantity) const {
+const BlockOf<float>& BlockValues::AtOneAzimuth::value(Quantity quantity) const {
   const RecordPlace place = PlaceOf(quantity);
   return (place.is_refraction ? refraction : displacement)[place.value];
 }
 
-const BlockOf<float>& BlockNumbers::AtOneAzimuth::standard_error(Quantity quantity) const {
+const BlockOf<float>& BlockValues::AtOneAzimuth::standard_error(Quantity quantity) const {
   const RecordPlace place = PlaceOf(quantity);
   return (place.is_refraction ? refraction : displacement_errors)[place.standard_error];
 }
 
-void BlockNumbers::Find(const PulseBlock& block) {
+void BlockValues::Find(const PulseBlock& block) {
   Find(block, Side::kDownwind, downwind_);
   if (!block.azimuth_absent()) return;
   Find(block, Side::kCrosswind, crosswind_);
   TakeLarger(block.count());
 }
 
-void BlockNumbers::Find(const PulseBlock& block, Side side, AtOneAzimuth& numbers) {
+void BlockValues::Find(const PulseBlock& block, Side side, AtOneAzimuth& numbers) {
   const auto blend = [&](const Records& records, const BlendedPulses& pulses, BlockOf<float>* columns) {
     Blend(records.data(), pulses, blended_->begin());
     Split(blended_->begin(), pulses.count, columns);
@@ -78,8 +78,8 @@ void BlockNumbers::Find(const PulseBlock& block, Side side, AtOneAzimuth& number
 }
 
 // On a node the number is what the table holds, which no exponential gives back.
-void BlockNumbers::TakeExponentials(const BlendedPulses& pulses, bool refraction,
-                                    AtOneAzimuth& numbers) const {
+void BlockValues::TakeExponentials(const BlendedPulses& pulses, bool refraction,
+                                   AtOneAzimuth& numbers) const {
   const Records& plain = refraction ? records_.plain_refraction : records_.plain_displacement;
   for (Quantity quantity : kQuantities) {
     const RecordPlace place = PlaceOf(quantity);
@@ -93,7 +93,7 @@ void BlockNumbers::TakeExponentials(const BlendedPulses& pulses, bool refraction
 }
 
 // As LargerOf (interpolation.h).
-void BlockNumbers::TakeLarger(std::size_t count) {
+void BlockValues::TakeLarger(std::size_t count) {
   if (needs_.radius) {
     const BlockOf<float>&thu = downwind_.value(Quantity::kThu), &other = crosswind_.value(Quantity::kThu);
     BlockOf<double>& radius = downwind_.radius_over_thu;

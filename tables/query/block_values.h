@@ -2,8 +2,8 @@
 #pragma once
 
 #include "tables/query/block.h"
+#include "tables/query/node_records.h"
 #include "tables/query/pulse_block.h"
-#include "tables/query/record_layout.h"
 
 namespace albtpu {
 
@@ -16,9 +16,9 @@ struct Needs {
 };
 
 // At 2 sigma. Numbers of pulses that are not inside the table, and numbers that it does not hold, mean nothing.
-class BlockNumbers {
+class BlockValues {
  public:
-  BlockNumbers(const RecordLayout& records, const Needs& needs) : records_(records), needs_(needs) {}
+  BlockValues(const NodeRecords& records, const Needs& needs) : records_(records), needs_(needs) {}
 
   void Find(const PulseBlock& block);
 
@@ -41,7 +41,7 @@ class BlockNumbers {
   void TakeExponentials(const BlendedPulses& pulses, bool refraction, AtOneAzimuth& numbers) const;
   void TakeLarger(std::size_t count);
 
-  const RecordLayout& records_;
+  const NodeRecords& records_;
   const Needs needs_;
   BlockOf<float> blended_[kRecordSize];  // one record after the other
   AtOneAzimuth downwind_, crosswind_;

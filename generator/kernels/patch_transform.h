@@ -13,9 +13,9 @@ namespace albtpu {
 
 // Columns of modes go in groups of sixteen: an element (see LaneFft) of the even ones, then one of the odd
 // ones. That is how normal numbers come, four to two modes.
-struct WindowPlan {
+struct PatchTransform {
   // `points` is odd and less than the size of the patch, which is at least 4 and has no prime factor above 5.
-  WindowPlan(const WavePatchModel& patch, int points);
+  PatchTransform(const WavePatchModel& patch, int points);
 
   static constexpr int kGroup = 2 * LaneFft::kSeries;
 

@@ -1,4 +1,4 @@
-#include "generator/kernels/window_plan.h"
+#include "generator/kernels/patch_transform.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 
 namespace albtpu {
 
-WindowPlan::WindowPlan(const WavePatchModel& patch, int points_of_window)
+PatchTransform::PatchTransform(const WavePatchModel& patch, int points_of_window)
     : size(patch.size()),
       half(size / 2),
       points(points_of_window),

@@ -1,11 +1,11 @@
-#include "generator/kernels/patch_window.h"
+#include "generator/kernels/fast_patch.h"
 
 #include <algorithm>
 #include <cassert>
 
 // This file is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "generator/kernels/patch_window.cc"
+#define HWY_TARGET_INCLUDE "generator/kernels/fast_patch.cc"
 #include <hwy/foreach_target.h>
 
 #include "generator/kernels/eight_rows-inl.h"
@@ -21,7 +21,7 @@ constexpr std::size_t kSeries = LaneFft::kSeries, kElement = LaneFft::kElement;
 
 // The amplitudes of a group of columns. Random words of some rows first, then the numbers that they become:
 // of one row after the other, the chain of operations would be waited for.
-void DrawGroup(const WindowPlan& plan, const NormalLanes& normals, int group, float* even, float* odd) {
+void DrawGroup(const PatchTransform& plan, const NormalLanes& normals, int group, float* even, float* odd) {
   constexpr std::size_t kRowsAtOnce = 16;
   const Floats f;
   const Words w;
@@ -36,8 +36,8 @@ void DrawGroup(const WindowPlan& plan, const NormalLanes& normals, int group, fl
         for (int i = 0; i < 4; ++i) hn::Store(word[i], w, words[row - first] + i * kSeries + lane);
       }
     }
-    const float* scale = &plan.scale[(group * rows + first) * WindowPlan::kGroup];
-    for (std::size_t row = first; row < last; ++row, scale += WindowPlan::kGroup) {
+    const float* scale = &plan.scale[(group * rows + first) * PatchTransform::kGroup];
+    for (std::size_t row = first; row < last; ++row, scale += PatchTransform::kGroup) {
       for (std::size_t lane = 0; lane < kSeries; lane += hn::MaxLanes(f)) {
         const std::uint32_t* word = words[row - first] + lane;
         for (int parity = 0; parity < 2; ++parity, word += 2 * kSeries) {
@@ -53,7 +53,7 @@ void DrawGroup(const WindowPlan& plan, const NormalLanes& normals, int group, fl
 }
 
 // Column 0 is its own mirror: the lower half of its modes must be that of the upper.
-void MirrorFirstColumn(const WindowPlan& plan, float* even) {
+void MirrorFirstColumn(const PatchTransform& plan, float* even) {
   for (int i = 1; i < plan.half; ++i) {
     const float* upper = even + kElement * plan.columns.Place(i);
     float* lower = even + kElement * plan.columns.Place(plan.size - i);
@@ -63,11 +63,11 @@ void MirrorFirstColumn(const WindowPlan& plan, float* even) {
 }
 
 // The modes of eight rows, an element each, from the rows of the window.
-void GatherRows(const WindowPlan& plan, const float* row, float* modes) {
+void GatherRows(const PatchTransform& plan, const float* row, float* modes) {
   for (int group = 0; group < plan.groups; ++group) {
     for (std::size_t c = 0; c < 2 * kElement; c += 4, row += 4) {  // even re, even im, odd re, odd im
       const std::size_t odd = c / kElement, im = c / kSeries % 2, column = c % kSeries;
-      const std::size_t mode = static_cast<std::size_t>(group) * WindowPlan::kGroup + 2 * column + odd;
+      const std::size_t mode = static_cast<std::size_t>(group) * PatchTransform::kGroup + 2 * column + odd;
       FourColumnsToLanes(row, plan.row_stride, modes + kElement * mode + kSeries * im, 2 * kElement);
     }
   }
@@ -78,7 +78,7 @@ void GatherRows(const WindowPlan& plan, const float* row, float* modes) {
 // The transform of `size` real numbers x from their modes X is a complex one of half the length: with
 // w = exp(2 pi i / size), E = X[k] + conj X[half - k] and O = w^k (X[k] - conj X[half - k]), the modes of
 // x[2 m] + i x[2 m + 1] are E + i O at k and conj E + i conj O at half - k.
-void FoldModes(const WindowPlan& plan, const float* modes, float* folded) {
+void FoldModes(const PatchTransform& plan, const float* modes, float* folded) {
   for (int k = 0; 2 * k <= plan.half; ++k) {
     const ComplexLanes x = LoadElement(modes + kElement * k);
     const ComplexLanes y = LoadElement(modes + kElement * (plan.half - k));
@@ -92,7 +92,7 @@ void FoldModes(const WindowPlan& plan, const float* modes, float* folded) {
   }
 }
 
-void DrawWindow(const WindowPlan& plan, const NormalStream& stream, float* memory, float* heights) {
+void DrawWindow(const PatchTransform& plan, const NormalStream& stream, float* memory, float* heights) {
   float *even = memory, *odd = even + plan.block, *spectrum = odd + plan.block;
   const NormalLanes normals(stream);
   const int last = plan.first + plan.points;
@@ -138,7 +138,7 @@ namespace {
 HWY_EXPORT(DrawWindow);
 }  // namespace
 
-float* PatchWindow::Workspace::Floats(std::size_t count) {
+float* FastPatch::Workspace::Floats(std::size_t count) {
   if (count > count_) {
     floats_ = hwy::AllocateAligned<float>(count);
     count_ = count;
@@ -146,10 +146,10 @@ float* PatchWindow::Workspace::Floats(std::size_t count) {
   return floats_.get();
 }
 
-PatchWindow::PatchWindow(const WavePatchModel& patch, int points)
+FastPatch::FastPatch(const WavePatchModel& patch, int points)
     : plan_(patch, points), spacing_(static_cast<float>(patch.spacing())) {}
 
-void PatchWindow::Draw(const NormalStream& stream, std::span<float> heights, Workspace& workspace) const {
+void FastPatch::Draw(const NormalStream& stream, std::span<float> heights, Workspace& workspace) const {
   assert(heights.size() == static_cast<std::size_t>(plan_.points) * plan_.points);
   HWY_DYNAMIC_DISPATCH(DrawWindow)(plan_, stream, workspace.Floats(plan_.workspace), heights.data());
 }

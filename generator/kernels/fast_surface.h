@@ -1,11 +1,11 @@
-// The surface about one point in single precision, for all beams of an encounter: many realizations, fast.
+// The surface about one point in single precision, for all beams of a sea case: many realizations, fast.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <vector>
 
-#include "generator/kernels/patch_window.h"
+#include "generator/kernels/fast_patch.h"
 #include "generator/math/random_stream.h"
 #include "generator/surface/sea_surface.h"
 
@@ -16,16 +16,16 @@ namespace albtpu {
 // the weight 1 - p . slope there (a slanted line meets the side that faces it more often): with that weight
 // this is the law of SeaSurface's window, exactly, for every beam at once, as long as the line is steeper
 // than the long waves. Immutable.
-class SharedWindow {
+class FastSurface {
  public:
-  explicit SharedWindow(const SurfaceModel& model);
+  explicit FastSurface(const SurfaceModel& model);
 
   int points() const { return points_; }  // along a side, odd
   float spacing() const { return spacing_; }
 
   // What one thread needs, used again from one realization to the next.
   struct Workspace {
-    PatchWindow::Workspace patch;
+    FastPatch::Workspace patch;
     std::vector<float> heights;  // m above the long waves at the centre; points() x points(), ix slow
     Eigen::Vector2d long_slope;  // of the long waves there
     Eigen::MatrixXf long_waves_of_row, long_waves_at_nodes;
@@ -41,7 +41,7 @@ class SharedWindow {
   };
 
   LongWaveModel long_waves_;
-  PatchWindow patch_;
+  FastPatch patch_;
   int points_;
   float spacing_;
   std::vector<Cubic> cubics_;      // along a side

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "generator/kernels/window_plan.h"
+#include "generator/kernels/patch_transform.h"
 #include "generator/math/random_stream.h"
 #include "generator/surface/wave_patch.h"
 
@@ -14,10 +14,10 @@ namespace albtpu {
 
 // The square of `points` x `points` grid points about the point (0, 0) of a patch, which repeats. Immutable;
 // may draw on many threads, each with a workspace of its own.
-class PatchWindow {
+class FastPatch {
  public:
   // `points` is odd and less than the size of the patch, which is at least 4 and has no prime factor above 5.
-  PatchWindow(const WavePatchModel& patch, int points);
+  FastPatch(const WavePatchModel& patch, int points);
 
   int points() const { return plan_.points; }
   float spacing() const { return spacing_; }  // m
@@ -37,7 +37,7 @@ class PatchWindow {
   void Draw(const NormalStream& stream, std::span<float> heights, Workspace& workspace) const;
 
  private:
-  WindowPlan plan_;
+  PatchTransform plan_;
   float spacing_;
 };
 

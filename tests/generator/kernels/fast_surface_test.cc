@@ -1,4 +1,4 @@
-#include "generator/kernels/shared_window.h"
+#include "generator/kernels/fast_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -13,16 +13,16 @@ namespace albtpu {
 namespace {
 
 // A vertical line meets the long waves where it stands: there both are about the same point.
-TEST(SharedWindow, IsWhatAVerticalBeamMeets) {
+TEST(FastSurface, IsWhatAVerticalBeamMeets) {
   const SeaState sea(9, std::numeric_limits<double>::infinity());
   const BeamOptions widest{.incidence = 0.4, .azimuth = 0.3, .footprint = 0.5};
   const SurfaceModel model(sea, widest, {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 1});
-  const SharedWindow window(model);
+  const FastSurface window(model);
   const Beam vertical({.footprint = 0.5}, 1);
-  SharedWindow::Workspace workspace;
+  FastSurface::Workspace workspace;
   for (const std::uint32_t realization : {0, 1, 2}) {
     const NormalStream stream(3, 1, realization);
-    const HeightField twin = SeaSurface(model, stream).WindowUnder(vertical).heights;
+    const HeightField twin = SeaSurface(model, stream).SurfaceUnder(vertical).heights;
     window.Draw(stream, workspace);
     ASSERT_EQ(workspace.heights.size(), twin.heights().size());
     double farthest = 0;

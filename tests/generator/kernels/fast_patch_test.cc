@@ -1,4 +1,4 @@
-#include "generator/kernels/patch_window.h"
+#include "generator/kernels/fast_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ WavePatchModel Patch(int size) {
                         CrossFade(1e-9, 2e-9));
 }
 
-std::vector<float> Draw(const PatchWindow& window, const NormalStream& stream) {
+std::vector<float> Draw(const FastPatch& window, const NormalStream& stream) {
   std::vector<float> heights(static_cast<std::size_t>(window.points()) * window.points());
-  PatchWindow::Workspace workspace;
+  FastPatch::Workspace workspace;
   window.Draw(stream, heights, workspace);
   return heights;
 }
@@ -39,17 +39,17 @@ std::vector<double> SlowDraw(const WavePatchModel& patch, int points, const Norm
 
 // The root mean square of the differences over the window, in standard deviations of the heights.
 double Distance(const WavePatchModel& patch, int points, const NormalStream& stream) {
-  const std::vector<float> fast = Draw(PatchWindow(patch, points), stream);
+  const std::vector<float> fast = Draw(FastPatch(patch, points), stream);
   const std::vector<double> slow = SlowDraw(patch, points, stream);
   double squares = 0;
   for (std::size_t i = 0; i < slow.size(); ++i) squares += (fast[i] - slow[i]) * (fast[i] - slow[i]);
   return std::sqrt(squares / static_cast<double>(slow.size()) / patch.elevation_variance());
 }
 
-class EachPatchWindow : public testing::OnInstructionSet {};
-ALBTPU_ON_EACH_INSTRUCTION_SET(EachPatchWindow);
+class EachFastPatch : public testing::OnInstructionSet {};
+ALBTPU_ON_EACH_INSTRUCTION_SET(EachFastPatch);
 
-TEST_P(EachPatchWindow, IsTheMiddleOfTheSameSurface) {
+TEST_P(EachFastPatch, IsTheMiddleOfTheSameSurface) {
   // Amplitudes are right to a few 2^-24, and each of the stages of the transform adds less than 2^-24 to each
   // height's relative error: in all well under 2^-20.
   for (const int size : {4, 6, 10, 18, 48, 60, 90, 100, 128, 250, 270, 360, 512}) {
@@ -62,10 +62,10 @@ TEST_P(EachPatchWindow, IsTheMiddleOfTheSameSurface) {
   }
 }
 
-TEST_P(EachPatchWindow, IsDrawnAsOnTheUsualInstructionSet) {
+TEST_P(EachFastPatch, IsDrawnAsOnTheUsualInstructionSet) {
   // Each is off by the rounding of its own.
   const WavePatchModel patch = Patch(128);
-  const PatchWindow window(patch, 57);
+  const FastPatch window(patch, 57);
   const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
   EXPECT_EQ(heights, Draw(window, NormalStream(1, 2, 3)));
   Choose(0);
@@ -76,10 +76,10 @@ TEST_P(EachPatchWindow, IsDrawnAsOnTheUsualInstructionSet) {
   }
 }
 
-TEST(PatchWindow, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
+TEST(FastPatch, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
   const WavePatchModel small = Patch(18), large = Patch(60);
-  const PatchWindow narrow(small, 5), wide(large, 59);
-  PatchWindow::Workspace workspace;
+  const FastPatch narrow(small, 5), wide(large, 59);
+  FastPatch::Workspace workspace;
   for (int draw = 0; draw < 3; ++draw) {
     const NormalStream stream(1, 2, draw);
     std::vector<float> of_small(5 * 5), of_large(59 * 59);
@@ -90,9 +90,9 @@ TEST(PatchWindow, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
   }
 }
 
-TEST(PatchWindow, IsAnotherForEachRealization) {
+TEST(FastPatch, IsAnotherForEachRealization) {
   const WavePatchModel patch = Patch(18);
-  const PatchWindow window(patch, 5);
+  const FastPatch window(patch, 5);
   const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
   EXPECT_NE(heights, Draw(window, NormalStream(1, 2, 4)));
   EXPECT_NE(heights, Draw(window, NormalStream(1, 3, 3)));

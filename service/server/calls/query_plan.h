@@ -9,7 +9,7 @@
 namespace albtpu::server {
 
 // `QueryOptions`, read.
-struct Question {
+struct QueryPlan {
   const TableCatalog::Entry* source = nullptr;
   Query query;
   bool standard_errors = false;
@@ -19,6 +19,6 @@ struct Question {
 };
 
 // Fails as `QueryOptions` documents. The result refers to `catalog`.
-absl::StatusOr<Question> ReadOptions(const v1::QueryOptions& options, const TableCatalog& catalog);
+absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const TableCatalog& catalog);
 
 }  // namespace albtpu::server

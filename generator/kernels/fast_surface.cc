@@ -1,14 +1,14 @@
-#include "generator/kernels/shared_window.h"
+#include "generator/kernels/fast_surface.h"
 
 #include <algorithm>
 #include <complex>
 
 namespace albtpu {
 
-SharedWindow::SharedWindow(const SurfaceModel& model)
+FastSurface::FastSurface(const SurfaceModel& model)
     : long_waves_(model.long_waves()),
-      patch_(model.patch(), model.window_points()),
-      points_(model.window_points()),
+      patch_(model.patch(), model.local_points()),
+      points_(model.local_points()),
       spacing_(static_cast<float>(model.patch().spacing())),
       phases_x_(model.phases_x().cast<std::complex<float>>()),
       cos_and_sin_y_(2 * model.phases_y().cols(), model.phases_y().rows()) {
@@ -25,7 +25,7 @@ SharedWindow::SharedWindow(const SurfaceModel& model)
   }
 }
 
-void SharedWindow::Draw(NormalStream stream, Workspace& workspace) const {
+void FastSurface::Draw(NormalStream stream, Workspace& workspace) const {
   const Eigen::VectorXcd amplitudes = long_waves_.Draw(stream);
   double elevation = 0;
   workspace.long_slope.setZero();

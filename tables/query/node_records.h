@@ -10,8 +10,8 @@
 namespace albtpu {
 
 // In records of 4 numbers. What a table does not hold is 0 here. On a log scale, values are logarithms.
-struct RecordLayout {
-  explicit RecordLayout(const UncertaintyTable& table);
+struct NodeRecords {
+  explicit NodeRecords(const UncertaintyTable& table);
 
   Records refraction;           // no depth: along and cross wind, standard errors of both
   Records displacement;         // THU, TVU, bias along the beam, vertical bias

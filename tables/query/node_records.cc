@@ -1,4 +1,4 @@
-#include "tables/query/record_layout.h"
+#include "tables/query/node_records.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ bool Any(const std::array<bool, kQuantityCount>& flags) {
 
 }  // namespace
 
-RecordLayout::RecordLayout(const UncertaintyTable& table) {
+NodeRecords::NodeRecords(const UncertaintyTable& table) {
   for (AxisId axis : kAxes) nodes[Index(axis)] = table.axis(axis).size();
   for (Quantity quantity : kQuantities) {
     const Variable* variable = table.variable(quantity);
