@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "tables/query/interpolation.h"  // Users of this header have always had it too.
 #include "tables/query/pulse_columns.h"
 #include "tables/uncertainty_table.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tables/query/interpolation.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {

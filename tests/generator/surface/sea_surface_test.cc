@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "generator/surface/discretization.h"
+
 namespace albtpu {
 namespace {
 
