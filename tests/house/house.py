@@ -1,0 +1,151 @@
+"""The tree as its includes and CMake files show it, and the law of rooms.toml."""
+
+import collections
+import pathlib
+import re
+import tomllib
+
+WIRE = ("albtpu/v1/", "google/rpc/", "grpc/health/v1/")  # What protoc makes of proto/.
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+SYSTEM = re.compile(r"(sys|arpa|netinet)/\w+\.h|(fcntl|limits|netdb|poll|pthread|spawn|stdio|stdlib|unistd)\.h")
+COMMAND = re.compile(r"^\s*(\w+)\s*\(", re.MULTILINE)
+
+
+def sources_in(folder):
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cc"))
+
+
+class Law:
+    """What rooms.toml says."""
+
+    def __init__(self, path):
+        law = tomllib.loads(path.read_text())
+        self.libraries = law["libraries"]
+        self.rooms = law["rooms"]
+        self.uses = {name: self._expand(room.get("uses", [])) - {name} for name, room in self.rooms.items()}
+        self.allowed_libraries = {name: set(room.get("libraries", [])) for name, room in self.rooms.items()}
+
+    def _expand(self, names):
+        expanded = set()
+        for name in names:
+            inside = {room for room in self.rooms if (room + "/").startswith(name)} if name.endswith("/") else {name}
+            unknown = [room for room in inside if room not in self.rooms]
+            if unknown or not inside:
+                raise ValueError(f"rooms.toml: '{name}' is no room")
+            expanded |= inside
+        return expanded
+
+    def room_of(self, path):
+        """The room of a file or header, given from the root of the tree; None if it lies in none."""
+        path = str(path)
+        if path.startswith(WIRE):
+            return "proto"
+        inside = [room for room in self.rooms if path.startswith(room + "/")]
+        return max(inside, key=len, default=None)
+
+    def library_of(self, header):
+        """The library that a header comes from; None if no library has it."""
+        for name, library in self.libraries.items():
+            if header.startswith(tuple(library["headers"])):
+                return name
+        return None
+
+    def library_of_target(self, target):
+        for name, library in self.libraries.items():
+            if library["targets"] and target.startswith(tuple(library["targets"])):
+                return name
+        return None
+
+
+def includes(root, folders):
+    """(file, header) of each #include in the folders, files from the root of the tree."""
+    for folder in folders:
+        for path in sources_in(root / folder):
+            for header in INCLUDE.findall(path.read_text()):
+                yield path.relative_to(root).as_posix(), header
+
+
+def component_of(path):
+    """A header and its source are one component, and so is a -inl.h beside its header."""
+    return re.sub(r"(-inl)?\.(h|cc)$", "", path)
+
+
+def circles(root, folders):
+    """Lists of components that include each other, a header counted together with its source."""
+    files = {path.relative_to(root).as_posix() for folder in folders for path in sources_in(root / folder)}
+    graph = collections.defaultdict(set)
+    for path, header in includes(root, folders):
+        if header in files and component_of(header) != component_of(path):
+            graph[component_of(path)].add(component_of(header))
+
+    # Tarjan's algorithm, without recursion: a circle is a strongly connected part of more than one component.
+    index, low, on_path, path, found = {}, {}, set(), [], []
+    for start in sorted(graph):
+        if start in index:
+            continue
+        work = [(start, iter(sorted(graph[start])))]
+        index[start] = low[start] = len(index)
+        path.append(start)
+        on_path.add(start)
+        while work:
+            node, following = work[-1]
+            for other in following:
+                if other not in index:
+                    index[other] = low[other] = len(index)
+                    path.append(other)
+                    on_path.add(other)
+                    work.append((other, iter(sorted(graph[other]))))
+                    break
+                if other in on_path:
+                    low[node] = min(low[node], index[other])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
+                if low[node] == index[node]:
+                    part = []
+                    while not part or part[-1] != node:
+                        part.append(path.pop())
+                        on_path.discard(part[-1])
+                    if len(part) > 1:
+                        found.append(sorted(part))
+    return found
+
+
+def commands(text):
+    """(name, arguments) of each command of a CMake file; comments and quotes left out."""
+    text = re.sub(r"#[^\n]*", "", text)
+    for match in COMMAND.finditer(text):
+        depth, end = 1, match.end()
+        while depth and end < len(text):
+            depth += {"(": 1, ")": -1}.get(text[end], 0)
+            end += 1
+        yield match[1], text[match.end():end - 1].replace('"', "").split()
+
+
+class Targets:
+    """The libraries and programs that the CMake files of some folders make."""
+
+    def __init__(self, root, folders):
+        self.sources = collections.defaultdict(set)  # of each target, from the root of the tree
+        self.links = collections.defaultdict(set)
+        self.aliases = {}
+        for folder in folders:
+            for path in sorted((root / folder).rglob("CMakeLists.txt")):
+                self._read(root, path)
+
+    def _read(self, root, path):
+        for name, arguments in commands(path.read_text()):
+            if name == "add_library" and "ALIAS" in arguments:
+                self.aliases[arguments[0]] = arguments[-1]
+            elif name in ("add_library", "add_executable", "target_sources"):
+                for source in arguments[1:]:
+                    if source.endswith(".cc") and "$" not in source:
+                        file = (path.parent / source).resolve().relative_to(root.resolve())
+                        self.sources[arguments[0]].add(file.as_posix())
+            elif name == "target_link_libraries":
+                self.links[arguments[0]].update(
+                    word for word in arguments[1:] if word not in ("PUBLIC", "PRIVATE", "INTERFACE"))
+
+    def named(self, target):
+        return self.aliases.get(target, target)
