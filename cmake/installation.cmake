@@ -4,7 +4,6 @@ file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/shipped/
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
 install(FILES LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
-install(FILES docs/client.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/service/client)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Python package as it is: for pip, or for PYTHONPATH.
