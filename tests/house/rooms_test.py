@@ -116,6 +116,12 @@ class Rooms(unittest.TestCase):
             files = [path for path in folder.iterdir() if path.is_file()]
             self.assertLessEqual(len(files), MOST_FILES, f"{inside} is crowded: split it into rooms")
 
+    def test_are_mirrored_by_the_tests(self):
+        for path in house.sources_in(SOURCE / "tests"):
+            folder = path.relative_to(SOURCE / "tests").parent.as_posix()
+            if folder.split("/")[0] in FOLDERS and folder != "validation/physics":
+                self.assertTrue((SOURCE / folder).is_dir(), f"{path.relative_to(SOURCE)} mirrors no room")
+
     def test_say_who_lives_there(self):
         for room in LAW.rooms:
             readme = SOURCE / room / "README.md"
