@@ -14,9 +14,9 @@ namespace {
 using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedOutputStream;
 
-// What stands before the bytes of a field: its number and their length.
+// The header of a field of type bytes or message: field number and length.
 grpc::Slice Header(int field, std::size_t size) {
-  std::array<std::uint8_t, 10> bytes;  // Each of the two has 5 at most.
+  std::array<std::uint8_t, 10> bytes;  // Each of the two takes at most 5 bytes.
   std::uint8_t* end = CodedOutputStream::WriteTagToArray(
       WireFormatLite::MakeTag(field, WireFormatLite::WIRETYPE_LENGTH_DELIMITED), bytes.data());
   end = CodedOutputStream::WriteVarint32ToArray(static_cast<std::uint32_t>(size), end);
@@ -31,7 +31,8 @@ void ColumnMessage::Add(const google::protobuf::MessageLite& message) {
 
 char* ColumnMessage::AddColumn(int field, std::size_t size) {
   slices_.push_back(Header(field, size));
-  const grpc_slice column = grpc_slice_malloc_large(size);  // Never within the slice itself, which moves.
+  const grpc_slice column =
+      grpc_slice_malloc_large(size);  // Never stored inside the slice object, which moves.
   slices_.emplace_back(column, grpc::Slice::STEAL_REF);
   return reinterpret_cast<char*>(column.data.refcounted.bytes);
 }

@@ -1,5 +1,5 @@
-// Messages that are long columns and little else, written once: each column has memory of its own, which the
-// transport takes over, so that nothing is copied on the way.
+// Writes messages that consist mainly of long columns. Each column has its own memory, which the transport takes over,
+// so that nothing is copied.
 #pragma once
 
 #include <google/protobuf/message_lite.h>
@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// The bytes of a protobuf message in the making, field by field.
+// Builds the bytes of a protobuf message field by field.
 //
 // Example, a `QueryColumnsRequest` of depths:
 //   ColumnMessage request;
@@ -21,14 +21,14 @@ namespace albtpu {
 //   grpc::ByteBuffer bytes = request.Finish();
 class ColumnMessage {
  public:
-  // All fields that are set in `message`.
+  // Adds all fields that are set in `message`.
   void Add(const google::protobuf::MessageLite& message);
 
-  // A field of type bytes. The result is where to write them, before or after further fields are added; it is
-  // aligned for floats.
+  // Adds a field of type bytes and returns its memory, aligned for floats. It may be written before or after further
+  // fields are added.
   char* AddColumn(int field, std::size_t size);
 
-  // Makes one field, a message, of all fields that were added since `mark`.
+  // Nest() turns all fields added since `mark` into one field, a message.
   std::size_t Mark() const { return slices_.size(); }
   void Nest(int field, std::size_t mark);
 

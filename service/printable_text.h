@@ -1,4 +1,4 @@
-// Text from elsewhere, for a terminal or a log.
+// Makes text from other programs and files safe for a terminal or a log.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace albtpu {
 
-// `text` on one line and in UTF-8: control characters, with which a terminal could be told to do things, are
-// blanks, and what is no UTF-8 is U+FFFD.
+// `text` on one line and in UTF-8. Control characters, which a terminal might execute, become blanks; bytes that are
+// not UTF-8 become U+FFFD.
 std::string PrintableText(std::string_view text);
 
 }  // namespace albtpu

@@ -10,7 +10,7 @@
 namespace albtpu {
 namespace {
 
-// More than all authorities that a browser trusts.
+// More than the certificates of all authorities that a browser trusts.
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 }  // namespace
@@ -19,7 +19,7 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& flag, const std::fil
   const std::string where = absl::StrCat(flag, ": ", path.string());
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
-  if (is_folder) return absl::InvalidArgumentError(absl::StrCat(where, ": is a folder: name a file"));
+  if (is_folder) return absl::InvalidArgumentError(absl::StrCat(where, ": is a folder: expected a file"));
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) return absl::ErrnoToStatus(errno == 0 ? EIO : errno, where);
@@ -28,7 +28,8 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& flag, const std::fil
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (file.bad()) return absl::DataLossError(absl::StrCat(where, ": cannot be read"));
   if (text.size() <= kMaxBytes) return text;
-  return absl::InvalidArgumentError(absl::StrCat(where, ": has more than 1 MiB: is it the right file?"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(where, ": has more than 1 MiB; check that it is the right file"));
 }
 
 }  // namespace albtpu

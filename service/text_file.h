@@ -1,4 +1,4 @@
-// Small files of text that flags name: certificates, keys, tokens.
+// Reads small text files given by flags: certificates, keys, tokens.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace albtpu {
 
-// The whole of `path`, at most 1 MiB. `flag` begins the message of a failure.
+// The content of `path`, at most 1 MiB. Error messages begin with `flag`.
 absl::StatusOr<std::string> ReadTextFile(const std::string& flag, const std::filesystem::path& path);
 
 }  // namespace albtpu

@@ -1,4 +1,4 @@
-// albtpu-serve: answers from the tables of a folder until it is told to stop.
+// albtpu-serve: serves the tables of a folder over gRPC until a signal stops it.
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -18,11 +18,10 @@
 #include "service/server/access/credential_flags.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listen_address.h"
-#include "service/server/observe/call_log.h"
 #include "service/server/observe/log.h"
+#include "service/server/observe/metrics.h"
 #include "service/server/observe/metrics_endpoint.h"
-#include "service/server/observe/reload_log.h"
-#include "service/server/observe/server_metrics.h"
+#include "service/server/observe/records.h"
 #include "service/server/observe/table_metrics.h"
 #include "service/server/server.h"
 #include "service/server/tables/live_tables.h"
@@ -50,7 +49,7 @@ void AddFlags(CLI::App& app, Options& options) {
       "--version", absl::StrCat("albtpu-serve ", std::string(Version()), " (", std::string(Commit()), ")"));
   app.add_option(
          "--tables", options.tables,
-         "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else those installed)")
+         "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
       ->type_name("DIR");
   app.add_option("--default-table", options.default_table,
                  "Table for requests that name none (default: survey, else the only one)")
@@ -58,13 +57,14 @@ void AddFlags(CLI::App& app, Options& options) {
   app.add_option("--listen", options.listen, "Address to listen on; port 0 takes any free port")
       ->type_name("HOST:PORT")
       ->capture_default_str();
-  app.add_option("--metrics", options.metrics, "Address of metrics for Prometheus, http://HOST:PORT/metrics")
+  app.add_option("--metrics", options.metrics,
+                 "Address on which to serve metrics to Prometheus, http://HOST:PORT/metrics")
       ->type_name("HOST:PORT");
-  app.add_flag("--log-json", options.log_json, "Log one JSON object a line");
+  app.add_flag("--log-json", options.log_json, "Log one JSON object per line");
   AddCredentialFlags(app, options.credentials);
 }
 
-// Signals that tell the server something are waited for, in every thread that is started from here on.
+// Blocks the signals of the server in all threads started from here on; WaitForStop() receives them.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -75,12 +75,12 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-// Returns the signal that asks to stop; meanwhile each SIGHUP reloads the tables.
+// Waits for SIGTERM or SIGINT and returns it. Until then each SIGHUP reloads the tables.
 int WaitForStop(const sigset_t& signals, LiveTables& tables) {
   while (true) {
     const int signal = sigwaitinfo(&signals, nullptr);
     if (signal == SIGHUP) {
-      tables.Reload([](const LiveTables::Outcome&) {});
+      tables.Reload([](const LiveTables::ReloadResult&) {});
     } else if (signal > 0) {
       return signal;
     }
@@ -100,11 +100,12 @@ int Fail(int exit_code, const absl::Status& status) {
   return exit_code;
 }
 
-absl::Status About(const char* flag, const absl::Status& status) {
+// The same status with the flag before its message.
+absl::Status WithFlag(const char* flag, const absl::Status& status) {
   return status.ok() ? status : absl::Status(status.code(), absl::StrCat(flag, ": ", status.message()));
 }
 
-// Where to listen, as flags say it.
+// The addresses given by flags.
 struct Addresses {
   ListenAddress service;
   std::optional<ListenAddress> metrics;
@@ -112,39 +113,39 @@ struct Addresses {
 
 absl::StatusOr<Addresses> ReadAddresses(const Options& options) {
   const absl::StatusOr<ListenAddress> service = ListenAddress::Parse(options.listen);
-  if (!service.ok()) return About("--listen", service.status());
-  const absl::Status reach = CheckReach(*service, options.credentials);
-  if (!reach.ok()) return reach;
+  if (!service.ok()) return WithFlag("--listen", service.status());
+  const absl::Status service_status = CheckServiceAddress(*service, options.credentials);
+  if (!service_status.ok()) return service_status;
   if (!options.metrics.has_value()) return Addresses{*service, std::nullopt};
   const absl::StatusOr<ListenAddress> metrics = ListenAddress::Parse(*options.metrics);
-  if (!metrics.ok()) return About("--metrics", metrics.status());
-  const absl::Status metrics_reach = CheckReachOfMetrics(*metrics, options.credentials);
-  if (!metrics_reach.ok()) return metrics_reach;
+  if (!metrics.ok()) return WithFlag("--metrics", metrics.status());
+  const absl::Status metrics_status = CheckMetricsAddress(*metrics, options.credentials);
+  if (!metrics_status.ok()) return metrics_status;
   return Addresses{*service, *metrics};
 }
 
-Access AccessBy(const CredentialFiles& files, std::shared_ptr<grpc::ServerCredentials> credentials) {
-  const bool callers_are_known = !files.tokens.empty() || !files.certificates.client_ca.empty();
-  return {std::move(credentials), callers_are_known ? AdminCallers::kAll : AdminCallers::kOfThisMachine};
+Access MakeAccess(const CredentialFiles& files, std::shared_ptr<grpc::ServerCredentials> credentials) {
+  const bool callers_are_authenticated = !files.tokens.empty() || !files.certificates.client_ca.empty();
+  return {std::move(credentials), callers_are_authenticated ? AdminCallers::kAll : AdminCallers::kLocal};
 }
 
-// Until a signal asks to stop.
+// Serves until a signal stops it; returns the exit code.
 int Serve(TableCatalog catalog, const Addresses& addresses, Access access, ServerMetrics& metrics,
-          const CallRecords& records, const sigset_t& signals) {
-  LiveTables tables(std::move(catalog), [&metrics](const LiveTables::Outcome& outcome) {
-    metrics.reloads.Count(outcome);
-    LogReload(outcome);
+          const Recorders& recorders, const sigset_t& signals) {
+  LiveTables tables(std::move(catalog), [&metrics](const LiveTables::ReloadResult& result) {
+    metrics.reloads.Count(result);
+    LogReload(result);
   });
   const auto table_metrics = std::make_shared<TableMetrics>(tables);
   std::unique_ptr<MetricsEndpoint> endpoint;
   if (addresses.metrics.has_value()) {
     absl::StatusOr<std::unique_ptr<MetricsEndpoint>> started =
         MetricsEndpoint::Start(*addresses.metrics, {metrics.registry, table_metrics, metrics.process});
-    if (!started.ok()) return Fail(kExitFailure, About("--metrics", started.status()));
+    if (!started.ok()) return Fail(kExitFailure, WithFlag("--metrics", started.status()));
     endpoint = *std::move(started);
   }
   const absl::StatusOr<std::unique_ptr<Server>> server =
-      Server::Start(tables, records, addresses.service, std::move(access));
+      Server::Start(tables, recorders, addresses.service, std::move(access));
   if (!server.ok()) return Fail(kExitFailure, server.status());
   spdlog::info("ready on {}, {}", (*server)->address(), Summary(*tables.current()));
   if (endpoint != nullptr) spdlog::info("metrics on http://{}/metrics", endpoint->address());
@@ -161,33 +162,32 @@ int Run(const Options& options) {
   const sigset_t signals = BlockSignals();
   ServerMetrics metrics;
   CallLog call_log;
-  const CallRecords records = {metrics.calls, metrics.access, call_log};
+  const Recorders recorders = {metrics.calls, metrics.access, call_log};
   const CredentialFiles& files = options.credentials.files;
-  // Starts threads of gRPC, which must not take the signals.
+  // After BlockSignals(): this starts threads of gRPC, which must not receive the signals.
   const absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials =
-      MakeCredentials(files, records);
+      MakeCredentials(files, recorders);
   if (!credentials.ok()) return Fail(kExitFailure, credentials.status());
   const std::filesystem::path folder =
       options.tables.has_value() ? *options.tables : DefaultTablesDirectory();
   absl::StatusOr<TableCatalog> catalog = TableCatalog::Load(folder, options.default_table);
   if (!catalog.ok()) {
     return Fail(kExitFailure,
-                About(options.tables.has_value() ? "--tables" : "no --tables is given", catalog.status()));
+                WithFlag(options.tables.has_value() ? "--tables" : "no --tables given", catalog.status()));
   }
-  return Serve(*std::move(catalog), *addresses, AccessBy(files, *credentials), metrics, records, signals);
+  return Serve(*std::move(catalog), *addresses, MakeAccess(files, *credentials), metrics, recorders, signals);
 }
 
 int ParseAndRun(int argc, char** argv) {
   Options options;
-  CLI::App app("Answers with the uncertainty of lidar pulses from tables, over gRPC (albtpu.v1).",
-               "albtpu-serve");
+  CLI::App app("Serves the uncertainty of lidar pulses from tables over gRPC (albtpu.v1).", "albtpu-serve");
   AddFlags(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    spdlog::error("{}: --help lists the flags", error.what());
+    spdlog::error("{}; --help lists the flags", error.what());
     return kExitUsage;
   }
   if (options.log_json) spdlog::set_formatter(MakeLogFormatter(LogStyle::kJson));
@@ -198,12 +198,12 @@ int ParseAndRun(int argc, char** argv) {
 }  // namespace albtpu::server
 
 int main(int argc, char** argv) try {
-  // Debian's Abseil looks for cycles of locks at every lock that gRPC takes, some percent of a short call.
+  // Debian's Abseil checks for deadlocks whenever gRPC takes a lock, which costs a few percent of a short call.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   spdlog::set_default_logger(
       std::make_shared<spdlog::logger>("albtpu-serve", albtpu::server::MakeLogSink(STDERR_FILENO)));
   spdlog::set_formatter(albtpu::server::MakeLogFormatter(albtpu::server::LogStyle::kText));
-  // Neither a log that nobody reads any more nor one that may not grow ends the server.
+  // A closed log, or one that has reached its maximum size, must not stop the server.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   return albtpu::server::ParseAndRun(argc, argv);

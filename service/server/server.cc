@@ -12,13 +12,14 @@
 #include "absl/strings/str_cat.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listening_sockets.h"
-#include "service/server/observe/call_log.h"
+#include "service/server/observe/records.h"
 
 namespace albtpu::server {
 namespace {
 
-// Anyone who reaches the port can cause lines: no more of them are written than of those about calls.
-void LogAsOurs(gpr_log_func_args* message) {
+// Writes the errors of gRPC to our log. Anyone who reaches the port can cause them, so they are limited like lines
+// about calls.
+void LogGrpcMessage(gpr_log_func_args* message) {
   static CallLog log;
   if (message->severity != GPR_LOG_SEVERITY_ERROR) return;
   log.Write(spdlog::level::warn, absl::StrCat("gRPC: ", message->message), LogFields::object());
@@ -28,7 +29,7 @@ int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.
 
 void LimitConnections(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxCallsPerConnection);
-  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 1);  // Counts the calls of connections.
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 1);  // Counts the calls of each connection.
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxMetadataBytes);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, Milliseconds(kMaxHandshake));
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, Milliseconds(kMaxConnectionIdle));
@@ -50,7 +51,7 @@ void Configure(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   builder.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
   LimitConnections(builder);
-  // gRPC unpacks a message before it measures it: some kilobytes could become gigabytes.
+  // gRPC decompresses a message before it checks its size: some kilobytes could become gigabytes.
   builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
   builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
   builder.AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);
@@ -58,21 +59,21 @@ void Configure(grpc::ServerBuilder& builder) {
 
 }  // namespace
 
-Server::Server(LiveTables& tables, const CallRecords& records, Access access)
+Server::Server(LiveTables& tables, const Recorders& recorders, Access access)
     : credentials_(std::move(access.credentials)),
-      records_(records),
-      service_(tables, records_),
-      admin_(tables, records_, access.admin),
+      recorders_(recorders),
+      service_(tables, recorders_),
+      admin_(tables, recorders_, access.admin),
       health_({v1::UncertaintyService::service_full_name(), v1::AdminService::service_full_name()}) {}
 
-absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const CallRecords& records,
+absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const Recorders& recorders,
                                                       const ListenAddress& address, Access access) {
   absl::StatusOr<std::vector<ListeningSocket>> sockets = Listen(address);
   if (!sockets.ok()) {
     return absl::UnavailableError(absl::StrCat("cannot listen on ", sockets.status().message()));
   }
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  std::unique_ptr<Server> server(new Server(tables, records, std::move(access)));
+  std::unique_ptr<Server> server(new Server(tables, recorders, std::move(access)));
   grpc::ServerBuilder builder;
   Configure(builder);
   builder.RegisterService(&server->service_);
@@ -80,17 +81,18 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(LiveTables& tables, const 
   builder.RegisterService(&server->health_);
   auto acceptor = builder.experimental().AddExternalConnectionAcceptor(
       grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server->credentials_);
-  gpr_set_log_function(LogAsOurs);
+  gpr_set_log_function(LogGrpcMessage);
   server->server_ = builder.BuildAndStart();
   if (server->server_ == nullptr) return absl::InternalError("gRPC cannot start");
   server->address_ = address.WithPort(sockets->front().port());
-  server->gate_ = std::make_unique<ConnectionGate>(*std::move(sockets), std::move(acceptor), records.access);
+  server->gate_ =
+      std::make_unique<ConnectionGate>(*std::move(sockets), std::move(acceptor), recorders.access);
   server->watch_ = std::make_unique<ConnectionWatch>(
-      [gate = server->gate_.get(), records](const std::vector<Caller>& callers) {
-        for (const Caller& caller : gate->End(callers)) {
-          records.access.CountEndedConnection();
-          records.log.Write(spdlog::level::warn, "connection ended: it had more calls in memory than it may",
-                            {{"peer", ToText(caller)}});
+      [gate = server->gate_.get(), recorders](const std::vector<Caller>& callers) {
+        for (const Caller& caller : gate->Disconnect(callers)) {
+          recorders.access.CountEndedConnection();
+          recorders.log.Write(spdlog::level::warn, "connection closed (it had too many calls in memory)",
+                              {{"peer", ToText(caller)}});
         }
       });
   return server;

@@ -1,4 +1,4 @@
-// A listening server: the services of albtpu.v1 with health (grpc.health.v1) and reflection.
+// A running server: the services of albtpu.v1 with health (grpc.health.v1) and reflection.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -14,36 +14,36 @@
 #include "service/server/connections/connection_gate.h"
 #include "service/server/connections/connection_watch.h"
 #include "service/server/ground/listen_address.h"
-#include "service/server/observe/call_record.h"
+#include "service/server/observe/records.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
 
-// Who may call, and how.
+// Who may call the server, and how.
 struct Access {
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();  // credentials.h
-  AdminCallers admin = AdminCallers::kOfThisMachine;
+  AdminCallers admin = AdminCallers::kLocal;
 };
 
 class Server {
  public:
-  // Listens and answers from `tables`. These and what `records` refers to must outlive the server.
-  // Unavailable, with the reason, when it cannot listen.
-  static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const CallRecords& records,
+  // Listens and serves `tables`. These and the objects that `recorders` refers to must outlive the server. Unavailable,
+  // with the reason, if it cannot listen.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const Recorders& recorders,
                                                        const ListenAddress& address, Access access = {});
 
-  // HOST:PORT with the port that is listened on.
+  // HOST:PORT with the actual port.
   const std::string& address() const { return address_; }
 
-  // Says NOT_SERVING to those that ask for health, takes no new call, and returns when all calls under way
-  // have ended or kDrainTime has passed. Tables that are being reloaded are read to the end.
+  // Reports NOT_SERVING as its health, accepts no new call, and returns when all calls in progress have ended or
+  // kDrainTime has passed. A reload in progress is finished.
   void Drain();
 
  private:
-  Server(LiveTables& tables, const CallRecords& records, Access access);
+  Server(LiveTables& tables, const Recorders& recorders, Access access);
 
-  std::shared_ptr<grpc::ServerCredentials> credentials_;  // Outlive the listener.
-  const CallRecords records_;
+  std::shared_ptr<grpc::ServerCredentials> credentials_;  // Must outlive the listener.
+  const Recorders recorders_;
   UncertaintyService service_;
   AdminService admin_;
   HealthService health_;

@@ -1,4 +1,4 @@
-"""Certificates for tests, made by openssl."""
+"""Makes certificates for tests with openssl."""
 
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ def openssl(*arguments):
 
 
 class Authority:
-    """One that vouches for servers and clients, in a folder of its own."""
+    """A certificate authority for servers and clients, with its own folder."""
 
     def __init__(self, folder, name):
         self.folder = pathlib.Path(folder, name)
@@ -21,7 +21,7 @@ class Authority:
                 "-keyout", self.folder / "ca.key", "-out", self.certificate)
 
     def issue(self, name, days=1, hosts="DNS:localhost,IP:127.0.0.1"):
-        """The files of a certificate for `hosts` and of its key; it has expired where days are negative."""
+        """The files of a certificate for `hosts` and of its key. With negative `days` it has already expired."""
         request, key, certificate = (self.folder / (name + suffix) for suffix in (".csr", ".key", ".pem"))
         openssl("req", *NEW_KEY, "-subj", f"/CN={name}", "-addext", f"subjectAltName={hosts}",
                 "-keyout", key, "-out", request)

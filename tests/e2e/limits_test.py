@@ -1,4 +1,4 @@
-"""What albtpu-serve takes no more of, and how it says what is wrong with a request.
+"""Tests the limits of albtpu-serve, and how it reports errors in a request.
 
 Usage: limits_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
@@ -24,11 +24,11 @@ REFLECTION_THREADS = 16  # Of limits.h.
 
 
 class Limits(SecurityTest):
-    def test_close_connections_that_say_nothing(self):
+    def test_close_silent_connections(self):
         for flags in ((), self.tls()):
             host, port = self.serve(*flags).address.split(":")
             with socket.create_connection((host, int(port)), PATIENCE) as silent:
-                while silent.recv(4096):  # In plain text the server says first what it takes.
+                while silent.recv(4096):  # Without TLS, the server sends its settings first.
                     pass
         context = ssl.create_default_context(cafile=self.ca)
         context.set_alpn_protocols(["h2"])
@@ -37,7 +37,7 @@ class Limits(SecurityTest):
                 while silent.recv(4096):
                     pass
 
-    def test_close_connections_that_speak_something_else(self):
+    def test_close_connections_that_do_not_speak_http2(self):
         host, port = self.serve().address.split(":")
         with socket.create_connection((host, int(port)), PATIENCE) as browser:
             browser.sendall(b"GET / HTTP/1.1\r\nHost: there\r\n\r\n")
@@ -51,7 +51,7 @@ class Limits(SecurityTest):
             self.assertEqual(failure.exception.code(), code, failure.exception)
         return failure.exception
 
-    def test_refuse_messages_and_metadata_that_are_too_long(self):
+    def test_refuse_long_messages_and_metadata(self):
         server = self.serve()
         exhausted = grpc.StatusCode.RESOURCE_EXHAUSTED
         long = pb.QueryColumnsRequest(pulses=dict(depth=bytes(5 << 20)))
@@ -60,7 +60,7 @@ class Limits(SecurityTest):
         self.assert_refused(exhausted, server, short, metadata=[("note", "x" * 20000)])
         self.assertEqual(server.stop(signal.SIGTERM), 0)
 
-    def test_unpack_nothing(self):
+    def test_refuse_compressed_messages_without_decompressing_them(self):
         server = self.serve()
         bomb = pb.QueryColumnsRequest(pulses=dict(depth=bytes(256 << 20)))
         failure = self.assert_refused(grpc.StatusCode.UNIMPLEMENTED, server, bomb,
@@ -69,12 +69,12 @@ class Limits(SecurityTest):
         peak = int(re.search(r"VmHWM:\s+(\d+) kB", status)[1])
         self.assertLess(peak, 128 << 10, failure)
 
-    def test_give_few_threads_to_those_who_ask_what_there_is(self):
+    def test_bound_the_threads_of_reflection(self):
         server, streams = self.serve(), 3 * REFLECTION_THREADS
         with grpc.insecure_channel(server.address, [("grpc.enable_http_proxy", 0)]) as channel:
             reflect = channel.stream_stream("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")
             ended = threading.Event()
-            calls = [reflect(iter(ended.wait, True), timeout=PATIENCE) for _ in range(streams)]  # They ask nothing.
+            calls = [reflect(iter(ended.wait, True), timeout=PATIENCE) for _ in range(streams)]  # They send no request.
             refused = set()
             while len(refused) < streams - REFLECTION_THREADS:
                 refused = {call for call in calls if not call.is_active()}
@@ -84,14 +84,14 @@ class Limits(SecurityTest):
             ended.set()
         self.assertEqual(server.stop(signal.SIGTERM), 0)
 
-    def test_repeat_little_of_a_request_in_errors(self):
+    def test_repeat_only_a_short_part_of_a_request_in_errors(self):
         request = pb.QueryColumnsRequest(options=dict(table="ä" * 1_000_000))
         failure = self.assert_refused(grpc.StatusCode.NOT_FOUND, self.serve(), request)
         self.assertLess(len(failure.details()), 2000)
 
 
 class Errors(SecurityTest):
-    def test_name_all_fields_that_are_wrong(self):
+    def test_name_all_invalid_fields(self):
         request = pb.QueryColumnsRequest(
             pulses=dict(wind_speed=bytes(4), depth=bytes(12), incidence=bytes(8)))
         streamed = pb.StreamColumnsRequest(query=request)

@@ -1,4 +1,4 @@
-"""What albtpu-serve logs, and what it does not.
+"""Tests what albtpu-serve logs and what it does not.
 
 Usage: log_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 """
@@ -44,22 +44,22 @@ class Log(unittest.TestCase):
         self.addCleanup(channel.close)
         self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
 
-    def ask_in_vain(self, request_id):
-        """Asks for a table that is not there; returns the id that the server gives the call."""
+    def request_missing_table(self, request_id):
+        """Requests a table that does not exist; returns the id that the server gives the call."""
         with self.assertRaises(grpc.RpcError) as failure:
             self.stub.QueryColumns(columns(table="nowhere"), timeout=PATIENCE, wait_for_ready=True,
                                    metadata=[("x-request-id", request_id)] if request_id else None)
         return dict(failure.exception.trailing_metadata())["x-request-id"]
 
     def stop(self):
-        """Returns the lines of the log."""
+        """Stops the server and returns the lines of its log."""
         self.assertEqual(self.server.stop(signal.SIGTERM), 0)
         self.server.wait_for("stopped")
         return self.server.lines
 
-    def test_is_json_when_asked_for(self):
+    def test_is_json_on_request(self):
         self.serve("--log-json")
-        self.ask_in_vain(ID)
+        self.request_missing_table(ID)
         list(self.stub.StreamColumns(iter([pb.StreamColumnsRequest(query=columns())] * 3), timeout=PATIENCE))
         os.truncate(os.path.join(self.folder, "survey.h5"), 100)
         self.server.process.send_signal(signal.SIGHUP)
@@ -77,10 +77,10 @@ class Log(unittest.TestCase):
                          ("StreamColumns", "OK", 3, 12))
         self.assertGreater(streamed["seconds"], 0)
 
-    def test_has_the_id_of_the_caller_or_one_of_its_own(self):
+    def test_contains_the_id_of_the_caller_or_a_generated_one(self):
         self.serve("--log-json")
-        self.assertEqual(self.ask_in_vain(ID), ID)
-        made = [self.ask_in_vain(other) for other in ("", "a b", "x" * 65, "\"")]
+        self.assertEqual(self.request_missing_table(ID), ID)
+        made = [self.request_missing_table(other) for other in ("", "a b", "x" * 65, "\"")]
         for request_id in made:
             self.assertRegex(request_id, r"\A[0-9a-f]{16}\Z")
         self.assertEqual(len(set(made)), len(made))
@@ -88,7 +88,7 @@ class Log(unittest.TestCase):
         logged = [line["request_id"] for line in lines if "request_id" in line]
         self.assertEqual(logged, [ID, *made])
 
-    def test_does_not_tell_calls_that_went_well(self):
+    def test_omits_successful_calls(self):
         self.serve()
         for _ in range(50):
             self.stub.QueryColumns(columns(), timeout=PATIENCE, wait_for_ready=True)
@@ -97,19 +97,19 @@ class Log(unittest.TestCase):
     def test_cannot_be_flooded(self):
         self.serve("--log-json")
         for _ in range(1000):
-            self.ask_in_vain("")
+            self.request_missing_table("")
         calls = [json.loads(line) for line in self.stop() if "call failed" in line]
         self.assertLessEqual(sum(1 + line.get("lines_left_out", 0) for line in calls), 1000)
         per_second = {}
         for line in calls:
             second = line["time"][:19]
             per_second[second] = per_second.get(second, 0) + 1
-        # A second of the server may be parts of two of the clock.
+        # A second as counted by the server may extend over two seconds of the clock.
         self.assertLessEqual(max(per_second.values()), 200)
 
-    def test_is_for_people_without_a_flag(self):
+    def test_is_plain_text_by_default(self):
         self.serve()
-        self.ask_in_vain(ID)
+        self.request_missing_table(ID)
         self.assertRegex(self.stop()[1], r"\Aalbtpu-serve: call failed: there is no table 'nowhere'.* "
                                          rf"\[request_id={ID} method=QueryColumns code=NOT_FOUND .*\]\Z")
 

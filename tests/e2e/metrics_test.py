@@ -1,6 +1,6 @@
-"""The metrics of albtpu-serve, as Prometheus gets them, and what docs/monitoring makes of them.
+"""Tests the metrics of albtpu-serve as Prometheus receives them, and their use in docs/monitoring.
 
-What promtool (Debian package prometheus) checks is skipped without it.
+Tests that need promtool (Debian package prometheus) are skipped without it.
 
 Usage: metrics_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 """
@@ -31,7 +31,7 @@ from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
 MONITORING = pathlib.Path(PROTO_FOLDER).parent / "docs/monitoring"
 PROMTOOL = shutil.which("promtool")
 SAMPLE = re.compile(r'(\w+)(?:\{(.*)\})? (\S+)')
-needs_promtool = unittest.skipUnless(PROMTOOL, "there is no promtool: apt-get install prometheus")
+needs_promtool = unittest.skipUnless(PROMTOOL, "promtool is missing; apt-get install prometheus")
 
 
 def columns(depths, **options):
@@ -63,7 +63,7 @@ class Metrics(unittest.TestCase):
             return answer.read().decode()
 
     def samples(self):
-        """Values by name and labels, as they are written."""
+        """The samples by name and labels, as the server writes them."""
         lines = [line for line in self.fetch().splitlines() if line and not line.startswith("#")]
         matches = [SAMPLE.fullmatch(line) for line in lines]
         self.assertNotIn(None, matches)
@@ -76,7 +76,7 @@ class Metrics(unittest.TestCase):
     def ask(self, request):
         return self.stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=True)
 
-    def test_count_exactly_what_was_asked(self):
+    def test_count_calls_and_pulses_exactly(self):
         for _ in range(10):
             self.ask(columns([1, 2, 3]))
         self.ask(columns([1, -1, 1000, np.nan]))
@@ -96,7 +96,7 @@ class Metrics(unittest.TestCase):
             self.assertEqual(self.value("albtpu_answer_seconds_count", method=method), count)
             self.assertEqual(self.value("albtpu_calls_under_way", method=method), 0)
 
-    def test_name_the_tables_that_answer_and_count_reloads(self):
+    def test_name_the_tables_in_use_and_count_reloads(self):
         def digest():
             (labels,) = [dict(labels) for name, labels in self.samples() if name == "albtpu_table_info"]
             self.assertEqual((labels["name"], labels["default"]), ("survey", "true"))
@@ -113,7 +113,7 @@ class Metrics(unittest.TestCase):
             self.assertEqual(self.value("albtpu_reloads_total", result=result), count)
         self.assertEqual(self.value("albtpu_last_reload_successful"), 0)
 
-    def test_tell_of_the_process(self):
+    def test_describe_the_process(self):
         with open(f"/proc/{self.server.process.pid}/statm") as file:
             resident = int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
         self.assertLess(abs(self.value("process_resident_memory_bytes") / resident - 1), 0.2)
@@ -121,15 +121,15 @@ class Metrics(unittest.TestCase):
         self.assertLess(abs(self.value("process_open_fds") - descriptors), 5)
         self.assertGreater(self.value("process_cpu_seconds_total"), 0)
 
-    def test_are_all_that_dashboard_and_alerts_ask_for(self):
+    def test_include_all_that_dashboard_and_alerts_use(self):
         self.ask(columns([1]))
-        # Those of TLS are there with TLS.
+        # The metrics of TLS exist only with TLS.
         known = {name for name, _ in self.samples()} | {"up", "albtpu_certificate_expiry_timestamp_seconds"}
         with open(MONITORING / "grafana.json") as file:
             panels = json.load(file)["panels"]
-        asked = "\n".join(target["expr"] for panel in panels for target in panel["targets"])
-        asked += (MONITORING / "alerts.yaml").read_text()
-        names = set(re.findall(r"\b(?:albtpu|process)_[a-z_]+\b(?=[{\[) ]| ==)", asked))
+        used = "\n".join(target["expr"] for panel in panels for target in panel["targets"])
+        used += (MONITORING / "alerts.yaml").read_text()
+        names = set(re.findall(r"\b(?:albtpu|process)_[a-z_]+\b(?=[{\[) ]| ==)", used))
         self.assertGreater(len(names), 10)
         self.assertLessEqual(names, known)
         page = (MONITORING / "README.md").read_text()
@@ -137,7 +137,7 @@ class Metrics(unittest.TestCase):
             self.assertIn(f"`{name}`", page)
 
     @needs_promtool
-    def test_are_as_prometheus_wants_them(self):
+    def test_have_the_format_that_prometheus_expects(self):
         self.ask(columns([1]))
         check = subprocess.run([PROMTOOL, "check", "metrics"], input=self.fetch(), capture_output=True,
                                text=True)
@@ -149,13 +149,13 @@ class Metrics(unittest.TestCase):
             check = subprocess.run([PROMTOOL, *flags], cwd=MONITORING, capture_output=True, text=True)
             self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
 
-    def test_are_compared_with_the_limit_that_the_server_has(self):
+    def test_are_compared_with_the_limit_of_the_server(self):
         limits = (MONITORING.parents[1] / "service/server/ground/limits.h").read_text()
         most = sum(int(re.search(rf"int {name} = (\d+);", limits)[1])
                    for name in ("kMaxConnections", "kOwnDescriptors"))
         self.assertIn(f'clamp_max(process_max_fds{{job="albtpu"}}, {most})', (MONITORING / "alerts.yaml").read_text())
 
-    def test_want_an_address_that_is_free_and_of_this_machine(self):
+    def test_need_a_free_address_on_this_machine(self):
         taken = self.url.removeprefix("http://").removesuffix("/metrics")
         for address, exit_code, problem in ((taken, 1, "Address already in use"),
                                             ("0.0.0.0:0", 2, "--metrics"), ("9464", 2, "--metrics")):

@@ -1,4 +1,4 @@
-"""Names of this process and its children alone, in a namespace of mounts that nobody else sees."""
+"""Gives host names to this process and its children only, in a private mount namespace."""
 
 import ctypes
 import os
@@ -10,7 +10,7 @@ CLONE_NEWNS, CLONE_NEWUSER, MS_REC, MS_PRIVATE, MS_BIND = 0x20000, 0x10000000, 0
 
 
 def _enter(libc):
-    """Moves this process, which has no threads yet, to a namespace of mounts of its own."""
+    """Moves this process, which must not have threads yet, into its own mount namespace."""
     user, group = os.geteuid(), os.getegid()
     if libc.unshare(CLONE_NEWNS) != 0:
         if libc.unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0:
@@ -22,11 +22,11 @@ def _enter(libc):
 
 
 def give(names):
-    """`names` has the addresses of each name, which are looked up nowhere else. Ends the test if that cannot be."""
+    """Resolves each name in `names` to its addresses, and to nothing else. Skips the test if that is impossible."""
     libc = ctypes.CDLL(None, use_errno=True)
     libc.mount.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_char_p, ctypes.c_ulong, ctypes.c_void_p]
     lines = [f"{address} {name}" for name, addresses in names.items() for address in addresses]
-    # Who asks for addresses of version 6 as well is told at once that nobody is there.
+    # Queries for IPv6 addresses fail at once, because no name server listens at 127.0.0.1.
     files = {"/etc/hosts": "127.0.0.1 localhost\n" + "".join(line + "\n" for line in lines),
              "/etc/resolv.conf": "nameserver 127.0.0.1\noptions timeout:1 attempts:1\n"}
     with tempfile.TemporaryDirectory() as folder:
@@ -37,5 +37,5 @@ def give(names):
             target = os.path.realpath(path)
             ready = ready and libc.mount(str(source).encode(), target.encode(), None, MS_BIND, None) == 0
     if not ready:
-        print(f"skipped: names of our own need a namespace of mounts: {os.strerror(ctypes.get_errno())}")
+        print(f"skipped: private host names need a mount namespace ({os.strerror(ctypes.get_errno())})")
         sys.exit(77)

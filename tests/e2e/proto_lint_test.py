@@ -1,4 +1,4 @@
-"""The .proto files pass buf's STANDARD lint; skipped (exit code 77) where npx or what it fetches is missing.
+"""Checks the .proto files by the STANDARD rules of buf lint. Skipped (exit code 77) without npx or network.
 
 Usage: proto_lint_test.py PROTO_FOLDER
 """
@@ -13,10 +13,10 @@ BUF = ["npx", "--yes", "@bufbuild/buf@1"]
 
 def main():
     if shutil.which("npx") is None:
-        print("skipped: there is no npx (npm) to run buf with")
+        print("skipped: npx (npm), which runs buf, is missing")
         return SKIPPED
     if subprocess.run([*BUF, "--version"], capture_output=True).returncode != 0:
-        print("skipped: npx cannot get @bufbuild/buf, which takes a network or a cache of it")
+        print("skipped: npx cannot get @bufbuild/buf (needs a network or a cache)")
         return SKIPPED
     return subprocess.run([*BUF, "lint"], cwd=sys.argv[1]).returncode
 

@@ -1,4 +1,4 @@
-"""Tables are exchanged while albtpu-serve answers from them, and no call notices.
+"""Tests that tables can be replaced under albtpu-serve without any effect on calls in progress.
 
 Usage: reload_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 """
@@ -36,9 +36,9 @@ def columns(count):
 
 
 def read(answer):
-    """The digest and the one THU that all pulses of an answer have."""
+    """The digest, and the THU, which is the same for all pulses of an answer."""
     values = set(np.frombuffer(answer.sea_surface.thu, "<f4").tolist())
-    assert len(values) == 1, f"answers of two tables in one message: {values}"
+    assert len(values) == 1, f"one message has answers from two tables: {values}"
     return answer.table.digest, values.pop()
 
 
@@ -50,7 +50,7 @@ class ReloadTest(unittest.TestCase):
         self.tables = os.path.join(self.folder, "tables")
         os.mkdir(self.tables)
         for factor in (1, 2, 3):
-            subprocess.run([SYNTHETIC_TABLE, self.spare(factor), "--factor", str(factor)], check=True)
+            subprocess.run([SYNTHETIC_TABLE, self.source_of(factor), "--factor", str(factor)], check=True)
         self.put(1)
         self.server = Server(SERVE, "--tables", self.tables)
         self.addCleanup(self.server.__exit__)
@@ -59,14 +59,14 @@ class ReloadTest(unittest.TestCase):
         self.stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
         self.admin = admin_service_pb2_grpc.AdminServiceStub(channel)
 
-    def spare(self, factor):
+    def source_of(self, factor):
         return os.path.join(self.folder, f"{factor}.h5")
 
     def put(self, factor, name="survey"):
-        """The table of `factor` takes the place of `name`, all at once."""
+        """Replaces the table `name` by that of `factor`, atomically."""
         path = os.path.join(self.tables, name + ".h5")
         os.makedirs(os.path.dirname(path), exist_ok=True)
-        shutil.copy(self.spare(factor), path + ".new")
+        shutil.copy(self.source_of(factor), path + ".new")
         os.replace(path + ".new", path)
 
     def reload(self):
@@ -82,7 +82,7 @@ class ReloadTest(unittest.TestCase):
 
 
 class Load:
-    """Clients that ask without pause until they are stopped."""
+    """Clients that send requests without pause until they are stopped."""
 
     def __init__(self, address):
         self.address = address
@@ -123,7 +123,7 @@ class Load:
         answers = [read(message.answer)
                    for message in stub.StreamColumns(iter(requests), timeout=PATIENCE, wait_for_ready=True)]
         assert len(answers) == len(requests), f"{len(answers)} answers to {len(requests)} requests"
-        assert len(set(answers)) == 1, f"a stream had answers of two tables: {set(answers)}"
+        assert len(set(answers)) == 1, f"a stream has answers from two tables: {set(answers)}"
         self.count(answers[0])
 
     def stop(self):
@@ -133,7 +133,7 @@ class Load:
 
 
 class Reloads(ReloadTest):
-    def test_under_load_fail_and_mix_no_call(self):
+    def test_under_load_neither_fail_nor_mix_any_call(self):
         load = Load(self.server.address)
         self.addCleanup(load.stop)
         for i in range(RELOADS):
@@ -151,7 +151,7 @@ class Reloads(ReloadTest):
         (one,), (two,) = load.answered.values()
         self.assertAlmostEqual(max(one, two) / min(one, two), 2, places=5)
 
-    def test_by_a_signal_take_a_new_version(self):
+    def test_by_signal_load_a_new_version(self):
         self.put(1, "bay/1")
         self.assertEqual(self.reload(), {"bay/1": "LOADED", "survey": "KEPT"})
         first, thu = self.ask("bay")
@@ -161,16 +161,16 @@ class Reloads(ReloadTest):
         self.assertAlmostEqual(self.ask("bay")[1] / thu, 2, places=5)
         self.assertEqual(self.ask("bay/1"), (first, thu))
 
-    def test_with_a_broken_table_change_nothing(self):
+    def test_with_a_damaged_table_change_nothing(self):
         before = self.ask()
         path = os.path.join(self.tables, "survey.h5")
-        with open(self.spare(2), "rb") as file:
+        with open(self.source_of(2), "rb") as file:
             whole = file.read()
         middle = len(whole) // 2
         flipped = whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1:]
-        for broken in (whole[:-1], flipped, b"", b"not a table"):
+        for damaged in (whole[:-1], flipped, b"", b"not a table"):
             with open(path, "wb") as file:
-                file.write(broken)
+                file.write(damaged)
             with self.assertRaises(grpc.RpcError) as failure:
                 self.reload()
             self.assertEqual(failure.exception.code(), grpc.StatusCode.FAILED_PRECONDITION)
@@ -194,10 +194,10 @@ class Reloads(ReloadTest):
 
 
 class Callers(ReloadTest):
-    def test_from_elsewhere_are_refused(self):
+    def test_on_other_machines_are_refused(self):
         address = self.address_of_this_machine()
         if address is None:
-            self.skipTest("this machine has no address but its loopback")
+            self.skipTest("this machine has only loopback addresses")
         server = Server(SERVE, "--tables", self.tables, "--insecure", listen="0.0.0.0:0")
         self.addCleanup(server.__exit__)
         port = server.address.rpartition(":")[2]
@@ -208,10 +208,10 @@ class Callers(ReloadTest):
 
     @staticmethod
     def address_of_this_machine():
-        """One that is not of the loopback; None if there is none."""
+        """An address that is not a loopback address, or None."""
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
-                probe.connect(("192.0.2.1", 9))  # Sends nothing; 192.0.2.0/24 is documentation's (RFC 5737).
+                probe.connect(("192.0.2.1", 9))  # Sends nothing; 192.0.2.0/24 is for documentation (RFC 5737).
             except OSError:
                 return None
             address = probe.getsockname()[0]

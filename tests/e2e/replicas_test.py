@@ -1,4 +1,4 @@
-"""Several servers behind one name: clients take turns with them, and one that dies costs a retry, never a pulse.
+"""Tests several servers behind one name: clients use them in turn, and a failing server costs a retry, never a pulse.
 
 Usage: replicas_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
@@ -22,11 +22,11 @@ import numpy as np
 import albtpu
 from serving import PATIENCE, Server
 
-NAME = "replicas.test"  # A domain that never is (RFC 6761).
+NAME = "replicas.test"  # A domain reserved for tests (RFC 6761).
 ADDRESSES = ("127.0.0.1", "127.0.0.2")
 SERVE, SYNTHETIC_TABLE, QUERY = sys.argv[1:4]
-PULSES = 10_000_000  # From Python, some tenths of a second.
-LINES = 3_000_000  # Of CSV, a second or two.
+PULSES = 10_000_000  # A few tenths of a second from Python.
+LINES = 3_000_000  # A second or two of CSV.
 
 
 class Replica(Server):
@@ -35,10 +35,10 @@ class Replica(Server):
         self.metrics = re.search(r"http://\S+", self.wait_for("metrics on"))[0]
 
     def count(self, metric):
-        """The sum over the labels of a metric."""
+        """The sum of a metric over its labels."""
         lines = None
         while lines is None:
-            with contextlib.suppress(ConnectionResetError):  # By a busy server, which waits a second for a question.
+            with contextlib.suppress(ConnectionResetError):  # A busy server may close the connection after a second.
                 with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
                     lines = page.read().decode().splitlines()
         return sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith((metric + "{", metric + " ")))
@@ -62,7 +62,7 @@ class Replicas(unittest.TestCase):
 
     def setUp(self):
         self.replicas, port = [], 0
-        for address in ADDRESSES:  # Both at the port that was free for the first.
+        for address in ADDRESSES:  # Both use the port that was free for the first.
             replica = Replica(self.folder / "tables", f"{address}:{port}")
             self.addCleanup(replica.__exit__)
             self.replicas.append(replica)
@@ -70,13 +70,13 @@ class Replicas(unittest.TestCase):
         self.address = f"dns:///{NAME}:{port}"
 
     def busy_one(self):
-        """A replica that has answered some of what is asked, and not all."""
+        """A replica that has answered a part of the requests, but not all."""
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             for replica in self.replicas:
                 if replica.is_busy():
                     return replica
-        raise AssertionError("nobody is asked")
+        raise AssertionError("no replica is busy")
 
     def csv(self, output):
         command = [QUERY, "csv", "in.csv", output, "--server", self.address, "--wind-speed", "5", "--incidence", "10",
@@ -94,23 +94,23 @@ class Replicas(unittest.TestCase):
         self.assertTrue((self.folder / output).read_bytes() == undisturbed.read_bytes())
         self.assertEqual((self.folder / output).read_bytes().count(b"\n"), LINES + 1)
 
-    def test_take_turns(self):
+    def test_share_the_work(self):
         self.assert_written(self.csv("out.csv"), "out.csv")
         pulses = [replica.count("albtpu_pulses_total") for replica in self.replicas]
         self.assertEqual(sum(pulses), LINES)
-        self.assertGreater(min(pulses), 0.2 * LINES)  # Chunks are few.
+        self.assertGreater(min(pulses), 0.2 * LINES)  # There are only a few chunks.
 
     def test_answer_each_pulse_of_a_file_once_when_one_is_killed(self):
         asking = self.csv("killed.csv")
         self.busy_one().stop(signal.SIGKILL)
-        self.assertIsNone(asking.poll(), "the client was faster")
+        self.assertIsNone(asking.poll(), "the client finished first")
         self.assert_written(asking, "killed.csv")
 
     def test_answer_each_pulse_of_a_file_once_when_one_falls_silent(self):
         asking = self.csv("silent.csv")
         silent = self.busy_one()
-        silent.process.send_signal(signal.SIGSTOP)  # As when its machine has lost its network.
-        self.assertIsNone(asking.poll(), "the client was faster")
+        silent.process.send_signal(signal.SIGSTOP)  # Like a machine that has lost its network.
+        self.assertIsNone(asking.poll(), "the client finished first")
         self.assert_written(asking, "silent.csv")
         silent.process.send_signal(signal.SIGCONT)
 
@@ -121,7 +121,7 @@ class Replicas(unittest.TestCase):
             asking = threading.Thread(target=lambda: answers.append(service.query(**pulses)))
             asking.start()
             self.busy_one().stop(signal.SIGKILL)
-            self.assertTrue(asking.is_alive(), "the client was faster")
+            self.assertTrue(asking.is_alive(), "the client finished first")
             asking.join(PATIENCE)
             disturbed, = answers
             undisturbed = service.query(**pulses)

@@ -1,6 +1,6 @@
-"""What tests of who may talk to albtpu-serve share: certificates, clients, what refusals look like.
+"""Shared by tests of access to albtpu-serve: certificates, clients and checks of refusals.
 
-The paths of the programs are the arguments of the script that uses it: ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
+The script that imports this gets the paths of the programs as arguments: ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE
 ALBTPU_QUERY.
 """
 
@@ -38,7 +38,7 @@ class SecurityTest(unittest.TestCase):
         cls.token = secrets.token_hex(32)
 
     def file(self, name, text):
-        """A file whose content changes all at once."""
+        """Writes a file atomically."""
         path = self.folder / name
         (self.folder / "new").write_text(text)
         os.replace(self.folder / "new", path)
@@ -65,21 +65,21 @@ class SecurityTest(unittest.TestCase):
                               capture_output=True, text=True, timeout=PATIENCE)
 
     def metrics(self, server):
-        """The text that Prometheus gets from `server`."""
+        """The text that Prometheus receives from `server`."""
         url = server.wait_for("metrics on").split()[-1]
         no_proxy = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         with no_proxy.open(url, timeout=PATIENCE) as answer:
             return answer.read().decode()
 
     def wait_for_line(self, server, text):
-        """Until the log of `server` says so."""
+        """Waits until the log of `server` contains `text`."""
         end = time.monotonic() + PATIENCE
         while not any(text in line for line in server.lines):
             self.assertLess(time.monotonic(), end, server.lines)
             time.sleep(0.01)
 
     def assert_answers(self, server, **credentials):
-        """To the Python package and to albtpu-query."""
+        """The server answers both the Python package and albtpu-query."""
         token = credentials.pop("token", None)
         flags = [word for name, path in credentials.items() for word in (f"--tls-{name}", path)]
         if token:

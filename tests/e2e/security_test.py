@@ -1,6 +1,6 @@
-"""Who may talk to albtpu-serve, and who not: TLS, mutual TLS, tokens, and their files when they change.
+"""Tests who may call albtpu-serve: TLS, mutual TLS, tokens, and changes of their files.
 
-Clients are the Python package and albtpu-query.
+The clients are the Python package and albtpu-query.
 
 Usage: security_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
@@ -34,64 +34,65 @@ class Starting(SecurityTest):
         self.assertRegex(result.stderr, r"\Aalbtpu-serve: [^\n]+\n\Z")
         self.assertRegex(result.stderr, problem)
 
-    def test_takes_flags_that_belong_together(self):
+    def test_requires_flags_that_belong_together(self):
         self.assert_fails(2, "--tls-cert requires --tls-key", "--tls-cert", self.certificate)
         self.assert_fails(2, "--tls-key requires --tls-cert", "--tls-key", self.key)
         self.assert_fails(2, "--tls-client-ca requires --tls-cert", "--tls-client-ca", self.ca)
         self.assert_fails(2, "--token-file requires --tls-cert", "--token-file", self.key)
         self.assert_fails(2, "--tls-cert: is empty", "--tls-cert", "", "--tls-key", self.key)
 
-    def test_wants_certificates_that_can_be_used(self):
+    def test_requires_usable_certificates(self):
         expired, its_key = self.authority.issue("expired", days=-1)
         nothing, junk = self.folder / "nothing.pem", self.file("junk.pem", "junk")
         self.assert_fails(1, "--tls-cert: .*nothing.pem: No such file", *self.tls(certificate=nothing))
         self.assert_fails(1, "--tls-key: .*tables: is a folder", *self.tls(key=self.folder / "tables"))
         self.assert_fails(1, "--tls-cert: .*junk.pem: holds no certificate", *self.tls(certificate=junk))
         self.assert_fails(1, "--tls-key: .*junk.pem: holds no key", *self.tls(key=junk))
-        self.assert_fails(1, "client.key: is not the key of .*server.pem", *self.tls(key=self.client["key"]))
+        self.assert_fails(1, "client.key: is not the key of the certificate in .*server.pem",
+                          *self.tls(key=self.client["key"]))
         self.assert_fails(1, "expired.pem: the certificate expired on",
                           *self.tls(certificate=expired, key=its_key))
         self.assert_fails(1, "--tls-client-ca: .*junk.pem", *self.tls("--tls-client-ca", junk))
         weak, its_key = self.folder / "weak.pem", self.folder / "weak.key"
         openssl("req", "-x509", "-newkey", "rsa:1024", "-nodes", "-subj", "/CN=weak", "-keyout", its_key,
                 "-out", weak)
-        self.assert_fails(1, "--tls-cert: .*weak.pem: TLS refuses it .*: RSA of 2048 bits or more is right",
+        self.assert_fails(1, "--tls-cert: .*weak.pem: TLS refuses it .*: expected RSA with 2048 bits or more",
                           *self.tls(certificate=weak, key=its_key))
 
-    def test_wants_tokens_that_cannot_be_guessed(self):
+    def test_requires_tokens_that_cannot_be_guessed(self):
         for text, problem in (("", "holds no token"), ("short", "line 1 has 5 characters"),
-                              ("two words of some length", "line 1 is no token")):
+                              ("two words of some length", "line 1 is not a token")):
             self.assert_fails(1, f"--token-file: .*bad.tokens: {problem}",
                               *self.tls("--token-file", self.file("bad.tokens", text)))
 
-    def test_may_listen_beyond_this_machine_with_tls(self):
+    def test_allows_addresses_beyond_this_machine_with_tls(self):
         server = self.serve(*self.tls(), listen="0.0.0.0:0")
         server.address = server.address.replace("0.0.0.0", "127.0.0.1")
         self.assert_answers(server, ca=self.ca)
 
 
 class OneWay(SecurityTest):
-    """TLS by which the client knows the server."""
+    """TLS in which only the server shows a certificate."""
 
-    def test_answers_those_that_trust_it(self):
+    def test_answers_clients_that_trust_the_server(self):
         self.assert_answers(self.serve(*self.tls()), ca=self.ca)
 
-    def test_speaks_no_plain_text(self):
+    def test_refuses_plain_text(self):
         server = self.serve(*self.tls())
         self.assert_refuses(server, "UNAVAILABLE", "speaks TLS")
         self.assert_answers(server, ca=self.ca)
 
-    def test_is_not_trusted_by_those_that_know_another_authority(self):
+    def test_is_not_trusted_by_clients_of_another_authority(self):
         self.assert_refuses(self.serve(*self.tls()), "UNAVAILABLE", "", ca=self.stranger.certificate)
 
-    def test_is_not_trusted_under_another_name(self):
+    def test_is_not_trusted_for_another_host_name(self):
         certificate, key = self.authority.issue("elsewhere", hosts="DNS:elsewhere.example")
         server = self.serve(*self.tls(certificate=certificate, key=key))
         self.assert_refuses(server, "UNAVAILABLE", "", ca=self.ca)
 
-    def test_is_not_trusted_once_its_certificate_has_expired(self):
+    def test_is_not_trusted_after_its_certificate_has_expired(self):
         certificate, key = self.authority.issue("late", days=-1)
-        server = grpc.server(futures.ThreadPoolExecutor(1))  # Ours does not start with one.
+        server = grpc.server(futures.ThreadPoolExecutor(1))  # albtpu-serve refuses to start with one.
         pair = key.read_bytes(), certificate.read_bytes()
         port = server.add_secure_port("127.0.0.1:0", grpc.ssl_server_credentials([pair]))
         server.address = f"127.0.0.1:{port}"
@@ -99,7 +100,7 @@ class OneWay(SecurityTest):
         self.addCleanup(server.stop, None)
         self.assert_refuses(server, "UNAVAILABLE", "", ca=self.ca)
 
-    def test_speaks_no_old_tls(self):
+    def test_refuses_old_versions_of_tls(self):
         host, port = self.serve(*self.tls()).address.split(":")
         context = ssl.create_default_context(cafile=self.ca)
         context.minimum_version, context.maximum_version = ssl.TLSVersion.TLSv1, ssl.TLSVersion.TLSv1_1
@@ -110,7 +111,7 @@ class OneWay(SecurityTest):
 
 
 class Asking(SecurityTest):
-    """albtpu-query, of flags and files that are not right."""
+    """Errors of albtpu-query about flags and files."""
 
     def assert_fails(self, exit_code, problem, *flags):
         result = subprocess.run([QUERY, "pulse", *PULSE_FLAGS, *flags], capture_output=True, text=True,
@@ -118,31 +119,31 @@ class Asking(SecurityTest):
         self.assertEqual(result.returncode, exit_code, result.stderr)
         self.assertRegex(result.stderr, problem)
 
-    def test_takes_flags_that_belong_together(self):
+    def test_requires_flags_that_belong_together(self):
         server = "--server", "localhost:1"
         self.assert_fails(2, "--tls-ca requires --server", "--tls-ca", self.ca)
         self.assert_fails(2, "--tls-cert requires --tls-key", *server, "--tls-cert", self.client["cert"])
         self.assert_fails(2, "--tls-key requires --tls-cert", *server, "--tls-key", self.client["key"])
 
-    def test_wants_files_that_can_be_used(self):
+    def test_requires_usable_files(self):
         server = "--server", "localhost:1"
         self.assert_fails(1, "--tls-ca: .*nowhere: No such file", *server, "--tls-ca", self.folder / "nowhere")
         self.assert_fails(1, "--token-file: .*one token", *server, "--token-file", self.file("none", "\n"))
 
 
 class BothWays(SecurityTest):
-    """Mutual TLS: the server knows its clients as well."""
+    """Mutual TLS: clients show certificates as well."""
 
     def setUp(self):
         self.server = self.serve(*self.tls("--tls-client-ca", self.ca))
 
-    def test_answers_those_it_knows(self):
+    def test_answers_clients_with_a_certificate(self):
         self.assert_answers(self.server, ca=self.ca, **self.client)
 
-    def test_refuses_all_others(self):
+    def test_refuses_all_other_clients(self):
         others = {"no certificate": {}}
-        for what, issued in (("a stranger's", self.stranger.issue("client")),
-                             ("an expired", self.authority.issue("expired_client", days=-1))):
+        for what, issued in (("certificate of another authority", self.stranger.issue("client")),
+                             ("expired certificate", self.authority.issue("expired_client", days=-1))):
             others[what] = dict(zip(("cert", "key"), issued))
         for what, shown in others.items():
             with self.subTest(what):
@@ -157,32 +158,32 @@ class Tokens(SecurityTest):
         self.tokens = self.file("tokens", self.token + "\n")
         self.server = self.serve(*self.tls("--token-file", self.tokens), "--metrics", "127.0.0.1:0")
 
-    def test_open_the_service(self):
+    def test_grant_access(self):
         self.assert_answers(self.server, ca=self.ca, token=self.token)
 
-    def test_are_asked_for(self):
-        self.assert_refuses(self.server, "UNAUTHENTICATED", "brings no token", ca=self.ca)
+    def test_are_required(self):
+        self.assert_refuses(self.server, "UNAUTHENTICATED", "has no token", ca=self.ca)
 
-    def test_must_be_right(self):
+    def test_must_match(self):
         for wrong in (secrets.token_hex(32), self.token[:-1], self.token + "0", self.token.upper()):
-            self.assert_refuses(self.server, "UNAUTHENTICATED", "none of those", ca=self.ca, token=wrong)
+            self.assert_refuses(self.server, "UNAUTHENTICATED", "the token is not accepted", ca=self.ca, token=wrong)
 
-    def test_leave_a_trace_when_they_are_refused(self):
+    def test_are_logged_and_counted_when_refused(self):
         wrong = secrets.token_hex(32)
         with self.channel() as channel:
             for metadata in ((), (("authorization", f"Bearer {wrong}"), ("x-request-id", "flight-7"))):
                 with self.assertRaises(grpc.RpcError):
                     UncertaintyServiceStub(channel).ListTables(pb.ListTablesRequest(), timeout=PATIENCE,
                                                                metadata=metadata)
-        self.server.wait_for("call refused: the call brings no token")
-        line = self.server.wait_for("call refused: the token is none of those")
+        self.server.wait_for("call refused: the call has no token")
+        line = self.server.wait_for("call refused: the token is not accepted")
         self.assertIn("method=ListTables code=UNAUTHENTICATED request_id=flight-7", line)
         self.assertNotIn(wrong, "\n".join(self.server.lines))
         metrics = self.metrics(self.server)
         self.assertIn('albtpu_refused_calls_total{reason="no token"} 1\n', metrics)
         self.assertIn('albtpu_refused_calls_total{reason="wrong token"} 1\n', metrics)
 
-    def test_are_asked_for_by_streams_and_by_reflection(self):
+    def test_are_required_for_streams_and_reflection(self):
         with self.channel() as channel:
             stream = UncertaintyServiceStub(channel).StreamColumns(iter([]), timeout=PATIENCE)
             reflection = channel.stream_stream(REFLECTION)(iter([]), timeout=PATIENCE)
@@ -191,18 +192,18 @@ class Tokens(SecurityTest):
                     next(call)
                 self.assertEqual(failure.exception.code(), grpc.StatusCode.UNAUTHENTICATED)
 
-    def test_are_not_asked_for_by_health(self):
+    def test_are_not_required_for_health(self):
         with self.channel() as channel:
             self.assertEqual(channel.unary_unary(HEALTH)(b"", timeout=PATIENCE), b"\x08\x01")  # SERVING
 
-    def test_change_with_their_file(self):
+    def test_follow_changes_of_their_file(self):
         other = secrets.token_hex(32)
         self.file("tokens", f"{self.token}\n{other}\n")
         self.assert_answers(self.server, ca=self.ca, token=self.token)
         self.assert_answers(self.server, ca=self.ca, token=other)
         self.file("tokens", other)
-        self.assert_refuses(self.server, "UNAUTHENTICATED", "none of those", ca=self.ca, token=self.token)
-        self.file("tokens", "")  # Not right: what was read before holds.
+        self.assert_refuses(self.server, "UNAUTHENTICATED", "the token is not accepted", ca=self.ca, token=self.token)
+        self.file("tokens", "")  # Invalid: the previous tokens stay in use.
         self.assert_answers(self.server, ca=self.ca, token=other)
         self.wait_for_line(self.server, "tokens: holds no token")
         self.assertNotIn(other, "\n".join(self.server.lines))
@@ -213,7 +214,7 @@ class Tokens(SecurityTest):
 
 
 class Rotation(SecurityTest):
-    """Files are replaced while the server runs, and no call fails."""
+    """Files are replaced while the server runs, without any failed call."""
 
     def setUp(self):
         self.copies = {name: self.copy(path, f"rotating.{name}") for name, path in (
@@ -223,29 +224,29 @@ class Rotation(SecurityTest):
                       key=self.copies["key"]), "--metrics", "127.0.0.1:0")
 
     def shown(self):
-        """The certificate that the server shows to a new connection."""
+        """The certificate that the server shows on a new connection."""
         host, port = self.server.address.split(":")
         context = ssl.create_default_context(cafile=self.ca)
         context.load_cert_chain(self.client["cert"], self.client["key"])
         context.set_alpn_protocols(["h2"])
         with socket.create_connection((host, int(port)), PATIENCE) as plain:
-            with context.wrap_socket(plain, server_hostname=host) as talk:
-                return ssl.DER_cert_to_PEM_cert(talk.getpeercert(binary_form=True))
+            with context.wrap_socket(plain, server_hostname=host) as secure:
+                return ssl.DER_cert_to_PEM_cert(secure.getpeercert(binary_form=True))
 
-    def test_of_the_certificate_takes_no_restart(self):
+    def test_of_the_certificate_needs_no_restart(self):
         old = self.connect(self.server, ca=self.ca, **self.client)
         old.tables()
         self.assertEqual(self.shown(), self.certificate.read_text())
         certificate, key = self.authority.issue("renewed")
         self.copy(key, "rotating.key")
-        self.assertEqual(self.shown(), self.certificate.read_text())  # Half replaced: the old pair holds.
+        self.assertEqual(self.shown(), self.certificate.read_text())  # Half replaced: the old pair stays in use.
         self.wait_for_line(self.server, "is not the key of")
         self.copy(certificate, "rotating.certificate")
         self.assertEqual(self.shown(), certificate.read_text())
         old.tables()
         self.assert_answers(self.server, ca=self.ca, **self.client)
 
-    def test_is_due_when_the_metrics_say(self):
+    def test_updates_the_expiry_in_the_metrics(self):
         def expiry():
             return float(re.search(r"^albtpu_certificate_expiry_timestamp_seconds (\S+)$",
                                    self.metrics(self.server), re.MULTILINE)[1])
@@ -261,14 +262,14 @@ class Rotation(SecurityTest):
         self.assertEqual(expiry(), end(certificate))
         self.assertGreater(end(certificate), end(self.certificate))
 
-    def test_survives_files_that_are_gone_or_wrong(self):
+    def test_survives_missing_and_invalid_files(self):
         self.copies["certificate"].unlink()
         self.assert_answers(self.server, ca=self.ca, **self.client)
         self.file("rotating.certificate", "junk")
         self.assert_answers(self.server, ca=self.ca, **self.client)
         self.assertEqual(self.shown(), self.certificate.read_text())
 
-    def test_of_the_authority_of_clients_shuts_out_the_old_ones(self):
+    def test_of_the_client_authority_shuts_out_old_clients(self):
         self.assert_answers(self.server, ca=self.ca, **self.client)
         self.copy(self.stranger.certificate, "rotating.ca")
         self.assert_refuses(self.server, "UNAVAILABLE", "", ca=self.ca, **self.client)

@@ -1,4 +1,4 @@
-"""albtpu-serve as a program: flags, exit codes, signals, health and reflection.
+"""Tests albtpu-serve as a program: flags, exit codes, signals, health and reflection.
 
 Usage: serve_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 """
@@ -25,7 +25,7 @@ STUBS = make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
                      for name in ("pulse", "table", "uncertainty", "uncertainty_service")),
                    (PROTO_FOLDER, "grpc/health/v1/health.proto"),
                    (os.path.dirname(os.path.abspath(__file__)), "reflection.proto"))
-# gRPC's Python package has the name of the package of the health protocol, and hides it.
+# The Python package of gRPC has the same name as the package of the health protocol, and hides it.
 grpc.__path__.append(os.path.join(STUBS, "grpc"))
 from grpc.health.v1 import health_pb2, health_pb2_grpc  # noqa: E402
 from albtpu.v1 import uncertainty_service_pb2, uncertainty_service_pb2_grpc  # noqa: E402
@@ -65,27 +65,27 @@ class ServeTest(unittest.TestCase):
 
 
 class Flags(ServeTest):
-    def test_bad_ones_are_bad_usage(self):
+    def test_that_are_invalid_are_usage_errors(self):
         self.assert_fails(2, "--nonsense", "--nonsense")
         self.assert_fails(2, "--listen", "--listen")
         self.assert_fails(2, "HOST:PORT", "--tables", self.tables, "--listen", "50051")
         self.assert_fails(2, "word", "--tables", self.tables, "word")
 
-    def test_plain_text_stays_on_this_machine_unless_insecure(self):
+    def test_allow_plain_text_beyond_this_machine_only_with_insecure(self):
         self.assert_fails(2, "--insecure", "--tables", self.tables, "--listen", "0.0.0.0:0")
         server = self.serve("--insecure", listen="0.0.0.0:0")
         self.assertTrue(server.address.startswith("0.0.0.0:"))
 
-    def test_localhost_and_ipv6_are_addresses(self):
-        for host in filter(self.is_of_this_machine, ("localhost", "::1")):
+    def test_accept_localhost_and_ipv6_addresses(self):
+        for host in filter(self.exists_on_this_machine, ("localhost", "::1")):
             host = f"[{host}]" if ":" in host else host
             server = self.serve(listen=host + ":0")
             with connect(server.address) as channel:
                 self.assertEqual(check_health(channel, ""), SERVING)
 
     @staticmethod
-    def is_of_this_machine(host):
-        """Containers may lack IPv6, and a root without /etc/hosts the name localhost."""
+    def exists_on_this_machine(host):
+        """Containers may lack IPv6, and a file system without /etc/hosts lacks the name localhost."""
         try:
             family, kind, _, _, address = socket.getaddrinfo(host, 0, type=socket.SOCK_STREAM)[0]
             with socket.socket(family, kind) as probe:
@@ -94,7 +94,7 @@ class Flags(ServeTest):
         except OSError:
             return False
 
-    def test_version_and_help_go_to_standard_output(self):
+    def test_print_version_and_help_to_standard_output(self):
         version = subprocess.run([SERVE, "--version"], capture_output=True, text=True, check=True)
         self.assertRegex(version.stdout, r"\Aalbtpu-serve \d+\.\d+\.\d+ \(\S+\)\n\Z")
         help_text = subprocess.run([SERVE, "--help"], capture_output=True, text=True, check=True)
@@ -113,7 +113,7 @@ class Tables(ServeTest):
         self.make_table("slow.h5")
         self.assertIn("2 tables, no default", self.serve().lines[0])
 
-    def test_must_be_there_and_whole(self):
+    def test_must_exist_and_be_intact(self):
         self.assert_fails(1, "nowhere", "--tables", os.path.join(self.folder, "nowhere"))
         os.mkdir(os.path.join(self.folder, "empty"))
         self.assert_fails(1, "there is no table in", "--tables", os.path.join(self.folder, "empty"))
@@ -122,7 +122,7 @@ class Tables(ServeTest):
         os.truncate(path, os.path.getsize(path) - 1)
         self.assert_fails(1, "quick.h5", "--tables", self.tables)
 
-    def test_are_found_by_the_environment(self):
+    def test_are_found_through_the_environment(self):
         server = Server(SERVE, environment={"ALBTPU_TABLES": self.tables})
         self.addCleanup(server.__exit__)
         self.assertIn("default 'quick'", server.lines[0])
@@ -152,7 +152,7 @@ class Signals(ServeTest):
             server = self.serve()
             self.assertEqual(server.stop(number), 0)
 
-    def test_let_calls_under_way_end(self):
+    def test_let_calls_in_progress_finish(self):
         server = self.serve()
         clients = [BusyClient(server.address) for _ in range(3)]
         for client in clients:
@@ -160,10 +160,10 @@ class Signals(ServeTest):
         self.assertEqual(server.stop(signal.SIGTERM), 0)
         for client in clients:
             client.thread.join(PATIENCE)
-            # Cancelled: a call that reached the server in the very moment of the signal.
+            # A call that reaches the server at the moment of the signal is cancelled.
             self.assertIn(client.failure.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED))
 
-    def test_let_streams_end_whole(self):
+    def test_let_streams_finish(self):
         server = self.serve()
         request = uncertainty_service_pb2.StreamColumnsRequest(query=BusyClient.request())
         signalled = threading.Event()
@@ -184,7 +184,7 @@ class Signals(ServeTest):
             self.assertEqual(len(list(answers)), 7)
         self.assertEqual(server.process.wait(PATIENCE), 0)
 
-    def test_wait_for_no_stream_that_does_not_end(self):
+    def test_do_not_wait_for_a_stream_that_does_not_end(self):
         server = self.serve()
         request = uncertainty_service_pb2.StreamColumnsRequest(query=BusyClient.request())
         never = threading.Event()
@@ -203,7 +203,7 @@ class Signals(ServeTest):
                 next(answers)
             self.assertIn(failure.exception.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED))
 
-    def test_are_heeded_when_nobody_reads_the_log(self):
+    def test_work_when_nobody_reads_the_log(self):
         reader, writer = os.pipe()
         process = subprocess.Popen([SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0"], stderr=writer)
         os.close(writer)
@@ -212,12 +212,12 @@ class Signals(ServeTest):
         process.terminate()
         self.assertEqual(process.wait(PATIENCE), 0)
 
-    def test_and_calls_are_heeded_when_the_log_is_full(self):
+    def test_and_calls_work_when_the_log_is_full(self):
         reader, writer = os.pipe()
         process = subprocess.Popen([SERVE, "--tables", self.tables, "--listen", "127.0.0.1:0"], stderr=writer)
         os.close(writer)
         address = READY.search(os.read(reader, 4096).decode())[1]
-        lines = fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096) // 50  # No line is shorter.
+        lines = fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096) // 50  # Lines are at least that long.
         with connect(address) as channel:
             stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
             for _ in range(lines):
@@ -227,9 +227,9 @@ class Signals(ServeTest):
         process.terminate()
         self.assertEqual(process.wait(PATIENCE), 0)
         with os.fdopen(reader) as log:
-            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out: nobody read the log\n")
+            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out \(nobody read the log\)\n")
 
-    def test_are_told_to_those_that_watch_its_health(self):
+    def test_are_reported_to_watchers_of_its_health(self):
         server = self.serve()
         with connect(server.address) as channel:
             watch = health_pb2_grpc.HealthStub(channel).Watch(health_pb2.HealthCheckRequest(service=SERVICE),
@@ -240,7 +240,7 @@ class Signals(ServeTest):
 
 
 class BusyClient:
-    """Asks for large batches, one after the other, until a call fails."""
+    """Sends large batches, one after the other, until a call fails."""
 
     PULSES = 65536
 
@@ -276,7 +276,7 @@ def check_health(channel, service):
 
 
 class Health(ServeTest):
-    def test_is_served_for_the_server_and_the_service(self):
+    def test_covers_the_server_and_the_service(self):
         with connect(self.serve().address) as channel:
             self.assertEqual(check_health(channel, ""), SERVING)
             self.assertEqual(check_health(channel, SERVICE), SERVING)

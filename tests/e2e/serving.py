@@ -1,4 +1,4 @@
-"""Runs albtpu-serve for a test, and makes clients of it from the .proto files alone."""
+"""Runs albtpu-serve for a test, and makes clients for it from the .proto files alone."""
 
 import atexit
 import json
@@ -14,12 +14,12 @@ import threading
 import grpc
 
 READY = re.compile(r"ready on (\S+), \d+ tables?, (default '.+'|no default)")
-ALLOWANCE = int(os.environ.get("ALBTPU_ALLOWANCE", "1"))  # So many times the time and memory, under sanitizers.
-PATIENCE = 60 * ALLOWANCE  # Seconds that a loaded machine may need for what takes milliseconds.
+ALLOWANCE = int(os.environ.get("ALBTPU_ALLOWANCE", "1"))  # Factor for time and memory, which sanitizers need.
+PATIENCE = 60 * ALLOWANCE  # Seconds: on a loaded machine, milliseconds may become that long.
 
 
 def make_stubs(*protos):
-    """Makes modules of `protos`, pairs of an import folder and a path in it, and makes them importable.
+    """Generates importable modules from `protos`, pairs of an import folder and a path in it.
 
     Returns the folder of the modules.
     """
@@ -33,19 +33,19 @@ def make_stubs(*protos):
 
 
 def connect(address):
-    # A proxy in the environment does not know our loopback.
+    # A proxy from the environment cannot reach our loopback.
     return grpc.insecure_channel(address, options=[("grpc.enable_http_proxy", 0)])
 
 
 def message_of(line):
-    """Of a line of the log, in either style."""
+    """The message of a log line in either style."""
     if line.startswith("{"):
         return json.loads(line)["message"]
     return line.removeprefix("albtpu-serve: ")
 
 
 class Server:
-    """A running albtpu-serve on a free port; `prefix` is a command that becomes it."""
+    """A running albtpu-serve on a free port. `prefix` is a command that executes the server."""
 
     def __init__(self, program, *flags, listen="127.0.0.1:0", environment=None, prefix=()):
         self.process = subprocess.Popen([*prefix, program, "--listen", listen, *flags], stderr=subprocess.PIPE,
@@ -73,10 +73,10 @@ class Server:
                 self.logged.notify_all()
             if len(self.lines) == 1:
                 first_line.put(self.lines[0])
-        first_line.put("albtpu-serve said nothing")
+        first_line.put("albtpu-serve wrote nothing")
 
     def wait_for(self, text, times=1):
-        """Returns the first line of the log that holds `text`, once there are so many."""
+        """Waits until `times` lines of the log contain `text`; returns the first of them."""
         def found():
             return [line for line in self.lines if text in line]
         with self.logged:

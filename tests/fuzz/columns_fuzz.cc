@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/server/calls/byte_answers.h"
+#include "service/server/calls/message_handlers.h"
 #include "service/server/ground/limits.h"
 #include "tables/file/table_io.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -113,7 +113,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const grpc::ByteBuffer message(&bytes, 1);
   grpc::ByteBuffer answer;
   OutcomeTally tally;
-  const grpc::Status status = AnswerQueryColumns(tables.catalog(), message, answer, tally);
+  const grpc::Status status = HandleQueryColumns(tables.catalog(), message, answer, tally);
   v1::QueryColumnsRequest request;
   const bool is_request = Parse(message, request);
   ALBTPU_MUST(is_request || !status.ok());

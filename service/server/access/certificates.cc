@@ -20,22 +20,22 @@ using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Bytes = std::unique_ptr<BIO, decltype(&BIO_free)>;
 
-Bytes Read(const std::string& pem) {
+Bytes OpenPem(const std::string& pem) {
   return Bytes(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
 }
 
-// A key under a passphrase is refused: there is nobody to ask.
+// Rejects encrypted keys: there is nobody to ask for a passphrase.
 int NoPassphrase(char*, int, int, void*) { return -1; }
 
 Certificate FirstCertificate(const std::string& pem) {
-  const Bytes bytes = Read(pem);
+  const Bytes bytes = OpenPem(pem);
   Certificate certificate(PEM_read_bio_X509(bytes.get(), nullptr, NoPassphrase, nullptr), &X509_free);
-  ERR_clear_error();  // gRPC takes what is left there for its own.
+  ERR_clear_error();  // gRPC would take remaining errors for its own.
   return certificate;
 }
 
 Key FirstKey(const std::string& pem) {
-  const Bytes bytes = Read(pem);
+  const Bytes bytes = OpenPem(pem);
   Key key(PEM_read_bio_PrivateKey(bytes.get(), nullptr, NoPassphrase, nullptr), &EVP_PKEY_free);
   ERR_clear_error();
   return key;
@@ -60,50 +60,50 @@ absl::Status CheckTimes(const std::string& where, const X509& certificate) {
   const ASN1_TIME* until = X509_get0_notAfter(&certificate);
   if (X509_cmp_current_time(until) < 0) {
     return absl::InvalidArgumentError(absl::StrCat(where, ": the certificate expired on ", Text(until),
-                                                   ": no client will trust it, renew it"));
+                                                   " (no client would trust it); renew it"));
   }
   if (X509_cmp_current_time(from) > 0) {
-    return absl::InvalidArgumentError(absl::StrCat(where, ": the certificate is valid from ", Text(from),
-                                                   ": wait, or set the clock of this machine"));
+    return absl::InvalidArgumentError(absl::StrCat(where, ": the certificate is valid only from ", Text(from),
+                                                   "; wait, or set the clock of this machine"));
   }
   return absl::OkStatus();
 }
 
-// Why TLS would not use them, as it does not keys that are too short; empty if it would.
+// The reason why TLS rejects the pair, such as a key that is too short. Empty if TLS accepts it.
 std::string Refusal(X509& certificate, EVP_PKEY& key) {
   const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_server_method()),
                                                                   &SSL_CTX_free);
-  const bool taken = SSL_CTX_use_certificate(context.get(), &certificate) == 1 &&
-                     SSL_CTX_use_PrivateKey(context.get(), &key) == 1;
-  const char* reason = taken ? "" : ERR_reason_error_string(ERR_peek_last_error());
+  const bool accepted = SSL_CTX_use_certificate(context.get(), &certificate) == 1 &&
+                        SSL_CTX_use_PrivateKey(context.get(), &key) == 1;
+  const char* reason = accepted ? "" : ERR_reason_error_string(ERR_peek_last_error());
   ERR_clear_error();
   return reason == nullptr ? "unknown" : reason;
 }
 
-// And notes when it expires.
+// Checks certificate and key, and sets `pem.expiry`.
 absl::Status CheckPair(const CertificateFiles& files, Certificates& pem) {
   const std::string where = absl::StrCat("--tls-cert: ", files.certificate.string());
   const Certificate certificate = FirstCertificate(pem.certificate);
   if (certificate == nullptr) {
     return absl::InvalidArgumentError(
-        absl::StrCat(where, ": holds no certificate: a PEM file, '-----BEGIN CERTIFICATE-----', is right"));
+        absl::StrCat(where, ": holds no certificate: expected a PEM file, '-----BEGIN CERTIFICATE-----'"));
   }
   const Key key = FirstKey(pem.key);
   if (key == nullptr) {
     return absl::InvalidArgumentError(
         absl::StrCat("--tls-key: ", files.key.string(),
-                     ": holds no key that can be read: a PEM file without a passphrase is right"));
+                     ": holds no key that can be read: expected a PEM file without a passphrase"));
   }
   const bool is_pair = X509_check_private_key(certificate.get(), key.get()) == 1;
   ERR_clear_error();
   if (!is_pair) {
     return absl::InvalidArgumentError(
         absl::StrCat("--tls-key: ", files.key.string(), ": is not the key of the certificate in ",
-                     files.certificate.string(), ": name those that belong together"));
+                     files.certificate.string(), ": expected the key that belongs to it"));
   }
   if (const std::string refusal = Refusal(*certificate, *key); !refusal.empty()) {
     return absl::InvalidArgumentError(
-        absl::StrCat(where, ": TLS refuses it (", refusal, "): RSA of 2048 bits or more is right"));
+        absl::StrCat(where, ": TLS refuses it (", refusal, "): expected RSA with 2048 bits or more"));
   }
   pem.expiry = Expiry(*certificate);
   return CheckTimes(where, *certificate);
@@ -124,7 +124,7 @@ absl::StatusOr<Certificates> ReadCertificates(const CertificateFiles& files) {
   if (FirstCertificate(*client_ca) == nullptr) {
     return absl::InvalidArgumentError(
         absl::StrCat("--tls-client-ca: ", files.client_ca.string(),
-                     ": holds no certificate: the PEM file of an authority is right"));
+                     ": holds no certificate: expected the PEM file of an authority"));
   }
   read.client_ca = *std::move(client_ca);
   return read;

@@ -1,4 +1,4 @@
-// The certificate that a server shows, its key, and whose certificates it wants to see.
+// The certificate and key of a server, and the authorities that it trusts for certificates of clients.
 #pragma once
 
 #include <ctime>
@@ -9,23 +9,24 @@
 
 namespace albtpu::server {
 
-// PEM files, as flags name them. Empty: the flag is not given.
+// PEM files, as given by flags. A path is empty if its flag is not given.
 struct CertificateFiles {
-  std::filesystem::path certificate = {};  // --tls-cert: the server's, then those up to the authority.
-  std::filesystem::path key = {};          // --tls-key
-  std::filesystem::path client_ca = {};    // --tls-client-ca: the authorities of clients.
+  std::filesystem::path certificate =
+      {};                                // --tls-cert: the server's certificate, then the intermediate ones.
+  std::filesystem::path key = {};        // --tls-key
+  std::filesystem::path client_ca = {};  // --tls-client-ca: the authorities of client certificates.
 };
 
-// What is in them.
+// The content of these files.
 struct Certificates {
   std::string certificate;
   std::string key;
-  std::string client_ca;  // Empty: clients show no certificate.
+  std::string client_ca;  // Empty if clients need no certificate.
   std::time_t expiry;     // Of the server's certificate.
 };
 
-// Fails unless the key is that of the certificate, which is valid now, and every file holds what it should.
-// So a pair that is half replaced, or the wrong one, is never served.
+// Fails unless every file has the expected content, the certificate is valid now, and the key belongs to it. A pair of
+// which only one file has been replaced is therefore never used.
 absl::StatusOr<Certificates> ReadCertificates(const CertificateFiles& files);
 
 }  // namespace albtpu::server

@@ -8,9 +8,9 @@ namespace {
 absl::Status CheckPlainText(const char* flag, const ListenAddress& address, const CredentialFlags& flags,
                             const char* remedy) {
   if (address.IsLoopback() || flags.insecure) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      flag, ": ", address.ToString(), " can be reached from other machines, in plain text: ", remedy,
-      "listen on 127.0.0.1, or say --insecure"));
+  return absl::InvalidArgumentError(absl::StrCat(flag, ": ", address.ToString(),
+                                                 " can be reached from other machines in plain text; ",
+                                                 remedy, "listen on 127.0.0.1, or give --insecure"));
 }
 
 }  // namespace
@@ -19,30 +19,30 @@ void AddCredentialFlags(CLI::App& app, CredentialFlags& flags) {
   CertificateFiles& certificates = flags.files.certificates;
   const auto add_file = [&app](const char* flag, std::filesystem::path& path, const char* description) {
     return app.add_option(flag, path, description)->type_name("FILE")->check([](const std::string& text) {
-      return text.empty() ? std::string("is empty: name a file") : std::string();
+      return text.empty() ? std::string("is empty: expected the path of a file") : std::string();
     });
   };
-  CLI::Option* certificate =
-      add_file("--tls-cert", certificates.certificate,
-               "Talk TLS and show this certificate, with those in between (PEM); read again when it changes");
-  CLI::Option* key = add_file("--tls-key", certificates.key, "Its key (PEM, no passphrase)");
+  CLI::Option* certificate = add_file(
+      "--tls-cert", certificates.certificate,
+      "Use TLS with this certificate and its intermediate certificates (PEM); read again when it changes");
+  CLI::Option* key = add_file("--tls-key", certificates.key, "Key of the certificate (PEM, no passphrase)");
   certificate->needs(key);
   key->needs(certificate);
   add_file("--tls-client-ca", certificates.client_ca,
-           "Refuse clients that show no certificate of these authorities (PEM)")
+           "Refuse clients without a certificate of these authorities (PEM)")
       ->needs(certificate);
-  add_file("--token-file", flags.files.tokens, "Refuse calls that bring none of these tokens, one a line")
+  add_file("--token-file", flags.files.tokens, "Refuse calls without one of these tokens, one per line")
       ->needs(certificate);
   app.add_flag("--insecure", flags.insecure,
-               "Allow plain text beyond this machine: the service without TLS, and --metrics");
+               "Allow plain text beyond this machine, for the service without TLS and for --metrics");
 }
 
-absl::Status CheckReach(const ListenAddress& address, const CredentialFlags& flags) {
+absl::Status CheckServiceAddress(const ListenAddress& address, const CredentialFlags& flags) {
   if (flags.files.HasTls()) return absl::OkStatus();
   return CheckPlainText("--listen", address, flags, "give --tls-cert and --tls-key, ");
 }
 
-absl::Status CheckReachOfMetrics(const ListenAddress& address, const CredentialFlags& flags) {
+absl::Status CheckMetricsAddress(const ListenAddress& address, const CredentialFlags& flags) {
   return CheckPlainText("--metrics", address, flags, "");
 }
 

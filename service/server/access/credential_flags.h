@@ -16,9 +16,9 @@ struct CredentialFlags {
 
 void AddCredentialFlags(CLI::App& app, CredentialFlags& flags);
 
-// InvalidArgument where other machines could reach `address` in plain text, and nobody said --insecure.
-// Metrics are in plain text always.
-absl::Status CheckReach(const ListenAddress& address, const CredentialFlags& flags);
-absl::Status CheckReachOfMetrics(const ListenAddress& address, const CredentialFlags& flags);
+// InvalidArgument if other machines could reach `address` in plain text and --insecure is not given. The metrics are
+// always in plain text.
+absl::Status CheckServiceAddress(const ListenAddress& address, const CredentialFlags& flags);
+absl::Status CheckMetricsAddress(const ListenAddress& address, const CredentialFlags& flags);
 
 }  // namespace albtpu::server

@@ -39,8 +39,8 @@ absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> OpenTokens(const std::filesys
   });
 }
 
-// gRPC asks for certificates before each handshake. Its watcher of files (FileWatcherCertificateProvider, in
-// 1.51) would drop a good pair for one that does not match, while a key is replaced and then its certificate.
+// gRPC fetches the certificates before each handshake. Its own file watcher (FileWatcherCertificateProvider in 1.51)
+// would replace a valid pair by a mismatched one while first the key and then its certificate is replaced.
 class Tls final : public grpc::ServerCredentials {
  public:
   explicit Tls(std::unique_ptr<CertificateFile> certificates)
@@ -55,7 +55,7 @@ class Tls final : public grpc::ServerCredentials {
 
   grpc_server_credentials* get() { return credentials_.get(); }
 
-  // Tokens are asked for by RequireToken.
+  // Not used: RequireToken() checks tokens.
   void SetAuthMetadataProcessor(const std::shared_ptr<grpc::AuthMetadataProcessor>&) override {}
 
  private:
@@ -63,7 +63,7 @@ class Tls final : public grpc::ServerCredentials {
     return grpc_server_add_http2_port(server, address.c_str(), credentials_.get());
   }
 
-  // One at a time.
+  // Called by one thread at a time.
   static grpc_ssl_certificate_config_reload_status Fetch(void* self,
                                                          grpc_ssl_server_certificate_config** config) {
     return static_cast<Tls*>(self)->Fetch(*config);
@@ -73,7 +73,7 @@ class Tls final : public grpc::ServerCredentials {
     std::shared_ptr<const Certificates> now = certificates_->Get();
     if (now == fetched_) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const grpc_ssl_pem_key_cert_pair pair = {now->key.c_str(), now->certificate.c_str()};
-    // gRPC 1.51 wants authorities even where clients show no certificate that they would have to vouch for.
+    // gRPC 1.51 requires authorities even if clients show no certificate.
     const std::string& authorities = now->client_ca.empty() ? now->certificate : now->client_ca;
     config = grpc_ssl_server_certificate_config_create(authorities.c_str(), &pair, 1);
     fetched_ = std::move(now);
@@ -88,16 +88,16 @@ class Tls final : public grpc::ServerCredentials {
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> MakeCredentials(const CredentialFiles& files,
-                                                                         const CallRecords& records) {
+                                                                         const Recorders& recorders) {
   if (!files.HasTls()) return grpc::InsecureServerCredentials();
   absl::StatusOr<std::unique_ptr<CertificateFile>> certificates =
-      OpenCertificates(files.certificates, records.access);
+      OpenCertificates(files.certificates, recorders.access);
   if (!certificates.ok()) return certificates.status();
   auto credentials = std::make_shared<Tls>(*std::move(certificates));
   if (files.tokens.empty()) return credentials;
   absl::StatusOr<std::unique_ptr<FileValue<Tokens>>> tokens = OpenTokens(files.tokens);
   if (!tokens.ok()) return tokens.status();
-  RequireToken(*std::move(tokens), records, credentials->get());
+  RequireToken(*std::move(tokens), recorders, credentials->get());
   return credentials;
 }
 

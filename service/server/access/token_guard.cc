@@ -8,21 +8,22 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "service/server/ground/method.h"
-#include "service/server/observe/request_id.h"
+#include "service/server/observe/log.h"
+#include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
 namespace {
 
 using TokenFile = FileValue<Tokens>;
 
+// Methods that need no token.
 constexpr std::string_view kOpen = "/grpc.health.v1.Health/";
 
 std::string_view View(const grpc_slice& slice) {
   return {reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(slice)), GRPC_SLICE_LENGTH(slice)};
 }
 
-// The only value of `key`; empty where there is none or several.
+// The value of `key`, or an empty text if there is none or more than one.
 std::string_view Find(std::string_view key, const grpc_metadata* metadata, std::size_t count) {
   std::string_view value;
   int found = 0;
@@ -36,10 +37,10 @@ std::string_view Find(std::string_view key, const grpc_metadata* metadata, std::
 
 struct Guard {
   std::unique_ptr<TokenFile> tokens;
-  CallRecords records;
+  Recorders recorders;
 };
 
-// A caller may write anything into its path.
+// The method for the log. Callers may send any path, so only known names are logged.
 std::string_view MethodOf(std::string_view path) {
   const std::string_view name = path.substr(path.rfind('/') + 1);
   const auto known = std::find(kMethodNames.begin(), kMethodNames.end(), name);
@@ -49,28 +50,28 @@ std::string_view MethodOf(std::string_view path) {
 void WriteLine(CallLog& log, const char* refusal, const grpc_metadata* metadata, std::size_t count) {
   LogFields fields = {{"method", MethodOf(Find(":path", metadata, count))}, {"code", "UNAUTHENTICATED"}};
   const std::string_view request_id = Find(RequestId::kMetadata, metadata, count);
-  if (RequestId::IsSane(request_id)) fields["request_id"] = request_id;
+  if (RequestId::IsValid(request_id)) fields["request_id"] = request_id;
   log.Write(spdlog::level::warn, absl::StrCat("call refused: ", refusal), std::move(fields));
 }
 
-// What is wrong with a call; nullptr: nothing.
+// The reason to refuse a call, which is then counted, or nullptr if its token is valid.
 const char* Refusal(const Guard& guard, const grpc_metadata* metadata, std::size_t count) {
   if (Find(":path", metadata, count).substr(0, kOpen.size()) == kOpen) return nullptr;
   const std::string_view authorization = Find("authorization", metadata, count);
   if (authorization.empty()) {
-    guard.records.access.CountNoToken();
-    return "the call brings no token: send one as metadata, 'authorization: Bearer TOKEN'";
+    guard.recorders.access.CountNoToken();
+    return "the call has no token; send one as metadata, 'authorization: Bearer TOKEN'";
   }
   if (guard.tokens->Get()->Accept(authorization)) return nullptr;
-  guard.records.access.CountWrongToken();
-  return "the token is none of those that are accepted here: ask who runs the server for one";
+  guard.recorders.access.CountWrongToken();
+  return "the token is not accepted; ask the operator of the server for a valid one";
 }
 
 void Process(void* guard, grpc_auth_context* /*context*/, const grpc_metadata* metadata, std::size_t count,
              grpc_process_auth_metadata_done_cb done, void* call) {
   const Guard& ours = *static_cast<Guard*>(guard);
   const char* refusal = Refusal(ours, metadata, count);
-  if (refusal != nullptr) WriteLine(ours.records.log, refusal, metadata, count);
+  if (refusal != nullptr) WriteLine(ours.recorders.log, refusal, metadata, count);
   done(call, nullptr, 0, nullptr, 0, refusal == nullptr ? GRPC_STATUS_OK : GRPC_STATUS_UNAUTHENTICATED,
        refusal);
 }
@@ -79,9 +80,9 @@ void Destroy(void* guard) { delete static_cast<Guard*>(guard); }
 
 }  // namespace
 
-void RequireToken(std::unique_ptr<TokenFile> tokens, const CallRecords& records,
+void RequireToken(std::unique_ptr<TokenFile> tokens, const Recorders& recorders,
                   grpc_server_credentials* credentials) {
-  auto guard = std::make_unique<Guard>(Guard{std::move(tokens), records});
+  auto guard = std::make_unique<Guard>(Guard{std::move(tokens), recorders});
   grpc_server_credentials_set_auth_metadata_processor(credentials, {Process, Destroy, guard.release()});
 }
 

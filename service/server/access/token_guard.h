@@ -1,4 +1,4 @@
-// Lets calls with a token in, and no others.
+// Accepts only calls with a valid token.
 #pragma once
 
 #include <grpc/grpc_security.h>
@@ -7,15 +7,15 @@
 
 #include "service/server/access/tokens.h"
 #include "service/server/ground/file_value.h"
-#include "service/server/observe/call_record.h"
+#include "service/server/observe/records.h"
 
 namespace albtpu::server {
 
-// Has `credentials` refuse, before anything else is done about a call, what brings none of `tokens`: the
-// caller gets UNAUTHENTICATED. Health (grpc.health.v1) is open: orchestrators ask for it, and it says nothing
-// but whether the server serves. Refusals are counted and logged by `records`, which must outlive the
-// credentials; without what the caller sent, and without its address, which gRPC 1.51 does not tell here.
-void RequireToken(std::unique_ptr<FileValue<Tokens>> tokens, const CallRecords& records,
+// Makes `credentials` refuse calls without one of `tokens`, before anything else is done: the caller gets
+// UNAUTHENTICATED. Health (grpc.health.v1) needs no token: orchestrators ask for it, and it only says whether the
+// server serves. `recorders`, which must outlive the credentials, count and log refusals. The log contains neither the
+// token that the caller sent nor its address, which gRPC 1.51 does not provide here.
+void RequireToken(std::unique_ptr<FileValue<Tokens>> tokens, const Recorders& recorders,
                   grpc_server_credentials* credentials);
 
 }  // namespace albtpu::server

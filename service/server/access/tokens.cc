@@ -37,16 +37,18 @@ absl::StatusOr<Tokens> Tokens::Parse(std::string_view text) {
     if (line.empty()) continue;
     if (!IsToken(line)) {
       return absl::InvalidArgumentError(
-          absl::StrCat("line ", number, " is no token: letters, digits and -._~+/= are right"));
+          absl::StrCat("line ", number, " is not a token: expected letters, digits and -._~+/="));
     }
     if (line.size() < kMinLength) {
-      return absl::InvalidArgumentError(absl::StrCat("line ", number, " has ", line.size(), " characters: ",
-                                                     kMinLength, " or more, at random, cannot be guessed"));
+      return absl::InvalidArgumentError(absl::StrCat("line ", number, " has ", line.size(),
+                                                     " characters: expected ", kMinLength,
+                                                     " or more, at random"));
     }
     tokens.emplace_back(line);
   }
   if (!tokens.empty()) return Tokens(std::move(tokens));
-  return absl::InvalidArgumentError("holds no token: one a line is right, such as by `openssl rand -hex 32`");
+  return absl::InvalidArgumentError(
+      "holds no token: expected one per line, such as from `openssl rand -hex 32`");
 }
 
 bool Tokens::Accept(std::string_view authorization) const {
@@ -54,7 +56,8 @@ bool Tokens::Accept(std::string_view authorization) const {
   if (!absl::StartsWithIgnoreCase(text, kScheme)) return false;
   text.remove_prefix(kScheme.size());
   bool accepted = false;
-  for (const std::string& token : tokens_) accepted |= AreEqual(token, text);  // All, however soon one is.
+  // Compares with all tokens, so that the time does not depend on which one matches.
+  for (const std::string& token : tokens_) accepted |= AreEqual(token, text);
   return accepted;
 }
 

@@ -11,13 +11,13 @@ namespace albtpu::server {
 
 class Tokens {
  public:
-  // One token a line; all are accepted, so that clients can change theirs one after the other.
-  // InvalidArgument for text without a token, or with one that could be guessed or is none; the message does
-  // not repeat it.
+  // One token per line. All of them are accepted, so that clients can be moved to new tokens one by one.
+  // InvalidArgument if there is no token, or if a line is malformed or short enough to be guessed; the message does not
+  // repeat it.
   static absl::StatusOr<Tokens> Parse(std::string_view text);
 
-  // Whether `authorization` is `Bearer TOKEN` with one of them. How long this takes tells nothing about a
-  // token but its length.
+  // Whether `authorization` is `Bearer TOKEN` with one of the tokens. The time this takes reveals nothing about a token
+  // but its length.
   bool Accept(std::string_view authorization) const;
 
  private:

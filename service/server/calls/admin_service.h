@@ -1,25 +1,25 @@
-// The methods of albtpu.v1.AdminService. The .proto says what each does.
+// The methods of albtpu.v1.AdminService, which admin_service.proto documents.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
 
 #include "albtpu/v1/admin_service.grpc.pb.h"
-#include "service/server/observe/call_record.h"
+#include "service/server/observe/records.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
 
-// Whose calls are served.
+// Whose calls are accepted.
 enum class AdminCallers {
-  kOfThisMachine,  // By the address that they come from. A proxy on this machine hides who is behind it.
-  kAll,            // Where no call gets this far whose caller has not proved who it is.
+  kLocal,  // Callers on this machine, by their address. A proxy on this machine hides its clients.
+  kAll,    // Everyone. For servers that authenticate all callers.
 };
 
 class AdminService final : public v1::AdminService::CallbackService {
  public:
-  // `tables` and `records` must outlive the service.
-  AdminService(LiveTables& tables, const CallRecords& records, AdminCallers callers)
-      : tables_(tables), records_(records), callers_(callers) {}
+  // `tables` and `recorders` must outlive the service.
+  AdminService(LiveTables& tables, const Recorders& recorders, AdminCallers callers)
+      : tables_(tables), recorders_(recorders), callers_(callers) {}
 
   grpc::ServerUnaryReactor* ReloadTables(grpc::CallbackServerContext* context,
                                          const v1::ReloadTablesRequest* request,
@@ -27,12 +27,12 @@ class AdminService final : public v1::AdminService::CallbackService {
 
  private:
   LiveTables& tables_;
-  const CallRecords& records_;
+  const Recorders& recorders_;
   const AdminCallers callers_;
 };
 
-// Whether `peer`, as gRPC writes it, is an address of this machine alone: ipv4:127.0.0.1:4242,
+// Whether `peer`, as gRPC writes it, is an address that only this machine can have: ipv4:127.0.0.1:4242,
 // ipv6:%5B::1%5D:4242 or a unix socket.
-bool IsOfThisMachine(std::string_view peer);
+bool IsLocalPeer(std::string_view peer);
 
 }  // namespace albtpu::server

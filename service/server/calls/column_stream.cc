@@ -4,9 +4,9 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "service/server/calls/byte_answers.h"
+#include "service/server/calls/message_handlers.h"
+#include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
-#include "service/server/ground/status.h"
 
 namespace albtpu::server {
 
@@ -21,7 +21,7 @@ ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers&
 }
 
 void ColumnStream::OnReadDone(bool ok) {
-  idle_watch_.Moved();
+  idle_watch_.NoteActivity();
   {
     const std::lock_guard lock(mutex_);
     (ok ? waiting_ : read_all_) = true;
@@ -30,7 +30,7 @@ void ColumnStream::OnReadDone(bool ok) {
 }
 
 void ColumnStream::OnWriteDone(bool ok) {
-  idle_watch_.Moved();
+  idle_watch_.NoteActivity();
   answer_.Clear();
   {
     const std::lock_guard lock(mutex_);
@@ -41,38 +41,38 @@ void ColumnStream::OnWriteDone(bool ok) {
 }
 
 void ColumnStream::OnDone() {
-  workers_.Dismiss();
+  workers_.Release();
   delete this;
 }
 
 void ColumnStream::Proceed() {
-  bool answer;
+  bool handle;
   {
     const std::lock_guard lock(mutex_);
     if (busy_ || ended_ || !(waiting_ || read_all_)) return;
-    answer = busy_ = waiting_;
-    ended_ = !answer;
+    handle = busy_ = waiting_;
+    ended_ = !handle;
     waiting_ = false;
-    if (answer) current_.Swap(&next_);
+    if (handle) current_.Swap(&next_);
   }
-  // The lock is open: once the call is finished it may be gone.
-  if (!answer) return End(context_.IsCancelled() ? grpc::Status::CANCELLED : grpc::Status::OK);
-  asked_ = CallRecord::Clock::now();
+  // Without the lock: once the call is finished, this object may no longer exist.
+  if (!handle) return End(context_.IsCancelled() ? grpc::Status::CANCELLED : grpc::Status::OK);
+  current_begin_ = CallRecord::Clock::now();
   StartRead(&next_);
-  if (current_.Length() <= kMaxInlineBytes) return Answer();
-  workers_.Run([this] { Answer(); });
+  if (current_.Length() <= kMaxInlineBytes) return HandleRequest();
+  workers_.Run([this] { HandleRequest(); });
 }
 
-grpc::Status ColumnStream::MakeAnswer() {
+grpc::Status ColumnStream::RunHandler() {
   const RequestScope scope(record_.request_id());
   OutcomeTally tally;
-  const grpc::Status status = AnswerStreamColumns(*catalog_, current_, answer_, tally);
-  if (status.ok()) record_.CountAnswer(tally, asked_);
+  const grpc::Status status = HandleStreamColumns(*catalog_, current_, answer_, tally);
+  if (status.ok()) record_.CountAnswer(tally, current_begin_);
   return status;
 }
 
-void ColumnStream::Answer() {
-  const grpc::Status status = context_.IsCancelled() ? grpc::Status::CANCELLED : MakeAnswer();
+void ColumnStream::HandleRequest() {
+  const grpc::Status status = context_.IsCancelled() ? grpc::Status::CANCELLED : RunHandler();
   current_.Clear();
   if (status.ok()) return StartWrite(&answer_);
   {
@@ -94,8 +94,9 @@ void ColumnStream::EndIdle() {
     if (busy_) return context_.TryCancel();
     ended_ = true;
   }
-  End(ToGrpcStatus(absl::DeadlineExceededError(absl::StrCat(
-      "no request for ", kMaxStreamIdle.count(), " s: end a stream when all is asked, and begin another"))));
+  End(ToGrpcStatus(absl::DeadlineExceededError(
+      absl::StrCat("no request for ", kMaxStreamIdle.count(),
+                   " s; end a stream after its last request, and open another"))));
 }
 
 }  // namespace albtpu::server

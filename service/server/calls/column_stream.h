@@ -1,4 +1,4 @@
-// A call of `StreamColumns`.
+// A call of `StreamColumns`, from its first request to its end.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -8,21 +8,21 @@
 
 #include "service/server/ground/idle_watch.h"
 #include "service/server/ground/workers.h"
-#include "service/server/observe/call_record.h"
+#include "service/server/observe/records.h"
 #include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {
 
-// One answer after the other. While one is made and sent, the request after it is received and waits: a
-// stream holds two requests and an answer at most, however slowly its caller reads.
+// Handles one request after the other. While an answer is computed and sent, the next request is received and waits: a
+// stream holds at most two requests and one answer, however slowly its caller reads.
 //
-// Where nothing moves for kMaxStreamIdle the call ends: with DEADLINE_EXCEEDED if it is the next request that
-// does not come, else, its caller reads no more, as if cancelled.
+// Without any activity for kMaxStreamIdle the call ends: with DEADLINE_EXCEEDED if the next request does not arrive, as
+// if cancelled if the caller does not read its answer.
 //
-// Lives until the call is done. Has been admitted to `workers`, and leaves them then.
+// Deletes itself when the call is done. `workers` must have admitted the call; its place is then released.
 class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  // All answers come from `catalog`.
+  // Uses `catalog` for all answers.
   ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers& workers, const CallRecord& record,
                grpc::CallbackServerContext& context);
 
@@ -31,27 +31,27 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   void OnWriteDone(bool ok) override;
   void OnDone() override;
 
-  // What can be done now: answer the request that waits, end the call, or nothing yet.
+  // Does what is possible now: handles the waiting request, ends the call, or does nothing yet.
   void Proceed();
-  void Answer();
-  grpc::Status MakeAnswer();
+  void HandleRequest();
+  grpc::Status RunHandler();
   void End(const grpc::Status& status);
   void EndIdle();
 
   const std::shared_ptr<const TableCatalog> catalog_;
   Workers& workers_;
-  CallRecord record_;  // For one thread at a time: that which answers, or that which ends the call.
+  CallRecord record_;  // Used by one thread at a time: the one that handles a request or ends the call.
   grpc::CallbackServerContext& context_;
 
-  std::mutex mutex_;       // Guards those before the blank line.
+  std::mutex mutex_;       // Guards the members up to the blank line.
   bool waiting_ = false;   // `next_` holds a request.
-  bool read_all_ = false;  // There is no further request, or the caller has gone.
-  bool busy_ = false;      // `current_` is being answered, or `answer_` sent.
+  bool read_all_ = false;  // No further request will arrive.
+  bool busy_ = false;      // `current_` is being handled, or `answer_` is being sent.
   bool ended_ = false;
 
   grpc::ByteBuffer next_, current_, answer_;
-  CallRecord::Clock::time_point asked_;  // When `current_` had its turn.
-  IdleWatch idle_watch_;                 // Goes first, and calls nothing from then on.
+  CallRecord::Clock::time_point current_begin_;  // When the server turned to `current_`.
+  IdleWatch idle_watch_;  // Last, so that it is destroyed first and calls nothing afterwards.
 };
 
 }  // namespace albtpu::server

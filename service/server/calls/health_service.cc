@@ -13,7 +13,7 @@ HealthCheckResponse::ServingStatus ToStatus(bool serving) {
 
 }  // namespace
 
-// One stream: what holds now, and at the end NOT_SERVING. gRPC allows one write at a time and one end.
+// One stream of Watch: the status now, and NOT_SERVING at the end. gRPC allows one write at a time and one end.
 class HealthService::Watcher final : public grpc::ServerWriteReactor<HealthCheckResponse> {
  public:
   Watcher(HealthService& service, bool known) : service_(service), known_(known) {
@@ -26,7 +26,7 @@ class HealthService::Watcher final : public grpc::ServerWriteReactor<HealthCheck
     }
   }
 
-  // With the mutex held, as Begin() and End().
+  // Call this, Begin() and End() with the mutex held.
   void Stop() {
     if (!writing_) End();
   }
@@ -84,7 +84,7 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* cont
                                                HealthCheckResponse* response) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   if (!Knows(request->service())) {
-    reactor->Finish(grpc::Status(grpc::StatusCode::NOT_FOUND, "there is no such service"));
+    reactor->Finish(grpc::Status(grpc::StatusCode::NOT_FOUND, "the server has no such service"));
     return reactor;
   }
   const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
-// grpc.health.v1.Health. gRPC's own implementation neither lets reflection describe it nor ends the streams
-// of those that watch, for which a drain would then wait in vain.
+// grpc.health.v1.Health. The implementation in gRPC cannot be described by reflection, and it does not end the streams
+// of watchers, for which a drain would wait in vain.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -12,12 +12,12 @@
 
 namespace albtpu::server {
 
-// The server as a whole and each of the services serve, until they stop.
+// Reports the server as a whole, and each of its services, as SERVING until StopServing().
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
   explicit HealthService(std::set<std::string> services) : services_(std::move(services)) {}
 
-  // From now on NOT_SERVING is the answer; those that watch are told, and their streams end.
+  // Reports NOT_SERVING from now on, tells the watchers and ends their streams.
   void StopServing();
 
   grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext* context,

@@ -1,4 +1,4 @@
-// What a request asks of each of its pulses.
+// The options of a query, resolved: which table, and what to compute for each pulse.
 #pragma once
 
 #include "absl/status/statusor.h"
@@ -8,7 +8,6 @@
 
 namespace albtpu::server {
 
-// `QueryOptions`, read.
 struct QueryPlan {
   const TableCatalog::Entry* source = nullptr;
   Query query;
@@ -18,7 +17,7 @@ struct QueryPlan {
   bool asks_s44() const { return best_s44_order || query.s44_order.has_value(); }
 };
 
-// Fails as `QueryOptions` documents. The result refers to `catalog`.
+// Fails as documented for `QueryOptions`. The result refers to `catalog`.
 absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const TableCatalog& catalog);
 
 }  // namespace albtpu::server

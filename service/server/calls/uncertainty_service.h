@@ -1,18 +1,18 @@
-// The methods of albtpu.v1.UncertaintyService. The .proto says what each does.
+// The methods of albtpu.v1.UncertaintyService, which uncertainty_service.proto documents.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
-#include "service/server/calls/byte_answers.h"
+#include "service/server/calls/message_handlers.h"
 #include "service/server/calls/unread_answers.h"
 #include "service/server/ground/workers.h"
-#include "service/server/observe/call_record.h"
+#include "service/server/observe/records.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
 
-// Messages of many pulses come and go as bytes, so that it is on a worker that they are read and written.
+// Messages with many pulses are received and sent as bytes, so that a worker parses and serializes them.
 using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_QueryPulses<
     v1::UncertaintyService::WithRawCallbackMethod_QueryColumns<
         v1::UncertaintyService::WithRawCallbackMethod_StreamColumns<
@@ -21,9 +21,9 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // Both must outlive the service.
-  UncertaintyService(const LiveTables& tables, const CallRecords& records)
-      : tables_(tables), records_(records), unread_(records.metrics) {}
+  // `tables` and `recorders` must outlive the service.
+  UncertaintyService(const LiveTables& tables, const Recorders& recorders)
+      : tables_(tables), recorders_(recorders), unread_(recorders.metrics) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
@@ -39,12 +39,13 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
                                      v1::GetTableResponse* response) override;
 
  private:
-  // Short requests at once, long ones on a worker.
-  grpc::ServerUnaryReactor* Answer(Method method, ByteAnswer answer, grpc::CallbackServerContext& context,
-                                   const grpc::ByteBuffer& request, grpc::ByteBuffer& response);
+  // Handles short requests at once, long ones on a worker.
+  grpc::ServerUnaryReactor* Handle(Method method, MessageHandler handler,
+                                   grpc::CallbackServerContext& context, const grpc::ByteBuffer& request,
+                                   grpc::ByteBuffer& response);
 
   const LiveTables& tables_;
-  const CallRecords& records_;
+  const Recorders& recorders_;
   Workers workers_;
   UnreadAnswers unread_;
 };

@@ -1,4 +1,4 @@
-// Answers to single calls that have been made and not been taken.
+// Answers to single calls that have been sent to gRPC but not yet read by their callers.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -10,30 +10,31 @@
 #include <mutex>
 
 #include "service/server/ground/limits.h"
-#include "service/server/ground/repeated.h"
-#include "service/server/observe/call_metrics.h"
+#include "service/server/ground/periodic_task.h"
+#include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
 
-// gRPC holds an answer, with its request, until the caller has opened its window for it (HTTP/2, RFC 9113,
-// 5.2): a caller who does not could have them pile up. Those that wait for longer than kMaxStreamIdle are
-// dropped with DEADLINE_EXCEEDED, and, where there are many, for longer than kMaxUnreadWhenCrowded.
+// gRPC holds an answer, with its request, until the caller has opened its flow control window for it (HTTP/2, RFC 9113,
+// 5.2). A caller that does not do so could make answers accumulate. Answers that wait longer than kMaxStreamIdle are
+// therefore dropped with DEADLINE_EXCEEDED; when there are many, so are those that wait longer than
+// kMaxUnreadTimeWhenCrowded.
 class UnreadAnswers {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Counts those dropped in `metrics`.
+  // Counts the dropped answers in `metrics`.
   explicit UnreadAnswers(CallMetrics& metrics);
 
-  // One of them, for as long as the object lives: up to the end of the call, while its context is there.
-  class Answer {
+  // One unread answer. Exists until the end of the call, while its context exists.
+  class Entry {
    public:
-    // Of a call that takes `bytes`, request and answer.
-    Answer(UnreadAnswers& all, grpc::CallbackServerContext& context, std::size_t bytes);
-    ~Answer();
+    // `bytes` is the size of request and answer together.
+    Entry(UnreadAnswers& all, grpc::CallbackServerContext& context, std::size_t bytes);
+    ~Entry();
 
-    Answer(const Answer&) = delete;
-    Answer& operator=(const Answer&) = delete;
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
 
    private:
     friend class UnreadAnswers;
@@ -43,21 +44,21 @@ class UnreadAnswers {
     const std::size_t bytes_;
     const Clock::time_point made_ = Clock::now();
     bool dropped_ = false;
-    std::list<Answer*>::iterator place_;
+    std::list<Entry*>::iterator place_;
   };
 
-  // Whether there is room for an answer of that many bytes more: no more than kMaxUnreadBytes are held.
-  bool HaveRoomFor(std::size_t bytes) const { return bytes_ + bytes <= kMaxUnreadBytes; }
+  // Whether another answer of that size fits into kMaxUnreadBytes.
+  bool HasRoomFor(std::size_t bytes) const { return bytes_ + bytes <= kMaxUnreadBytes; }
 
-  // Drops those that are due. Is done every second.
+  // Drops the answers that have waited too long. Runs every second.
   void DropUnread(Clock::time_point now);
 
  private:
   CallMetrics& metrics_;
   std::mutex mutex_;
-  std::list<Answer*> answers_;  // The oldest first. Guarded by mutex_.
+  std::list<Entry*> entries_;  // The oldest first. Guarded by mutex_.
   std::atomic<std::size_t> bytes_ = 0;
-  Repeated dropping_;  // Goes first.
+  PeriodicTask dropping_;  // Last, so that it is destroyed first.
 };
 
 }  // namespace albtpu::server

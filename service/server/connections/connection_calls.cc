@@ -19,13 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-// What gRPC says, and frees no more; null where it says nothing.
-json Parsed(char* text) {
+// Parses JSON from gRPC and frees its text. Null if gRPC returned nothing.
+json TakeJson(char* text) {
   const std::unique_ptr<char, void (*)(void*)> owned(text, gpr_free);
   return text == nullptr ? json() : json::parse(text, nullptr, false);
 }
 
-// Numbers of 64 bits are text in channelz, and left out where they are 0.
+// In channelz, 64-bit numbers are text, and are left out if they are 0.
 std::int64_t Number(const json& object, const char* name) {
   std::int64_t number = 0;
   if (const auto found = object.find(name); found != object.end() && found->is_string()) {
@@ -34,12 +34,12 @@ std::int64_t Number(const json& object, const char* name) {
   return number;
 }
 
-// `visit` is called with the number of each thing that `page(first)` lists under `list` as `id` of `ref`.
+// Calls `visit` with the number `id` of each object `ref` in the lists `list` of the pages `page(first)`.
 template <typename Page, typename Visit>
 void ForEach(Page page, const char* list, const char* ref, const char* id, Visit visit) {
   std::int64_t first = 0;
   while (true) {
-    const json found = Parsed(page(first));
+    const json found = TakeJson(page(first));
     if (!found.is_object()) return;
     for (const json& each : found.value(list, json::array())) {
       const std::int64_t number = Number(*ref == '\0' ? each : each.value(ref, json::object()), id);
@@ -93,7 +93,7 @@ std::vector<ConnectionCalls> CountConnectionCalls() {
       return grpc_channelz_get_server_sockets(server, first, 0);
     };
     ForEach(sockets, "socketRef", "", "socketId", [&](std::int64_t socket) {
-      const json found = Parsed(grpc_channelz_get_socket(socket));
+      const json found = TakeJson(grpc_channelz_get_socket(socket));
       if (found.is_object()) connections.push_back(ReadConnection(found.value("socket", json::object())));
     });
   });

@@ -1,4 +1,4 @@
-// How many calls each connection has in memory.
+// Counts the calls that each connection has in memory.
 #pragma once
 
 #include <compare>
@@ -7,9 +7,9 @@
 
 namespace albtpu::server {
 
-// Where a connection comes from.
+// The remote end of a connection.
 struct Caller {
-  std::string address;  // 4 or 16 bytes of IPv4 or IPv6; of IPv4 written as IPv6, the 4.
+  std::string address;  // 4 bytes for IPv4, also if mapped to IPv6; otherwise 16.
   int port = 0;
 
   auto operator<=>(const Caller&) const = default;
@@ -18,7 +18,7 @@ struct Caller {
 // As gRPC writes it: ipv4:127.0.0.1:4242, ipv6:%5B::1%5D:4242.
 std::string ToText(const Caller& caller);
 
-// The caller at the other end of a socket. Without an address if it has none, or is no connection.
+// The caller at the other end of a socket. Its address is empty if the descriptor is not a connection.
 Caller CallerOf(int descriptor);
 
 struct ConnectionCalls {
@@ -26,9 +26,9 @@ struct ConnectionCalls {
   long calls = 0;
 };
 
-// Of all connections to servers in this process, what gRPC counts for its channelz: calls from the first byte
-// of their header until nothing of them is left, be they taken back, answered or never sent whole. They cost
-// memory for as long. Takes some 20 us for each connection.
+// Calls of all connections to servers in this process, as gRPC counts them for channelz: from the first byte of their
+// header until they are freed, whether cancelled, answered or never sent completely. They take memory for that time.
+// Takes about 20 us for each connection.
 std::vector<ConnectionCalls> CountConnectionCalls();
 
 }  // namespace albtpu::server

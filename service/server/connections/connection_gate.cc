@@ -22,17 +22,18 @@
 namespace albtpu::server {
 namespace {
 
-// Connections that are taken before others have their turn: another socket, or the end.
-constexpr int kMostATurn = 64;
+// Connections that are accepted before another socket, or a stop, has its turn.
+constexpr int kMaxAcceptsPerTurn = 64;
 
-// How long those who wait to be let in wait when the system has no room.
+// Pause before the next attempt when the system has no resources for another connection.
 constexpr int kPauseMilliseconds = 100;
 
-// The system gives the lowest descriptor that is free: its number tells how many are open.
-int EndOfDescriptors() {
+// The first descriptor that is too high. The system assigns the lowest free descriptor, so its number tells how many
+// are open.
+int DescriptorLimit() {
   rlimit limit{};
   getrlimit(RLIMIT_NOFILE, &limit);
-  // The usual 1024 is for programs that call select(), which cannot tell more apart; nothing here does.
+  // The usual limit of 1024 protects programs that call select(), which supports no more; nothing here does.
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
   getrlimit(RLIMIT_NOFILE, &limit);
@@ -46,8 +47,8 @@ int StopSignal() {
   return descriptor;
 }
 
-// As gRPC sets those that it takes itself.
-void Prepare(int connection) {
+// Sets the options that gRPC sets on connections that it accepts itself.
+void SetSocketOptions(int connection) {
   const int on = 1;
   setsockopt(connection, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   const auto timeout = static_cast<unsigned>(std::chrono::milliseconds(kKeepaliveTimeout).count());
@@ -61,7 +62,7 @@ ConnectionGate::ConnectionGate(std::vector<ListeningSocket> sockets, std::unique
     : sockets_(std::move(sockets)),
       acceptor_(std::move(acceptor)),
       metrics_(metrics),
-      end_of_descriptors_(EndOfDescriptors()),
+      descriptor_limit_(DescriptorLimit()),
       stop_(StopSignal()),
       thread_([this] { Run(); }) {}
 
@@ -71,28 +72,28 @@ ConnectionGate::~ConnectionGate() {
   close(stop_);
 }
 
-std::vector<Caller> ConnectionGate::End(const std::vector<Caller>& callers) {
-  // gRPC closes descriptors when it likes: the system alone knows whose they are. While the lock is held none
-  // becomes another connection of the gate.
-  const std::lock_guard lock(taking_);
-  const std::set<Caller> to_end(callers.begin(), callers.end());
-  std::vector<Caller> ended;
-  for (int descriptor = 0; descriptor < end_of_descriptors_; ++descriptor) {
+std::vector<Caller> ConnectionGate::Disconnect(const std::vector<Caller>& callers) {
+  // gRPC may close descriptors at any time, so only the system knows to whom they belong. While the lock is held, none
+  // of them can be reused for a new connection.
+  const std::lock_guard lock(accept_mutex_);
+  const std::set<Caller> to_disconnect(callers.begin(), callers.end());
+  std::vector<Caller> disconnected;
+  for (int descriptor = 0; descriptor < descriptor_limit_; ++descriptor) {
     const Caller caller = CallerOf(descriptor);
-    if (caller.address.empty() || to_end.count(caller) == 0) continue;
-    // Not shutdown(): that leaves what has come to be read, up to some megabytes.
+    if (caller.address.empty() || to_disconnect.count(caller) == 0) continue;
+    // shutdown() is only the fallback: it would leave data that has arrived, up to some megabytes, to be read.
     const sockaddr none{.sa_family = AF_UNSPEC, .sa_data = {}};
     if (connect(descriptor, &none, sizeof none) != 0) shutdown(descriptor, SHUT_RDWR);
-    ended.push_back(caller);
+    disconnected.push_back(caller);
   }
-  return ended;
+  return disconnected;
 }
 
 void ConnectionGate::Run() {
   std::vector<pollfd> events{{stop_, POLLIN, 0}};
   for (const ListeningSocket& socket : sockets_) events.push_back({socket.descriptor(), POLLIN, 0});
   while (true) {
-    if (poll(events.data(), events.size(), -1) < 0) continue;  // A signal.
+    if (poll(events.data(), events.size(), -1) < 0) continue;  // Interrupted by a signal.
     if (events[0].revents != 0) return;
     for (std::size_t i = 0; i < sockets_.size(); ++i) {
       if (events[i + 1].revents != 0) AcceptSome(sockets_[i]);
@@ -101,15 +102,15 @@ void ConnectionGate::Run() {
 }
 
 void ConnectionGate::AcceptSome(const ListeningSocket& socket) {
-  for (int i = 0; i < kMostATurn; ++i) {
-    std::unique_lock lock(taking_);
+  for (int i = 0; i < kMaxAcceptsPerTurn; ++i) {
+    std::unique_lock lock(accept_mutex_);
     const int connection = accept4(socket.descriptor(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     const int error = errno;
     lock.unlock();
-    if (connection >= end_of_descriptors_) {
+    if (connection >= descriptor_limit_) {
       Refuse(connection);
     } else if (connection >= 0) {
-      Prepare(connection);
+      SetSocketOptions(connection);
       Acceptor::NewConnectionParameters parameters;
       parameters.listener_fd = socket.descriptor();
       parameters.fd = connection;
@@ -117,11 +118,11 @@ void ConnectionGate::AcceptSome(const ListeningSocket& socket) {
     } else if (error == EAGAIN || error == EWOULDBLOCK) {
       return;
     } else if (error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM) {
-      spdlog::warn("connections wait: {}", std::strerror(error));
+      spdlog::warn("cannot accept connections, which wait: {}", std::strerror(error));
       pollfd stop{stop_, POLLIN, 0};
       poll(&stop, 1, kPauseMilliseconds);
       return;
-    }  // Else it has gone already.
+    }  // Otherwise the client has already disconnected.
   }
 }
 
@@ -131,7 +132,7 @@ void ConnectionGate::Refuse(int connection) {
   const auto now = std::chrono::steady_clock::now();
   ++refused_;
   if (now < next_line_) return;
-  spdlog::warn("as many connections as can be: {} refused", std::exchange(refused_, 0));
+  spdlog::warn("too many connections: {} refused", std::exchange(refused_, 0));
   next_line_ = now + std::chrono::seconds(1);
 }
 

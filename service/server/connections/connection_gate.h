@@ -1,4 +1,4 @@
-// Where connections come in.
+// Accepts connections.
 #pragma once
 
 #include <grpcpp/server_builder.h>
@@ -11,31 +11,30 @@
 
 #include "service/server/connections/connection_calls.h"
 #include "service/server/ground/listening_sockets.h"
-#include "service/server/observe/access_metrics.h"
+#include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
 
-// Takes connections and hands them over to gRPC, never more at a time than kMaxConnections, and some of
-// kOwnDescriptors that are free, nor than the system lets the process have open: further ones are closed at
-// once, and those open stay as they are.
+// Accepts connections and hands them to gRPC. At most kMaxConnections, plus a part of kOwnDescriptors that is not used
+// otherwise, are open at a time, and no more than the operating system allows. Further connections are closed at once;
+// open ones are not affected.
 //
-// gRPC 1.51 does not take connections itself: when it once cannot, because too many files are open, it stops
-// listening for good and says so in a line of the log.
+// gRPC 1.51 cannot be left to accept connections: if that fails once, because too many files are open, it logs a line
+// and stops listening for good.
 class ConnectionGate {
  public:
   using Acceptor = grpc::experimental::ExternalConnectionAcceptor;
 
-  // Raises the limit of the process on open files as far as it may.
-  // Counts those that it refuses in `metrics`.
+  // Raises the limit of the process on open files as far as allowed. Counts refused connections in `metrics`.
   ConnectionGate(std::vector<ListeningSocket> sockets, std::unique_ptr<Acceptor> acceptor,
                  AccessMetrics& metrics);
 
-  // Stops to listen.
+  // Stops listening.
   ~ConnectionGate();
 
-  // Ends the connections of these callers at once: what they have sent and is not read yet is not read any
-  // more. Returns those who had one.
-  std::vector<Caller> End(const std::vector<Caller>& callers);
+  // Closes the connections of these callers at once, without reading what they have sent. Returns the callers that had
+  // a connection.
+  std::vector<Caller> Disconnect(const std::vector<Caller>& callers);
 
  private:
   void Run();
@@ -45,11 +44,11 @@ class ConnectionGate {
   const std::vector<ListeningSocket> sockets_;
   const std::unique_ptr<Acceptor> acceptor_;
   AccessMetrics& metrics_;
-  const int end_of_descriptors_;  // A connection from here on is one too many.
-  const int stop_;                // Readable when it is time to stop.
-  int refused_ = 0;               // Since the last line of the log about it.
+  const int descriptor_limit_;  // A connection with this descriptor or a higher one is refused.
+  const int stop_;              // Becomes readable when the gate stops.
+  int refused_ = 0;             // Since the last log line about refused connections.
   std::chrono::steady_clock::time_point next_line_{};
-  std::mutex taking_;  // No connection is taken while it is held.
+  std::mutex accept_mutex_;  // No connection is accepted while it is held.
   std::thread thread_;
 };
 

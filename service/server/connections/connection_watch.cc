@@ -16,28 +16,30 @@ double ResidentBytes() {
 
 }  // namespace
 
-std::vector<Caller> CallersToEnd(std::vector<ConnectionCalls> connections) {
+std::vector<Caller> CallersToDisconnect(std::vector<ConnectionCalls> connections) {
   std::sort(connections.begin(), connections.end(),
             [](const ConnectionCalls& a, const ConnectionCalls& b) { return a.calls > b.calls; });
-  long of_all = 0;
-  for (const ConnectionCalls& connection : connections) of_all += connection.calls;
+  long total = 0;
+  for (const ConnectionCalls& connection : connections) total += connection.calls;
   std::vector<Caller> callers;
   for (const ConnectionCalls& connection : connections) {
-    if (connection.calls <= kMaxCallsInMemory && of_all <= kMaxCallsOfAll) break;
+    if (connection.calls <= kMaxCallsInMemory && total <= kMaxTotalCallsInMemory) break;
     callers.push_back(connection.caller);
-    of_all -= connection.calls;
+    total -= connection.calls;
   }
   return callers;
 }
 
-ConnectionWatch::ConnectionWatch(std::function<void(const std::vector<Caller>&)> end)
-    : end_(std::move(end)), resident_bytes_(ResidentBytes()), looking_(kMemoryLook, [this] { Look(); }) {}
+ConnectionWatch::ConnectionWatch(std::function<void(const std::vector<Caller>&)> disconnect)
+    : disconnect_(std::move(disconnect)),
+      resident_bytes_(ResidentBytes()),
+      checking_(kMemoryCheckInterval, [this] { Check(); }) {}
 
-void ConnectionWatch::Look() {
+void ConnectionWatch::Check() {
   const double bytes = ResidentBytes();
   if (bytes > resident_bytes_ + static_cast<double>(kMemoryGrowth)) {
-    const std::vector<Caller> callers = CallersToEnd(CountConnectionCalls());
-    if (!callers.empty()) end_(callers);
+    const std::vector<Caller> callers = CallersToDisconnect(CountConnectionCalls());
+    if (!callers.empty()) disconnect_(callers);
     resident_bytes_ = bytes;
   }
   resident_bytes_ = std::min(resident_bytes_, bytes);

@@ -1,4 +1,4 @@
-// What a few files say, for as long as a server runs: read again when one of them changes.
+// A value read from a few files, which is read again whenever one of them changes.
 #pragma once
 
 #include <spdlog/spdlog.h>
@@ -13,77 +13,77 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "service/server/ground/file_stamp.h"
+#include "service/server/ground/file_identity.h"
 
 namespace albtpu::server {
 
-// Files that cannot be read any more, or that say what is not right, change nothing: what they said before
-// holds, and the log says why. Such files are read again, at most each second: what was in the way may have been
-// the system, with too many open files. May be asked from several threads.
+// If the files can no longer be read, or their content is invalid, the last good value stays in use and the log
+// says why. The read is then retried at most once a second, because the cause may have been temporary, such as too
+// many open files. Thread-safe.
 template <typename Value>
 class FileValue {
  public:
   using Read = std::function<absl::StatusOr<Value>()>;
 
-  // `read` reads `files`, now and whenever one of them has changed. Fails as it does the first time.
+  // `read` reads `files`, now and whenever one of them has changed. Fails if the first read fails.
   static absl::StatusOr<std::unique_ptr<FileValue>> Open(std::vector<std::filesystem::path> files,
                                                          Read read) {
-    Stamps stamps = StampsOf(files);
+    Identities identities = IdentitiesOf(files);
     absl::StatusOr<Value> value = read();
     if (!value.ok()) return value.status();
     return std::unique_ptr<FileValue>(
-        new FileValue(std::move(files), std::move(read), std::move(stamps), *std::move(value)));
+        new FileValue(std::move(files), std::move(read), std::move(identities), *std::move(value)));
   }
 
-  // The same object until a file has changed.
+  // Returns the same object until a file has changed.
   std::shared_ptr<const Value> Get() {
     const std::lock_guard lock(mutex_);
-    // The stamps are older than what is read: a change meanwhile is noticed the next time.
-    if (Stamps stamps = StampsOf(files_); stamps != stamps_) {
-      stamps_ = std::move(stamps);
+    // The identities are taken before the read, so a change during the read is noticed the next time.
+    if (Identities identities = IdentitiesOf(files_); identities != identities_) {
+      identities_ = std::move(identities);
       failure_ = absl::OkStatus();
-      ReadAgain();
+      Reread();
     } else if (!failure_.ok() && Clock::now() - read_at_ > std::chrono::seconds(1)) {
-      ReadAgain();
+      Reread();
     }
     return value_;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Stamps = std::vector<FileStamp>;
+  using Identities = std::vector<FileIdentity>;
 
-  FileValue(std::vector<std::filesystem::path> files, Read read, Stamps stamps, Value value)
+  FileValue(std::vector<std::filesystem::path> files, Read read, Identities identities, Value value)
       : files_(std::move(files)),
         read_(std::move(read)),
-        stamps_(std::move(stamps)),
+        identities_(std::move(identities)),
         value_(std::make_shared<const Value>(std::move(value))) {}
 
-  static Stamps StampsOf(const std::vector<std::filesystem::path>& files) {
-    Stamps stamps;
-    for (const std::filesystem::path& file : files) stamps.push_back(StampOf(file));
-    return stamps;
+  static Identities IdentitiesOf(const std::vector<std::filesystem::path>& files) {
+    Identities identities;
+    for (const std::filesystem::path& file : files) identities.push_back(IdentityOf(file));
+    return identities;
   }
 
-  void ReadAgain() {
+  void Reread() {
     absl::StatusOr<Value> value = read_();
     const bool is_known = value.status() == failure_;
     failure_ = value.status();
     read_at_ = Clock::now();
     if (value.ok()) {
       value_ = std::make_shared<const Value>(*std::move(value));
-      spdlog::info("{}: has changed and been read again", files_.front().string());
+      spdlog::info("{}: changed and was read again", files_.front().string());
     } else if (!is_known) {
-      spdlog::error("{}; what was read before holds", std::string(failure_.message()));
+      spdlog::error("{}; the values read before stay in use", std::string(failure_.message()));
     }
   }
 
   const std::vector<std::filesystem::path> files_;
   const Read read_;
   std::mutex mutex_;
-  Stamps stamps_;  // Guarded by mutex_, as are:
+  Identities identities_;  // Guarded by mutex_, as are all members below.
   std::shared_ptr<const Value> value_;
-  absl::Status failure_;  // Of the last time that the files were read.
+  absl::Status failure_;  // Of the last read; OK if it succeeded.
   Clock::time_point read_at_;
 };
 

@@ -1,4 +1,4 @@
-// Notices that nothing has moved for a while.
+// Notices that there has been no activity for a while.
 #pragma once
 
 #include <grpcpp/alarm.h>
@@ -12,21 +12,21 @@ namespace albtpu::server {
 
 class IdleWatch {
  public:
-  // Calls `on_idle` once, from a thread of gRPC, when Moved() has not been called for `limit`, up to twice as
-  // long.
+  // Calls `on_idle` once, from a thread of gRPC, when NoteActivity() has not been called for a time between `limit`
+  // and twice `limit`.
   IdleWatch(std::chrono::milliseconds limit, std::function<void()> on_idle);
 
-  // Waits for an `on_idle` that runs; none runs thereafter.
+  // Waits for a running `on_idle` to return; it is not called after that.
   ~IdleWatch();
 
   IdleWatch(const IdleWatch&) = delete;
   IdleWatch& operator=(const IdleWatch&) = delete;
 
-  void Moved();
+  void NoteActivity();
 
  private:
   struct State;
-  static void Wait(const std::shared_ptr<State>& state);
+  static void SetAlarm(const std::shared_ptr<State>& state);
 
   std::shared_ptr<State> state_;
 };

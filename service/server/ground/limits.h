@@ -6,126 +6,124 @@
 
 namespace albtpu::server {
 
-// The default limit of gRPC on the messages that a client takes: no answer may pass it, nor need a request.
+// Largest message. By default a gRPC client accepts no larger one, so no answer may exceed it, and no request needs to.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{4} << 20;
 
-// Pulses in one message. The largest answer in columns has 59 bytes a pulse: outcome and axis (2), six
-// quantities and their standard errors (48), S-44 (9).
+// Pulses in one message. The largest answer in columns has 59 bytes per pulse: outcome and axis (2), six quantities
+// and their standard errors (48), S-44 (9).
 inline constexpr std::size_t kMaxPulses = 65536;
 static_assert(kMaxPulses * 59 < kMaxMessageBytes);
 
-// Pulses in one message of `QueryPulses` that asks for standard errors. In rows an answer has at most 52
-// bytes a pulse (message 2, outcome 2, absent azimuth 2, six quantities 32, S-44 14), and 84 with standard
-// errors.
+// Pulses in one message of `QueryPulses` that asks for standard errors. An answer in rows has at most 52 bytes per
+// pulse (message 2, outcome 2, absent azimuth 2, six quantities 32, S-44 14), and 84 with standard errors.
 inline constexpr std::size_t kMaxPulsesWithStandardErrors = 32768;
 static_assert(kMaxPulses * 52 < kMaxMessageBytes);
 static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
 
-// Requests up to this length are answered at once, on the thread that received them: some 12 000 pulses of four
-// columns, half a millisecond, to which handing them over to a worker and back would add a third; 49 000 of
-// one column at the most. Longer ones wait for a worker, so that they never stand in the way of short ones.
+// Requests up to this length are handled at once, on the thread that received them. They hold about 12 000 pulses in
+// four columns, at most 49 000 in one column, and take half a millisecond; handing them to a worker and back would add
+// a third. Longer requests wait for a worker, so that they never delay short ones.
 inline constexpr std::size_t kMaxInlineBytes = std::size_t{192} << 10;
 
-// Calls under way that may wait for a worker, all connections together: beyond them calls fail with
-// RESOURCE_EXHAUSTED. A stream counts as long as it is open; calls that are answered at once do not. A call
-// holds up to 12 MiB (a stream: the request that is answered, the one after it and an answer), all of them
-// 1.5 GiB; a worker holds 8 MiB more, 20 MiB where pulses come in rows.
+// Calls of all connections that may wait for a worker; further ones fail with RESOURCE_EXHAUSTED. A stream counts while
+// it is open; calls that are handled at once do not count. A call holds up to 12 MiB (a stream: the request being
+// handled, the next request and one answer), all of them 1.5 GiB. Each worker holds another 8 MiB, or 20 MiB for
+// pulses in rows.
 inline constexpr int kMaxBulkCalls = 128;
 
-// Calls under way on one connection; further ones wait in the client. A connection that sends them all the same
-// is closed if it has acknowledged this number: until then gRPC 1.51 knows no limit.
+// Calls in progress on one connection; further ones wait in the client. A connection that sends more after it has
+// acknowledged this limit is closed; before the acknowledgement gRPC 1.51 enforces no limit.
 inline constexpr int kMaxCallsPerConnection = 64;
 
-// Calls that a connection may have in memory: those under way, and those of which something is left, though
-// they were answered or taken back. A busy server has as many of these; a connection that has more is ended.
+// Calls that one connection may have in memory: those in progress, and those that were answered or cancelled but not
+// yet freed. A busy server has about as many of the latter. A connection with more calls is closed.
 inline constexpr long kMaxCallsInMemory = 4 * kMaxCallsPerConnection;
 
-// And all connections together, 12 to 26 KiB each beside their messages: less than a gigabyte. Beyond it the
-// connection with the most is ended.
-inline constexpr long kMaxCallsOfAll = 512 * kMaxCallsPerConnection;
+// Calls that all connections together may have in memory. Each takes 12 to 26 KiB beside its messages, all of them less
+// than a gigabyte. Above this limit the connection with the most calls is closed.
+inline constexpr long kMaxTotalCallsInMemory = 512 * kMaxCallsPerConnection;
 
-// How often the memory of the process is looked at, some 30 us each time, and after how much growth the calls
-// of its connections are, 20 us for each. A core makes at most 100 000 calls a second: 25 MiB between two
-// looks.
-inline constexpr std::chrono::milliseconds kMemoryLook{20};
+// How often the memory of the process is read (about 30 us each time), and the growth after which the calls of all
+// connections are counted (20 us per connection). One core makes at most 100 000 calls a second: 25 MiB between two
+// checks.
+inline constexpr std::chrono::milliseconds kMemoryCheckInterval{20};
 inline constexpr std::size_t kMemoryGrowth = std::size_t{16} << 20;
 
-// What is read of a connection at a time: gRPC makes calls of all of it, of 15 bytes each at least, before it
-// looks whether the connection still stands. The default of gRPC, 4 MiB, is no faster.
+// Bytes read from a connection at a time. gRPC makes calls of all of them, each 15 bytes or longer, before it checks
+// whether the connection is still open. gRPC's default, 4 MiB, is no faster.
 inline constexpr int kMaxReadBytes = 64 << 10;
 
-// Of single calls that are answered at once, requests and answers whose callers have not read the answer:
-// beyond them calls fail with RESOURCE_EXHAUSTED. Long calls are not among them: they have their places. An
-// answer that is not read for kMaxStreamIdle is dropped; sooner when half of the room is taken, which a
-// connection or two can do: 3 MB, the longest, pass within this time at 5 Mbit/s.
+// Requests and answers of single calls that were handled at once and whose callers have not yet read the answer. Above
+// this limit calls fail with RESOURCE_EXHAUSTED. Long calls do not count here: kMaxBulkCalls limits them. An answer
+// that is not read within kMaxStreamIdle is dropped. When half of the memory is in use, which one or two connections
+// can cause, it is dropped after the shorter time: 3 MB, the longest answer, take that long at 5 Mbit/s.
 inline constexpr std::size_t kMaxUnreadBytes = std::size_t{256} << 20;
-inline constexpr std::chrono::seconds kMaxUnreadWhenCrowded{5};
+inline constexpr std::chrono::seconds kMaxUnreadTimeWhenCrowded{5};
 
-// What comes before a message: method, token, deadline take some hundred bytes. The default of gRPC, in both
-// directions.
+// Metadata before a message: method, token and deadline take a few hundred bytes. gRPC's default in both directions.
 inline constexpr int kMaxMetadataBytes = 8 << 10;
 
-// Of the message of an error, which may repeat a name from the request. Escaped it takes three times as much
-// at most, in details a third more than it is: all of it passes as metadata.
+// Length of an error message, which may repeat a name from the request. It travels as metadata twice: escaped, at most
+// three times as long, and in the details, a third longer.
 inline constexpr std::size_t kMaxErrorBytes = 1024;
 static_assert(kMaxErrorBytes * 3 + kMaxErrorBytes * 4 / 3 < kMaxMetadataBytes);
 
-// Connections that are open at a time, a hundred for each bulk call; those that say nothing hold
-// some 20 KiB of memory each, 320 MiB in all. The limit of the system on open files may be lower.
+// Connections open at a time: about a hundred for each bulk call. A silent connection holds about 20 KiB of memory, all
+// of them 320 MiB. The operating system's limit on open files may be lower.
 inline constexpr int kMaxConnections = 16384;
 
-// Open files that are no connections of callers: sockets that listen, log, tables while they are read, those
-// who ask for metrics.
+// File descriptors that are not connections of callers: listening sockets, the log, tables being read, connections of
+// the metrics endpoint.
 inline constexpr int kOwnDescriptors = 64;
 
-// No connection is kept that is of no use, and all together have limited memory.
+// The limits below close connections that serve no purpose, and bound the memory of all connections together.
 
-// From the first byte to the end of the handshakes of TLS and HTTP/2. A client far away needs some hundred
-// milliseconds; one that connects and is silent is gone after this.
+// From the first byte to the end of the TLS and HTTP/2 handshakes. A distant client needs a few hundred milliseconds; a
+// client that connects and stays silent is disconnected after this time.
 inline constexpr std::chrono::seconds kMaxHandshake{10};
 
-// A connection without a call. Clients connect anew when they have something to ask.
+// A connection without a call. Clients reconnect when they have a question.
 inline constexpr std::chrono::minutes kMaxConnectionIdle{5};
 
-// Whoever has been connected for this long is asked to connect anew: then certificates that were replaced,
-// and authorities that are trusted no more, have effect. gRPC spreads it by a tenth. What is under way goes on
-// for kMaxCallTime more; then it is cut, and our clients go on where they were.
+// After this time, which gRPC varies by a tenth, a client is asked to reconnect, so that replaced certificates and
+// removed authorities take effect. Calls in progress may continue for kMaxCallTime; then they are cut, and our clients
+// resume where they were.
 inline constexpr std::chrono::minutes kMaxConnectionAge{60};
 inline constexpr std::chrono::minutes kMaxCallTime{10};
 
-// A silent peer is asked for a sign of life, and given up without one: its machine or network has gone, and
-// nobody else will say so.
+// A silent peer is pinged after kKeepaliveTime and disconnected if it does not reply within kKeepaliveTimeout: its
+// machine or network may have failed, which nothing else would report.
 inline constexpr std::chrono::seconds kKeepaliveTime{60};
 inline constexpr std::chrono::seconds kKeepaliveTimeout{20};
 
-// The third sign of life that a client asks for sooner than this closes its connection: pings cost more to
-// answer than to send.
+// The third ping of a client that comes sooner than this closes its connection: a ping costs more to answer than to
+// send.
 inline constexpr std::chrono::seconds kMinPingInterval{10};
 
-// Nothing moves in a stream: the caller sends nothing, or does not read. It has one of kMaxBulkCalls places.
-// Or the answer of a single call is not read.
+// A stream that holds one of the kMaxBulkCalls places while its caller neither sends nor reads ends after this time. A
+// single call whose answer is not read does so, too.
 inline constexpr std::chrono::seconds kMaxStreamIdle{60};
 
-// What gRPC may hold for all connections, messages that come and go included: those of kMaxBulkCalls, and
-// half a gigabyte for tens of thousands of connections. Near it calls are refused, idle connections closed.
+// Memory that gRPC may use for all connections, including messages in transit: those of kMaxBulkCalls, and half a
+// gigabyte for tens of thousands of connections. Near this limit calls are refused and idle connections closed.
 inline constexpr std::size_t kMaxConnectionBytes = std::size_t{2} << 30;
 
-// How long calls under way may go on after SIGTERM, within the 30 s of grace that Kubernetes gives.
+// How long calls in progress may continue after SIGTERM; within the grace period of 30 s that Kubernetes gives.
 inline constexpr std::chrono::seconds kDrainTime{10};
 
-// Of a caller's `x-request-id`, which stands in the log: a UUID has 36, a trace context of W3C 55.
+// Length of a caller's `x-request-id`, which is logged. A UUID has 36 characters, a W3C trace context 55.
 inline constexpr std::size_t kMaxRequestIdBytes = 64;
 
-// Lines about calls in the log, a second; those beyond are counted, not written. Nobody reads more, and a
-// caller in a loop must not fill a disk.
+// Log lines about calls per second; further lines are counted and not written. Nobody reads more, and a caller in a
+// loop must not fill a disk.
 inline constexpr int kMaxCallLinesPerSecond = 100;
 
-// gRPC gives each stream of reflection a thread for as long as it is open, and to nothing else; further ones
-// fail with RESOURCE_EXHAUSTED. Tools ask one question or two.
+// gRPC uses threads for reflection only: one for each open stream. Further streams fail with RESOURCE_EXHAUSTED. Tools
+// ask one or two questions.
 inline constexpr int kReflectionThreads = 16;
 
-// Those who ask for metrics: one or two, each for milliseconds, every few seconds. Who sends no request or
-// does not read the answer is let go.
+// One or two clients read the metrics every few seconds, for milliseconds each time. A client that sends no request or
+// does not read the answer within the timeout is disconnected.
 inline constexpr int kMetricsThreads = 16;
 inline constexpr std::chrono::milliseconds kMetricsTimeout{1000};
 

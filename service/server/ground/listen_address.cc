@@ -9,27 +9,28 @@
 namespace albtpu::server {
 namespace {
 
-absl::Status NotAnAddress(std::string_view text) {
+absl::Status InvalidAddress(std::string_view text) {
   return absl::InvalidArgumentError(absl::StrCat(
-      "'", std::string(text), "' is no address to listen on: HOST:PORT, such as 127.0.0.1:50051 or [::1]:0"));
+      "'", std::string(text),
+      "' is not an address to listen on: expected HOST:PORT, such as 127.0.0.1:50051 or [::1]:0"));
 }
 
 }  // namespace
 
 absl::StatusOr<ListenAddress> ListenAddress::Parse(std::string_view text) {
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return NotAnAddress(text);
+  if (colon == std::string_view::npos) return InvalidAddress(text);
   std::string_view host = text.substr(0, colon);
   const std::string port_text(text.substr(colon + 1));
   const bool bracketed = host.size() >= 2 && host.front() == '[' && host.back() == ']';
   if (bracketed) host = host.substr(1, host.size() - 2);
-  const bool has_colon =
-      host.find(':') != std::string_view::npos;  // IPv6 stands in brackets, and nothing else.
+  // An IPv6 address, and no other host, is written in brackets.
+  const bool has_colon = host.find(':') != std::string_view::npos;
   int port = 0;
   if (host.empty() || has_colon != bracketed ||
       port_text.find_first_not_of("0123456789") != std::string::npos || !absl::SimpleAtoi(port_text, &port) ||
       port > 65535) {
-    return NotAnAddress(text);
+    return InvalidAddress(text);
   }
   return ListenAddress(host, port);
 }

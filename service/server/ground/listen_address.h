@@ -1,4 +1,4 @@
-// HOST:PORT, as --listen takes it.
+// HOST:PORT, as --listen and --metrics take it.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace albtpu::server {
 
 class ListenAddress {
  public:
-  // `127.0.0.1:50051`, `[::1]:0` or `localhost:50051`; port 0 means any free one. InvalidArgument for
-  // anything else.
+  // `127.0.0.1:50051`, `[::1]:0` or `localhost:50051`; port 0 means any free port. InvalidArgument
+  // for anything else.
   static absl::StatusOr<ListenAddress> Parse(std::string_view text);
 
-  // Whether only this machine can reach it: 127.0.0.0/8, ::1 or localhost.
+  // Whether only this machine can reach the address: 127.0.0.0/8, ::1 or localhost.
   bool IsLoopback() const;
 
   const std::string& host() const { return host_; }

@@ -29,14 +29,14 @@ absl::StatusOr<Addresses> Resolve(const ListenAddress& address) {
 }
 
 void SetPort(sockaddr* address, int port) {
-  const in_port_t in_order = htons(static_cast<in_port_t>(port));
-  if (address->sa_family == AF_INET) reinterpret_cast<sockaddr_in*>(address)->sin_port = in_order;
-  if (address->sa_family == AF_INET6) reinterpret_cast<sockaddr_in6*>(address)->sin6_port = in_order;
+  const in_port_t network_order = htons(static_cast<in_port_t>(port));
+  if (address->sa_family == AF_INET) reinterpret_cast<sockaddr_in*>(address)->sin_port = network_order;
+  if (address->sa_family == AF_INET6) reinterpret_cast<sockaddr_in6*>(address)->sin6_port = network_order;
 }
 
-// Whether it listens; errno says why not.
+// Returns whether the socket listens; if not, errno says why.
 bool ListenOn(int descriptor, const addrinfo& address) {
-  const int on = 1;  // A port whose last user has gone is free.
+  const int on = 1;  // Allows a port whose last user has just exited.
   return descriptor >= 0 && setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
          bind(descriptor, address.ai_addr, address.ai_addrlen) == 0 && listen(descriptor, SOMAXCONN) == 0;
 }
@@ -60,10 +60,10 @@ absl::StatusOr<std::vector<ListeningSocket>> Listen(const ListenAddress& address
   if (!addresses.ok()) return addresses.status();
   std::vector<ListeningSocket> sockets;
   absl::Status failure;
-  for (addrinfo* one = addresses->get(); one != nullptr; one = one->ai_next) {
-    if (!sockets.empty()) SetPort(one->ai_addr, sockets.front().port());
-    ListeningSocket socket(::socket(one->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (ListenOn(socket.descriptor(), *one)) {
+  for (addrinfo* candidate = addresses->get(); candidate != nullptr; candidate = candidate->ai_next) {
+    if (!sockets.empty()) SetPort(candidate->ai_addr, sockets.front().port());
+    ListeningSocket socket(::socket(candidate->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (ListenOn(socket.descriptor(), *candidate)) {
       sockets.push_back(std::move(socket));
       continue;
     }

@@ -1,4 +1,4 @@
-// The sockets that a server listens with.
+// The sockets on which a server listens.
 #pragma once
 
 #include <utility>
@@ -23,9 +23,9 @@ class ListeningSocket {
   int descriptor_;
 };
 
-// One socket, which does not block, for each address that the host has (`localhost`: 127.0.0.1 and ::1), all
-// on one port. Addresses of a family that this machine does not have are left out. Unavailable, with the
-// reason, when none is left or somebody else listens on one.
+// Opens one non-blocking socket for each address of the host (`localhost` has 127.0.0.1 and ::1), all on the same
+// port. Addresses of a family that this machine does not support are skipped. Unavailable, with the reason, if no
+// address remains or another program listens on one of them.
 absl::StatusOr<std::vector<ListeningSocket>> Listen(const ListenAddress& address);
 
 }  // namespace albtpu::server

@@ -1,6 +1,6 @@
-// The threads that answer long requests, one a core. Those of gRPC, which receive and send, never wait for
-// them: the system shares the cores between both, so that short requests are answered within moments under
-// any load of long ones.
+// The threads that handle long requests, one for each core. The threads of gRPC, which receive and send, never wait
+// for them: the operating system shares the cores between both, so short requests are answered promptly under any
+// load of long ones.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -15,23 +15,23 @@ namespace albtpu::server {
 
 class Workers {
  public:
-  // Place for one call among the kMaxBulkCalls that may wait for workers. False: there is none.
+  // Takes one of the kMaxBulkCalls places for calls that may wait for workers. Returns false if none is free.
   bool Admit() {
     if (calls_.fetch_add(1) < kMaxBulkCalls) return true;
-    Dismiss();
+    Release();
     return false;
   }
-  void Dismiss() { calls_.fetch_sub(1); }
+  void Release() { calls_.fetch_sub(1); }
 
-  // Runs `task` once a worker is free, in the order of the calls. While it waits for parts of itself on other
-  // workers, its thread starts no other task.
+  // Runs `task` as soon as a worker is free; tasks start in the order of these calls. While a task waits for parts
+  // of itself on other workers, its thread starts no other task.
   template <typename Task>
   void Run(Task task) {
     arena_.enqueue([task] { tbb::this_task_arena::isolate(task); });
   }
 
  private:
-  // TBB counts a thread of ours among its own, and there is none here.
+  // One more than there are cores: TBB reserves one place for the calling thread, which does not work here.
   tbb::global_control threads_{tbb::global_control::max_allowed_parallelism,
                                static_cast<std::size_t>(tbb::info::default_concurrency()) + 1};
   tbb::task_arena arena_{tbb::info::default_concurrency(), 0};

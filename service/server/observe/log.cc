@@ -5,22 +5,27 @@
 #include <spdlog/sinks/base_sink.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "absl/random/random.h"
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
 #include "service/printable_text.h"
+#include "service/server/ground/limits.h"
 
 namespace albtpu::server {
 namespace {
 
-// A longer line is cut: what a pipe takes without waiting if it takes anything.
+// Longer lines are cut to this length, which a pipe that has room at all takes without blocking.
 constexpr std::size_t kMaxLineBytes = PIPE_BUF;
 
-// spdlog takes text alone; a formatter finds here what else belongs to the line that this thread logs.
+// spdlog accepts only text. Through these, the formatter gets the other parts of the line that this thread logs.
 thread_local const LogFields* line_fields = nullptr;
 thread_local const RequestId* current_request = nullptr;
 
@@ -91,7 +96,7 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
  private:
   void sink_it_(const spdlog::details::log_msg& line) override {
     if (left_out_ > 0 && HasRoom()) {
-      const std::string text = absl::StrCat(left_out_, " lines were left out: nobody read the log");
+      const std::string text = absl::StrCat(left_out_, " lines were left out (nobody read the log)");
       const LogFields* fields = std::exchange(line_fields, nullptr);
       const RequestId* request = std::exchange(current_request, nullptr);
       Write(spdlog::details::log_msg(line.logger_name, spdlog::level::warn, text));
@@ -103,7 +108,7 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
     ++left_out_;
   }
 
-  // A pipe that has room takes kMaxLineBytes at once.
+  // A pipe that has room takes kMaxLineBytes without blocking.
   bool HasRoom() const {
     pollfd state = {descriptor_, POLLOUT, 0};
     return poll(&state, 1, 0) == 1 && (state.revents & POLLOUT) != 0;
@@ -112,7 +117,7 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
   void Write(const spdlog::details::log_msg& line) {
     spdlog::memory_buf_t text;
     formatter_->format(line, text);
-    // Where the log has gone or its disk is full, there is nobody to tell.
+    // An error is ignored: if the log is closed or its disk is full, there is no place to report it.
     [[maybe_unused]] const ssize_t written = write(descriptor_, text.data(), text.size());
   }
 
@@ -121,6 +126,11 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
   const int descriptor_;
   long left_out_ = 0;
 };
+
+std::string MakeId() {
+  thread_local absl::BitGen random;
+  return absl::StrCat(absl::Hex(absl::Uniform<std::uint64_t>(random), absl::kZeroPad16));
+}
 
 }  // namespace
 
@@ -136,6 +146,22 @@ void Log(spdlog::level::level_enum level, const std::string& message, const LogF
   line_fields = &fields;
   spdlog::log(level, spdlog::string_view_t(message));
   line_fields = nullptr;
+}
+
+const std::string& RequestId::text() const {
+  if (!text_.empty()) return text_;
+  const auto& metadata = context_.client_metadata();
+  const auto sent = metadata.find(kMetadata);
+  std::string_view text;
+  if (sent != metadata.end()) text = {sent->second.data(), sent->second.size()};
+  text_ = IsValid(text) ? std::string(text) : MakeId();
+  return text_;
+}
+
+bool RequestId::IsValid(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxRequestIdBytes &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '_' || c == '-'; });
 }
 
 RequestScope::RequestScope(const RequestId& request_id)

@@ -10,7 +10,7 @@ namespace albtpu::server {
 
 absl::StatusOr<std::unique_ptr<MetricsEndpoint>> MetricsEndpoint::Start(
     const ListenAddress& address, const std::vector<std::shared_ptr<prometheus::Collectable>>& sources) {
-  // The library says only that it could not.
+  // Tried first for the reason of a failure, which the library does not give.
   const absl::Status probe = Listen(address).status();
   if (!probe.ok()) return absl::UnavailableError(absl::StrCat("cannot listen on ", probe.message()));
   try {

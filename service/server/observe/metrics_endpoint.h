@@ -1,4 +1,4 @@
-// Where Prometheus asks for the metrics: plain HTTP, GET /metrics.
+// The endpoint that Prometheus scrapes: plain HTTP, GET /metrics.
 #pragma once
 
 #include <prometheus/exposer.h>
@@ -14,12 +14,12 @@ namespace albtpu::server {
 
 class MetricsEndpoint {
  public:
-  // Listens until it is destroyed, and answers with the metrics of all `sources` that still live.
-  // Unavailable, with the reason, when it cannot listen.
+  // Listens until it is destroyed, and serves the metrics of all `sources` that still exist. Unavailable, with the
+  // reason, if it cannot listen.
   static absl::StatusOr<std::unique_ptr<MetricsEndpoint>> Start(
       const ListenAddress& address, const std::vector<std::shared_ptr<prometheus::Collectable>>& sources);
 
-  // HOST:PORT with the port that is listened on.
+  // HOST:PORT with the actual port.
   const std::string& address() const { return address_; }
 
  private:

@@ -15,10 +15,10 @@ std::size_t OutcomeTally::pulses() const {
 
 void OutcomeTally::Add(std::span<const std::uint8_t> outcomes, std::span<const std::uint8_t> outcome_axes) {
   assert(outcomes.size() == outcome_axes.size());
-  const auto numbers = static_cast<std::size_t>(
+  const auto count = static_cast<std::size_t>(
       std::count(outcomes.begin(), outcomes.end(), static_cast<std::uint8_t>(v1::OUTCOME_INTERPOLATED)));
-  interpolated += numbers;
-  if (numbers == outcomes.size()) return;  // As a rule.
+  interpolated += count;
+  if (count == outcomes.size()) return;  // The usual case.
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i] == v1::OUTCOME_INTERPOLATED) continue;
     auto& by_axis = outcomes[i] == v1::OUTCOME_OUT_OF_DOMAIN ? out_of_domain : invalid;

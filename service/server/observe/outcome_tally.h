@@ -1,4 +1,4 @@
-// How many pulses of an answer had which outcome.
+// Counts the pulses of an answer by outcome.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace albtpu::server {
 
 struct OutcomeTally {
   std::size_t interpolated = 0;
-  // By the axis that is named.
+  // By the axis that caused the outcome.
   std::array<std::size_t, kAxisCount> out_of_domain = {};
   std::array<std::size_t, kAxisCount> invalid = {};
 
   std::size_t pulses() const;
 
-  // Adds pulses by their columns on the wire: numbers of `Outcome` and of `Axis`.
+  // Adds pulses given by their columns on the wire: the numbers of `Outcome` and `Axis`.
   void Add(std::span<const std::uint8_t> outcomes, std::span<const std::uint8_t> outcome_axes);
 };
 

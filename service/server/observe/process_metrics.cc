@@ -38,13 +38,13 @@ std::optional<double> CountOpenFiles() {
   std::error_code error;
   const std::filesystem::directory_iterator files("/proc/self/fd", error);
   if (error) return std::nullopt;
-  return static_cast<double>(std::distance(begin(files), end(files)) - 1);  // Without that of the iterator.
+  return static_cast<double>(std::distance(begin(files), end(files)) - 1);  // Without the iterator's own.
 }
 
 }  // namespace
 
 std::optional<ProcessMemory> ReadProcessMemory() {
-  // proc(5): the first two numbers, of pages. Opened once: opening takes longer than all else.
+  // proc(5): the first two numbers are in pages. The file is opened once, because opening takes longer than the rest.
   static const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   static const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
   char text[128];

@@ -1,4 +1,4 @@
-// The process as metrics, under the names that all clients of Prometheus use.
+// Metrics of the process, under the names that all Prometheus clients use.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -13,17 +13,17 @@ struct ProcessMemory {
   double virtual_bytes, resident_bytes;
 };
 
-// What this process has now; none where /proc does not say it.
+// The memory of this process now; none if /proc cannot be read.
 std::optional<ProcessMemory> ReadProcessMemory();
 
-// Read from /proc whenever somebody asks; what cannot be read is left out. To be made when the process
-// begins.
+// Read from /proc at every scrape; what cannot be read is left out. Construct it when the process starts, because the
+// start time is that of construction.
 class ProcessMetrics final : public prometheus::Collectable {
  public:
   std::vector<prometheus::MetricFamily> Collect() const override;
 
  private:
-  const double start_time_ =  // s since 1970
+  const double start_time_ =  // s since 1970-01-01 UTC
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 };
 

@@ -1,4 +1,4 @@
-// Which tables answer, as metrics: taken from those that are current whenever somebody asks.
+// The metrics of the tables in use, taken from the current catalog at every scrape.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -11,7 +11,7 @@ namespace albtpu::server {
 
 class TableMetrics final : public prometheus::Collectable {
  public:
-  // `tables` must outlive it.
+  // `tables` must outlive this object.
   explicit TableMetrics(const LiveTables& tables) : tables_(tables) {}
 
   std::vector<prometheus::MetricFamily> Collect() const override;

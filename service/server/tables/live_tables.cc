@@ -43,22 +43,22 @@ void LiveTables::Run() {
       if (stopping_) return;
       listeners.swap(waiting_);
     }
-    const Outcome outcome = ReloadNow();
-    on_reload_(outcome);
-    for (const Listener& listener : listeners) listener(outcome);
+    const ReloadResult result = ReloadNow();
+    on_reload_(result);
+    for (const Listener& listener : listeners) listener(result);
   }
 }
 
-LiveTables::Outcome LiveTables::ReloadNow() try {
-  absl::StatusOr<TableCatalog::Reread> reread = current()->ReadAgain();
-  if (!reread.ok()) return reread.status();
-  auto next = std::make_shared<const TableCatalog>(std::move(reread->catalog));
+LiveTables::ReloadResult LiveTables::ReloadNow() try {
+  absl::StatusOr<TableCatalog::Reloaded> reloaded = current()->Reload();
+  if (!reloaded.ok()) return reloaded.status();
+  auto next = std::make_shared<const TableCatalog>(std::move(reloaded->catalog));
   {
     const std::lock_guard lock(mutex_);
     current_.swap(next);
   }
-  // `next` is what was: freed here, unless calls still answer from it.
-  return std::move(reread->changes);
+  // `next` is now the previous catalog, freed here unless calls still use it.
+  return std::move(reloaded->changes);
 } catch (const std::exception& error) {
   return absl::InternalError(error.what());
 }

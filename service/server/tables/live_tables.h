@@ -1,4 +1,4 @@
-// The tables that answer now, and those that take their place when the folder has changed.
+// The tables currently in use, and their replacement when the folder has changed.
 #pragma once
 
 #include <condition_variable>
@@ -13,40 +13,39 @@
 
 namespace albtpu::server {
 
-// May be used from several threads.
+// Thread-safe.
 class LiveTables {
  public:
-  // What became of each table, or why nothing was changed.
-  using Outcome = absl::StatusOr<std::vector<TableCatalog::Change>>;
-  using Listener = std::function<void(const Outcome&)>;
+  // What happened to each table, or why nothing changed.
+  using ReloadResult = absl::StatusOr<std::vector<TableCatalog::Change>>;
+  using Listener = std::function<void(const ReloadResult&)>;
 
-  // `on_reload` is told of every reload.
+  // `on_reload` is called after every reload.
   explicit LiveTables(
-      TableCatalog catalog, Listener on_reload = [](const Outcome&) {});
+      TableCatalog catalog, Listener on_reload = [](const ReloadResult&) {});
 
-  // The reload that is under way is finished, those that wait are not begun.
+  // Finishes a reload in progress; reloads that are waiting do not start.
   ~LiveTables();
 
-  // A call takes this once, when it begins, and finishes on it: tables live as long as anybody answers from
-  // them.
+  // Each call takes this once, at its beginning, and uses it to its end: tables live as long as a call uses them.
   std::shared_ptr<const TableCatalog> current() const;
 
-  // Reads the folder again, on a thread of its own, and on success has its tables answer from then on; on any
-  // failure the present ones do. Then `done` is told. Whoever asks while a reload has yet to begin shares it.
+  // Reads the folder again, on a separate thread. On success its tables are used from then on; on any failure the
+  // present tables stay in use. Then calls `done`. Requests that arrive before a reload has started share it.
   void Reload(Listener done);
 
  private:
   void Run();
-  Outcome ReloadNow();
+  ReloadResult ReloadNow();
 
   const Listener on_reload_;
-  mutable std::mutex mutex_;  // Guards what is before the blank line.
+  mutable std::mutex mutex_;  // Guards the members up to the blank line.
   std::shared_ptr<const TableCatalog> current_;
   std::vector<Listener> waiting_;
   bool stopping_ = false;
   std::condition_variable changed_;
 
-  std::thread thread_;  // The last: it uses all others.
+  std::thread thread_;  // Last, because it uses all other members.
 };
 
 }  // namespace albtpu::server

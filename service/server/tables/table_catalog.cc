@@ -12,15 +12,16 @@ namespace {
 using Kind = TableCatalog::Change::Kind;
 
 absl::StatusOr<std::shared_ptr<const TableCatalog::Entry>> Read(const TableFile& file) {
-  const FileStamp stamp = StampOf(file.path);  // Older than the content: a change meanwhile is noticed.
+  // Taken before the content is read, so a change during the read is noticed the next time.
+  const FileIdentity identity = IdentityOf(file.path);
   absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
   if (!table.ok()) return table.status();
   ColumnInterpolator interpolator(*table);
   return std::make_shared<const TableCatalog::Entry>(
-      TableCatalog::Entry{file.FullName(), *std::move(table), std::move(interpolator), stamp});
+      TableCatalog::Entry{file.FullName(), *std::move(table), std::move(interpolator), identity});
 }
 
-// Several failures as one.
+// Joins the messages of several failures.
 class Failures {
  public:
   void Add(const absl::Status& status) {
@@ -38,7 +39,7 @@ absl::Status CheckNames(const std::vector<TableFile>& files, const std::filesyst
                         std::string_view default_table) {
   if (files.empty()) {
     return absl::NotFoundError(
-        absl::StrCat("there is no table in '", folder.string(), "': tables are NAME.h5 and NAME/VERSION.h5"));
+        absl::StrCat("there is no table in '", folder.string(), "': expected NAME.h5 or NAME/VERSION.h5"));
   }
   if (default_table.empty()) return absl::OkStatus();
   const absl::Status found = FindTable(files, default_table).status();
@@ -50,22 +51,22 @@ absl::Status CheckNames(const std::vector<TableFile>& files, const std::filesyst
 
 absl::StatusOr<TableCatalog> TableCatalog::Load(const std::filesystem::path& folder,
                                                 std::string_view default_table) {
-  absl::StatusOr<Reread> first = TableCatalog(folder, default_table).ReadAgain();
+  absl::StatusOr<Reloaded> first = TableCatalog(folder, default_table).Reload();
   if (!first.ok()) return first.status();
   return std::move(first->catalog);
 }
 
-absl::StatusOr<TableCatalog::Reread> TableCatalog::ReadAgain() const {
+absl::StatusOr<TableCatalog::Reloaded> TableCatalog::Reload() const {
   absl::StatusOr<std::vector<TableFile>> files = FindTables(folder_);
   if (!files.ok()) return files.status();
   const absl::Status names = CheckNames(*files, folder_, default_table_);
   if (!names.ok()) return names;
-  Reread reread{TableCatalog(folder_, default_table_), {}};
-  TableCatalog& catalog = reread.catalog;
+  Reloaded reloaded{TableCatalog(folder_, default_table_), {}};
+  TableCatalog& catalog = reloaded.catalog;
   Failures failures;
   for (TableFile& file : *files) {
     std::shared_ptr<const Entry> entry = EntryOf(file.FullName());
-    const bool is_kept = entry != nullptr && entry->stamp == StampOf(file.path);
+    const bool is_kept = entry != nullptr && entry->identity == IdentityOf(file.path);
     if (!is_kept) {
       absl::StatusOr<std::shared_ptr<const Entry>> read = Read(file);
       if (!read.ok()) {
@@ -74,16 +75,16 @@ absl::StatusOr<TableCatalog::Reread> TableCatalog::ReadAgain() const {
       }
       entry = *std::move(read);
     }
-    reread.changes.push_back({entry->name, is_kept ? Kind::kKept : Kind::kLoaded});
+    reloaded.changes.push_back({entry->name, is_kept ? Kind::kKept : Kind::kLoaded});
     file.published = entry->table.is_published();
     catalog.files_.push_back(std::move(file));
     catalog.entries_.push_back(std::move(entry));
   }
   if (!failures.all().ok()) return failures.all();
   for (const std::shared_ptr<const Entry>& entry : entries_) {
-    if (catalog.EntryOf(entry->name) == nullptr) reread.changes.push_back({entry->name, Kind::kRemoved});
+    if (catalog.EntryOf(entry->name) == nullptr) reloaded.changes.push_back({entry->name, Kind::kRemoved});
   }
-  return reread;
+  return reloaded;
 }
 
 std::shared_ptr<const TableCatalog::Entry> TableCatalog::EntryOf(std::string_view name) const {

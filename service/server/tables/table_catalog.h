@@ -1,4 +1,4 @@
-// The tables that a server answers from, by name.
+// The tables of a server, by name.
 #pragma once
 
 #include <filesystem>
@@ -9,50 +9,49 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "service/server/ground/file_stamp.h"
+#include "service/server/ground/file_identity.h"
 #include "tables/file/table_folder.h"
 #include "tables/query/column_query.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu::server {
 
-// Immutable. Every table in it has been read and checked as a whole.
+// Immutable. Every table in it has been read and checked completely.
 class TableCatalog {
  public:
   struct Entry {
     std::string name;  // NAME or NAME/VERSION.
     UncertaintyTable table;
     ColumnInterpolator interpolator;  // Of the table.
-    FileStamp stamp;                  // Of the file, before it was read.
+    FileIdentity identity;            // Of the file, before it was read.
   };
 
-  // Reads all tables of `folder` (table_folder.h says which files are tables). `default_table`, unless empty,
-  // names the table that is meant when none is named. Fails when there is no table, when a table cannot be
-  // read (the message says why of each), when the folder gives one name to two tables, or when there is none
-  // of the name `default_table`.
+  // Reads all tables of `folder` (table_folder.h says which files are tables). `default_table`, unless empty, is the
+  // table for requests that name none. Fails if there is no table, if a table cannot be read (the message gives the
+  // reason for each), if two tables have the same name, or if `default_table` does not exist.
   static absl::StatusOr<TableCatalog> Load(const std::filesystem::path& folder,
                                            std::string_view default_table);
 
-  // What became of a table when its folder was read again.
+  // What happened to a table when its folder was read again.
   struct Change {
     enum class Kind {
-      kLoaded,   // New, or another than before.
-      kKept,     // The file has not changed, and was not read again.
-      kRemoved,  // The file is gone, and so is the table.
+      kLoaded,   // New, or its file has changed.
+      kKept,     // The file has not changed and was not read again.
+      kRemoved,  // The file no longer exists.
     };
     std::string name;
     Kind kind;
   };
-  struct Reread;
+  struct Reloaded;
 
-  // Reads the folder again, as a whole or not at all: fails as Load does. Tables whose files have not changed
-  // are shared with the new catalog.
-  absl::StatusOr<Reread> ReadAgain() const;
+  // Reads the folder again. If any table is invalid, the whole reload fails, as Load does. Tables whose files have not
+  // changed are shared with the new catalog.
+  absl::StatusOr<Reloaded> Reload() const;
 
-  // By name, then from the newest version.
+  // Sorted by name, the newest version first.
   const std::vector<std::shared_ptr<const Entry>>& entries() const { return entries_; }
 
-  // As FindTable does; the result lives as long as the catalog.
+  // As FindTable. The result lives as long as the catalog.
   absl::StatusOr<const Entry*> Find(std::string_view request) const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -69,9 +68,9 @@ class TableCatalog {
   std::vector<std::shared_ptr<const Entry>> entries_;  // One for each file.
 };
 
-struct TableCatalog::Reread {
+struct TableCatalog::Reloaded {
   TableCatalog catalog;
-  std::vector<Change> changes;  // By name, then from the newest version; those that were removed last.
+  std::vector<Change> changes;  // Sorted like entries(); removed tables come last.
 };
 
 }  // namespace albtpu::server

@@ -16,8 +16,8 @@ v1::TableAxis WriteAxis(const Axis& axis) {
   message.set_units(std::string(schema.units));
   message.set_long_name(std::string(schema.long_name));
   message.set_scale(ToWire(axis.scale()));
-  for (double node : axis.nodes())
-    message.add_nodes(static_cast<float>(node));  // Exact, by the rules of Axis.
+  // Exact: the nodes of an Axis are single precision numbers.
+  for (double node : axis.nodes()) message.add_nodes(static_cast<float>(node));
   return message;
 }
 

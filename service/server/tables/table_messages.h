@@ -1,4 +1,4 @@
-// Tables as messages: what they are called, what they hold, where they come from.
+// Tables as messages: their names, contents and provenance.
 #pragma once
 
 #include "albtpu/v1/table.pb.h"

@@ -5,12 +5,12 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "service/server/tables/field_violations.h"
+#include "service/server/ground/errors.h"
 
 namespace albtpu::server {
 namespace {
 
-// Those enums of the wire that are written as ours with "unspecified" before them.
+// For enums of the wire that list the values of ours in the same order, after "unspecified".
 template <typename WireEnum, typename Enum>
 constexpr WireEnum AfterUnspecified(Enum value) {
   return static_cast<WireEnum>(static_cast<int>(value) + 1);
@@ -42,9 +42,9 @@ static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1a) == v1::S44_ORDER_1A)
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1b) == v1::S44_ORDER_1B);
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k2) == v1::S44_ORDER_2);
 
-absl::Status NoSuchNumber(std::string_view field, int number, std::string_view enum_name) {
-  return FieldViolation(field, absl::StrCat(std::string(field), " is ", number, ": no value of ",
-                                            std::string(enum_name), " has this number"));
+absl::Status NotAValue(std::string_view field, int number, std::string_view enum_name) {
+  return FieldViolation(
+      field, absl::StrCat(std::string(field), " is ", number, ": not a value of ", std::string(enum_name)));
 }
 
 }  // namespace
@@ -70,21 +70,21 @@ v1::S44Order ToWire(std::optional<S44Order> order) {
 }
 
 absl::StatusOr<Coverage> FromWire(v1::Coverage coverage) {
-  if (!v1::Coverage_IsValid(coverage)) return NoSuchNumber("options.coverage", coverage, "Coverage");
+  if (!v1::Coverage_IsValid(coverage)) return NotAValue("options.coverage", coverage, "Coverage");
   return coverage == v1::COVERAGE_P95 ? Coverage::kP95 : Coverage::kTwoSigma;
 }
 
 absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order) {
-  if (!v1::S44Order_IsValid(order)) return NoSuchNumber("options.s44_order", order, "S44Order");
+  if (!v1::S44Order_IsValid(order)) return NotAValue("options.s44_order", order, "S44Order");
   if (order == v1::S44_ORDER_UNSPECIFIED) return std::nullopt;
   return static_cast<S44Order>(order - 1);
 }
 
 absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
-  if (!v1::Quantity_IsValid(quantity)) return NoSuchNumber("quantities", quantity, "Quantity");
+  if (!v1::Quantity_IsValid(quantity)) return NotAValue("quantities", quantity, "Quantity");
   if (quantity == v1::QUANTITY_UNSPECIFIED) {
     return FieldViolation("quantities",
-                          "quantities holds QUANTITY_UNSPECIFIED: leave it empty to ask for all");
+                          "quantities contains QUANTITY_UNSPECIFIED: leave it empty to ask for all");
   }
   return static_cast<Quantity>(quantity - 1);
 }

@@ -1,4 +1,4 @@
-// The enums of the wire and those of tables/, each into the other.
+// Converts between the enums of the wire and those of tables/.
 #pragma once
 
 #include <optional>
@@ -15,16 +15,16 @@
 namespace albtpu::server {
 
 v1::Axis ToWire(AxisId axis);
-v1::Axis ToWire(std::optional<AxisId> axis);  // Unspecified: none.
+v1::Axis ToWire(std::optional<AxisId> axis);  // Unspecified if none.
 v1::Quantity ToWire(Quantity quantity);
 v1::Scale ToWire(Scale scale);
 v1::Outcome ToWire(Outcome outcome);
 v1::Coverage ToWire(Coverage coverage);
-v1::S44Order ToWire(std::optional<S44Order> order);  // Unspecified: none.
+v1::S44Order ToWire(std::optional<S44Order> order);  // Unspecified if none.
 
-// Numbers that are no value of the enum are an InvalidArgument that names the field.
-absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);              // Unspecified: 2 sigma.
-absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order);  // Unspecified: none.
+// A number that is not a value of the enum is an InvalidArgument error that names the field.
+absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);              // Unspecified is 2 sigma.
+absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order);  // Unspecified is none.
 absl::StatusOr<Quantity> FromWire(v1::Quantity quantity);              // Unspecified is an error.
 
 }  // namespace albtpu::server

@@ -10,7 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "service/server/observe/server_metrics.h"
+#include "service/server/observe/metrics.h"
 #include "service/server/server.h"
 #include "tables/file/table_io.h"
 #include "tests/tables/synthetic_table.h"

@@ -25,7 +25,7 @@ class Admin : public ServedTables {
   }
 };
 
-TEST_F(Admin, ReloadsTablesAndSaysWhatBecameOfEach) {
+TEST_F(Admin, ReloadsTablesAndReportsEachChange) {
   WriteOrDie(testing::SyntheticTable({.factor = 5}), folder_ / "another.h5");
   std::filesystem::remove(folder_ / "published.h5");
   v1::ReloadTablesResponse response;
@@ -42,7 +42,7 @@ TEST_F(Admin, ReloadsTablesAndSaysWhatBecameOfEach) {
   EXPECT_EQ(GetTable("published", table).error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(Admin, SaysWhichTableIsDamagedAndNotWhereItLies) {
+TEST_F(Admin, NamesADamagedTableButNotItsFolder) {
   std::ofstream(folder_ / "survey.h5") << "not a table";
   v1::ReloadTablesResponse response;
   const grpc::Status status = Reload(response);
@@ -53,7 +53,7 @@ TEST_F(Admin, SaysWhichTableIsDamagedAndNotWhereItLies) {
   EXPECT_EQ(table.table().reference().digest(), survey_.digest());
 }
 
-TEST_F(Admin, LetsAStreamEndOnTheTableOnWhichItBegan) {
+TEST_F(Admin, LetsAStreamKeepItsTable) {
   grpc::ClientContext context;
   const auto stream = stub_->StreamColumns(&context);
   v1::StreamColumnsRequest request;
@@ -76,14 +76,14 @@ TEST_F(Admin, LetsAStreamEndOnTheTableOnWhichItBegan) {
   EXPECT_NE(later.table().digest(), digest);
 }
 
-TEST(AdminCallers, OfThisMachineAreKnownByTheirAddress) {
+TEST(AdminCallers, AreLocalByTheirAddress) {
   for (const char* peer : {"ipv4:127.0.0.1:4242", "ipv4:127.0.0.2:1", "ipv6:%5B::1%5D:4242",
                            "ipv6:[::1]:4242", "unix:/run/albtpu"}) {
-    EXPECT_TRUE(IsOfThisMachine(peer)) << peer;
+    EXPECT_TRUE(IsLocalPeer(peer)) << peer;
   }
   for (const char* peer : {"", "ipv4:192.0.2.1:127", "ipv4:12.7.0.1:1", "ipv6:%5B2001:db8::1%5D:1",
                            "ipv6:%5B::1:2%5D:1", "unknown"}) {
-    EXPECT_FALSE(IsOfThisMachine(peer)) << peer;
+    EXPECT_FALSE(IsLocalPeer(peer)) << peer;
   }
 }
 

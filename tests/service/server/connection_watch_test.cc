@@ -15,36 +15,37 @@ namespace {
 
 ConnectionCalls Connection(int port, long calls) { return {{"\x7f\x01\x01\x01", port}, calls}; }
 
-std::vector<int> PortsToEnd(std::vector<ConnectionCalls> connections) {
+std::vector<int> PortsToDisconnect(std::vector<ConnectionCalls> connections) {
   std::vector<int> ports;
-  for (const Caller& caller : CallersToEnd(std::move(connections))) ports.push_back(caller.port);
+  for (const Caller& caller : CallersToDisconnect(std::move(connections))) ports.push_back(caller.port);
   return ports;
 }
 
-TEST(CallersToEnd, AreNoneWhereEachHasWhatItMay) {
-  EXPECT_EQ(PortsToEnd({}), std::vector<int>());
-  EXPECT_EQ(PortsToEnd({Connection(1, 0), Connection(2, kMaxCallsInMemory)}), std::vector<int>());
+TEST(CallersToDisconnect, AreNoneIfAllAreWithinTheLimits) {
+  EXPECT_EQ(PortsToDisconnect({}), std::vector<int>());
+  EXPECT_EQ(PortsToDisconnect({Connection(1, 0), Connection(2, kMaxCallsInMemory)}), std::vector<int>());
 }
 
-TEST(CallersToEnd, AreThoseWithMoreThanAConnectionMayHave) {
-  EXPECT_EQ(PortsToEnd({Connection(1, 1), Connection(2, kMaxCallsInMemory + 1), Connection(3, 100'000)}),
-            std::vector<int>({3, 2}));
+TEST(CallersToDisconnect, AreThoseAboveTheLimitOfAConnection) {
+  EXPECT_EQ(
+      PortsToDisconnect({Connection(1, 1), Connection(2, kMaxCallsInMemory + 1), Connection(3, 100'000)}),
+      std::vector<int>({3, 2}));
 }
 
-TEST(CallersToEnd, AreThoseWithMostWhereAllTogetherHaveTooMany) {
+TEST(CallersToDisconnect, AreThoseWithTheMostCallsIfTheTotalIsTooHigh) {
   std::vector<ConnectionCalls> connections;
   for (int i = 0; i < 512; ++i) connections.push_back(Connection(i, kMaxCallsPerConnection));
-  EXPECT_EQ(PortsToEnd(connections), std::vector<int>());
+  EXPECT_EQ(PortsToDisconnect(connections), std::vector<int>());
   connections.push_back(Connection(512, kMaxCallsPerConnection + 1));
-  EXPECT_EQ(PortsToEnd(connections), std::vector<int>({512}));
+  EXPECT_EQ(PortsToDisconnect(connections), std::vector<int>({512}));
 }
 
 using ConnectionWatchTest = ServedTables;
 
-// tests/faults/floods_test.py has those who are ended.
-TEST_F(ConnectionWatchTest, EndsNobodyWhereMemoryGrowsForAnotherReason) {
-  std::atomic<bool> ended = false;
-  const ConnectionWatch watch([&](const std::vector<Caller>&) { ended = true; });
+// tests/faults/floods_test.py covers connections that are closed.
+TEST_F(ConnectionWatchTest, ClosesNothingIfMemoryGrowsForAnotherReason) {
+  std::atomic<bool> disconnected = false;
+  const ConnectionWatch watch([&](const std::vector<Caller>&) { disconnected = true; });
   v1::ListTablesResponse tables;
   ASSERT_TRUE(ListTables(tables).ok());
   std::vector<std::unique_ptr<char[]>> held;
@@ -53,8 +54,8 @@ TEST_F(ConnectionWatchTest, EndsNobodyWhereMemoryGrowsForAnotherReason) {
     std::memset(held.back().get(), i + 1, kMemoryGrowth);
     ASSERT_TRUE(ListTables(tables).ok());
   }
-  std::this_thread::sleep_for(50 * kMemoryLook);  // What is held is surely seen.
-  EXPECT_FALSE(ended);
+  std::this_thread::sleep_for(50 * kMemoryCheckInterval);  // Long enough for the watch to see the growth.
+  EXPECT_FALSE(disconnected);
 }
 
 }  // namespace

@@ -13,18 +13,18 @@ namespace {
 
 using Text = FileValue<std::string>;
 
-// A file whose value is its first word; without one it is refused.
+// A file whose value is its first word; an empty file is invalid.
 class FileValueTest : public ::testing::Test {
  protected:
   absl::StatusOr<std::unique_ptr<Text>> Open() {
     return Text::Open({path_}, [this]() -> absl::StatusOr<std::string> {
       std::string word;
       if (std::ifstream(path_) >> word) return word;
-      return absl::InvalidArgumentError("no word: one is right");
+      return absl::InvalidArgumentError("no word: expected one");
     });
   }
 
-  // As programs that replace a file do.
+  // Replaces the file atomically.
   void Write(const std::string& text) {
     std::ofstream(folder_ / "new") << text;
     std::filesystem::rename(folder_ / "new", path_);
@@ -34,7 +34,7 @@ class FileValueTest : public ::testing::Test {
   const std::filesystem::path path_ = folder_ / "file";
 };
 
-TEST_F(FileValueTest, IsWhatTheFileSays) {
+TEST_F(FileValueTest, IsReadFromTheFile) {
   Write("first");
   const auto value = Open().value();
   EXPECT_EQ(*value->Get(), "first");
@@ -50,7 +50,7 @@ TEST_F(FileValueTest, ChangesWithTheFile) {
   EXPECT_EQ(*before, "first");
 }
 
-TEST_F(FileValueTest, StaysWhereTheFileIsNotRight) {
+TEST_F(FileValueTest, StaysWhileTheFileIsInvalid) {
   Write("first");
   const auto value = Open().value();
   Write("");
@@ -61,7 +61,7 @@ TEST_F(FileValueTest, StaysWhereTheFileIsNotRight) {
   EXPECT_EQ(*value->Get(), "third");
 }
 
-TEST_F(FileValueTest, IsReadAgainWhereItOnceCouldNotBe) {
+TEST_F(FileValueTest, IsReadAgainAfterATemporaryError) {
   Write("first");
   bool readable = true;
   const auto value =
@@ -77,8 +77,8 @@ TEST_F(FileValueTest, IsReadAgainWhereItOnceCouldNotBe) {
   while (*value->Get() != "other") std::this_thread::yield();
 }
 
-TEST_F(FileValueTest, WantsARightFileToBeginWith) {
-  EXPECT_EQ(Open().status(), absl::InvalidArgumentError("no word: one is right"));
+TEST_F(FileValueTest, RequiresAValidFileAtFirst) {
+  EXPECT_EQ(Open().status(), absl::InvalidArgumentError("no word: expected one"));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Health : public ServedTables {
   std::unique_ptr<grpc::health::v1::Health::Stub> health_;
 };
 
-TEST_F(Health, IsThatOfTheServerAndOfEachService) {
+TEST_F(Health, CoversTheServerAndEachService) {
   for (const char* service : {"", "albtpu.v1.UncertaintyService", "albtpu.v1.AdminService"}) {
     HealthCheckResponse response;
     ASSERT_TRUE(Check(service, response).ok());
@@ -40,12 +40,12 @@ TEST_F(Health, IsThatOfTheServerAndOfEachService) {
   }
 }
 
-TEST_F(Health, IsNotThatOfOthers) {
+TEST_F(Health, IsUnknownForOtherServices) {
   HealthCheckResponse response;
   EXPECT_EQ(Check("albtpu.v2.UncertaintyService", response).error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(Health, IsWatchedUntilTheServerDrainsAndHoldsNothingUp) {
+TEST_F(Health, EndsItsWatchersWhenTheServerDrains) {
   grpc::ClientContext context, unknown_context;
   const auto watch = health_->Watch(&context, Ask(""));
   const auto unknown = health_->Watch(&unknown_context, Ask("nonsense"));
@@ -65,7 +65,7 @@ TEST_F(Health, IsWatchedUntilTheServerDrainsAndHoldsNothingUp) {
   EXPECT_TRUE(watch->Finish().ok());
 }
 
-TEST_F(Health, SurvivesWatchersThatLeave) {
+TEST_F(Health, SurvivesWatchersThatDisconnect) {
   for (int i = 0; i < 20; ++i) {
     grpc::ClientContext context;
     const auto watch = health_->Watch(&context, Ask(""));

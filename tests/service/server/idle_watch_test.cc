@@ -13,7 +13,7 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::hours kLong{1};
 
-TEST(IdleWatch, NoticesThatNothingMoves) {
+TEST(IdleWatch, NoticesInactivity) {
   std::promise<void> idle;
   const auto begin = steady_clock::now();
   const IdleWatch watch(milliseconds(20), [&] { idle.set_value(); });
@@ -21,23 +21,23 @@ TEST(IdleWatch, NoticesThatNothingMoves) {
   EXPECT_GE(steady_clock::now() - begin, milliseconds(20));
 }
 
-TEST(IdleWatch, WaitsAnewAfterAMove) {
-  // A busy machine may let the move come when the time is over: then it is tried with more.
-  bool moved_in_time = false;
-  for (milliseconds limit(50); !moved_in_time; limit *= 2) {
+TEST(IdleWatch, StartsAgainAfterActivity) {
+  // On a busy machine the activity may come too late: then the test repeats with a longer limit.
+  bool active_in_time = false;
+  for (milliseconds limit(50); !active_in_time; limit *= 2) {
     std::promise<void> idle;
     const auto begin = steady_clock::now();
     IdleWatch watch(limit, [&] { idle.set_value(); });
-    watch.Moved();
-    moved_in_time = steady_clock::now() - begin < limit;
+    watch.NoteActivity();
+    active_in_time = steady_clock::now() - begin < limit;
     idle.get_future().wait();
-    if (moved_in_time) {
+    if (active_in_time) {
       EXPECT_GE(steady_clock::now() - begin, 2 * limit);
     }
   }
 }
 
-TEST(IdleWatch, NoticesNothingOnceItHasGone) {
+TEST(IdleWatch, NoticesNothingAfterItsDestruction) {
   bool noticed = false;
   {
     const IdleWatch watch(kLong, [&] { noticed = true; });
@@ -45,7 +45,7 @@ TEST(IdleWatch, NoticesNothingOnceItHasGone) {
   EXPECT_FALSE(noticed);
 }
 
-TEST(IdleWatch, MayBeEndedByWhatItCalls) {
+TEST(IdleWatch, MayBeDestroyedByItsCallback) {
   std::promise<void> ended;
   std::optional<IdleWatch> watch;
   std::promise<void> made;

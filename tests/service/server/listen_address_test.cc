@@ -12,7 +12,7 @@ ListenAddress Parsed(std::string_view text) {
   return *address;
 }
 
-TEST(ListenAddress, IsHostAndPort) {
+TEST(ListenAddress, ConsistsOfHostAndPort) {
   for (const char* text :
        {"127.0.0.1:50051", "localhost:0", "[::1]:65535", "0.0.0.0:80", "sea.example.org:1"}) {
     EXPECT_EQ(Parsed(text).ToString(), text);
@@ -20,7 +20,7 @@ TEST(ListenAddress, IsHostAndPort) {
   EXPECT_EQ(Parsed("[::]:0").WithPort(17), "[::]:17");
 }
 
-TEST(ListenAddress, IsNothingElse) {
+TEST(ListenAddress, RejectsAnythingElse) {
   for (const char* text : {"", "50051", ":50051", "127.0.0.1", "127.0.0.1:", "127.0.0.1:http",
                            "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:+1", "127.0.0.1: 1", "::1:80",
                            "[127.0.0.1]:80", "[]:80", "unix:/tmp/x", "127.0.0.1:99999999999999999999"}) {
@@ -30,7 +30,7 @@ TEST(ListenAddress, IsNothingElse) {
   }
 }
 
-TEST(ListenAddress, KnowsWhatOnlyThisMachineCanReach) {
+TEST(ListenAddress, KnowsWhetherOnlyThisMachineCanReachIt) {
   for (const char* text : {"127.0.0.1:0", "127.1.2.3:0", "[::1]:0", "localhost:0"}) {
     EXPECT_TRUE(Parsed(text).IsLoopback()) << text;
   }

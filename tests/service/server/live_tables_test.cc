@@ -15,15 +15,15 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Kind = TableCatalog::Change::Kind;
 
-class LiveTablesOfAFolder : public ::testing::Test {
+class LiveTablesTest : public ::testing::Test {
  protected:
-  LiveTablesOfAFolder() {
+  LiveTablesTest() {
     Put("quick.h5", 1);
     Put("survey/1.h5", 1);
     tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "")));
   }
 
-  // In place of what has this name, as tables are written: all at once.
+  // Replaces the file atomically, as tables are written.
   void Put(const std::string& file, double factor) {
     std::filesystem::create_directories((folder_ / file).parent_path());
     const absl::Status written =
@@ -33,15 +33,15 @@ class LiveTablesOfAFolder : public ::testing::Test {
 
   void Spoil(const std::string& file) { std::ofstream(folder_ / file) << "not a table"; }
 
-  LiveTables::Outcome Reload() {
-    std::promise<LiveTables::Outcome> outcome;
-    tables_->Reload([&outcome](const LiveTables::Outcome& told) { outcome.set_value(told); });
-    return outcome.get_future().get();
+  LiveTables::ReloadResult Reload() {
+    std::promise<LiveTables::ReloadResult> result;
+    tables_->Reload([&result](const LiveTables::ReloadResult& value) { result.set_value(value); });
+    return result.get_future().get();
   }
 
-  static std::map<std::string, Kind> Kinds(const LiveTables::Outcome& outcome) {
+  static std::map<std::string, Kind> Kinds(const LiveTables::ReloadResult& result) {
     std::map<std::string, Kind> kinds;
-    for (const TableCatalog::Change& change : OrDie(outcome)) kinds[change.name] = change.kind;
+    for (const TableCatalog::Change& change : OrDie(result)) kinds[change.name] = change.kind;
     return kinds;
   }
 
@@ -53,16 +53,16 @@ class LiveTablesOfAFolder : public ::testing::Test {
   std::optional<LiveTables> tables_;
 };
 
-TEST_F(LiveTablesOfAFolder, ShareWhatHasNotChanged) {
+TEST_F(LiveTablesTest, ShareUnchangedTables) {
   const auto before = tables_->current();
   EXPECT_EQ(Kinds(Reload()),
             (std::map<std::string, Kind>{{"quick", Kind::kKept}, {"survey/1", Kind::kKept}}));
   const auto after = tables_->current();
   EXPECT_NE(after, before);
-  EXPECT_EQ(after->entries(), before->entries());  // The very same objects.
+  EXPECT_EQ(after->entries(), before->entries());  // The same objects.
 }
 
-TEST_F(LiveTablesOfAFolder, TakeNewAndExchangedTablesAndLeaveThoseThatAreGone) {
+TEST_F(LiveTablesTest, LoadNewAndChangedTablesAndDropRemovedOnes) {
   Put("bay.h5", 2);
   Put("survey/1.h5", 3);
   std::filesystem::remove(folder_ / "quick.h5");
@@ -74,7 +74,7 @@ TEST_F(LiveTablesOfAFolder, TakeNewAndExchangedTablesAndLeaveThoseThatAreGone) {
   EXPECT_EQ(tables_->current()->Find("quick").status().code(), absl::StatusCode::kNotFound);
 }
 
-TEST_F(LiveTablesOfAFolder, AnswerByTheNewestVersionAndByAnyThatIsNamed) {
+TEST_F(LiveTablesTest, UseTheNewestVersionUnlessOneIsNamed) {
   const std::string first = DigestOf("survey");
   Put("survey/2.h5", 2);
   ASSERT_TRUE(Reload().ok());
@@ -82,13 +82,13 @@ TEST_F(LiveTablesOfAFolder, AnswerByTheNewestVersionAndByAnyThatIsNamed) {
   EXPECT_EQ(DigestOf("survey/1"), first);
 }
 
-TEST_F(LiveTablesOfAFolder, StayAsAWholeWhenOneTableIsDamaged) {
+TEST_F(LiveTablesTest, AllStayWhenOneTableIsDamaged) {
   const auto before = tables_->current();
   Put("survey/2.h5", 2);
   Spoil("quick.h5");
   Spoil("worse.h5");
-  const LiveTables::Outcome outcome = Reload();
-  EXPECT_THAT(std::string(outcome.status().message()), AllOf(HasSubstr("quick.h5"), HasSubstr("worse.h5")));
+  const LiveTables::ReloadResult result = Reload();
+  EXPECT_THAT(std::string(result.status().message()), AllOf(HasSubstr("quick.h5"), HasSubstr("worse.h5")));
   EXPECT_EQ(tables_->current(), before);
 
   Put("quick.h5", 4);
@@ -97,7 +97,7 @@ TEST_F(LiveTablesOfAFolder, StayAsAWholeWhenOneTableIsDamaged) {
   EXPECT_EQ(OrDie(tables_->current()->Find("survey"))->name, "survey/2");
 }
 
-TEST_F(LiveTablesOfAFolder, StayWhenTheFolderCannotBeTakenAsItIs) {
+TEST_F(LiveTablesTest, StayWhenTheFolderIsInvalid) {
   const auto before = tables_->current();
   Put("survey.h5", 1);  // Beside survey/1.h5.
   EXPECT_FALSE(Reload().ok());
@@ -108,7 +108,7 @@ TEST_F(LiveTablesOfAFolder, StayWhenTheFolderCannotBeTakenAsItIs) {
   EXPECT_EQ(tables_->current(), before);
 }
 
-TEST_F(LiveTablesOfAFolder, StayWhenTheGivenDefaultIsGone) {
+TEST_F(LiveTablesTest, StayWhenTheGivenDefaultIsMissing) {
   tables_.reset();
   tables_.emplace(OrDie(TableCatalog::Load(folder_.path(), "quick")));
   std::filesystem::remove(folder_ / "quick.h5");
@@ -116,7 +116,7 @@ TEST_F(LiveTablesOfAFolder, StayWhenTheGivenDefaultIsGone) {
   EXPECT_TRUE(tables_->current()->Find("").ok());
 }
 
-TEST_F(LiveTablesOfAFolder, LiveAsLongAsACallHoldsThem) {
+TEST_F(LiveTablesTest, LiveWhileACallHoldsThem) {
   const auto held = tables_->current();
   const TableCatalog::Entry* entry = OrDie(held->Find("quick"));
   Put("quick.h5", 2);
@@ -127,16 +127,16 @@ TEST_F(LiveTablesOfAFolder, LiveAsLongAsACallHoldsThem) {
   EXPECT_EQ(entry->table.digest(), OrDie(held->Find("quick"))->table.digest());
 }
 
-TEST_F(LiveTablesOfAFolder, TellEveryoneWhoAsked) {
-  std::promise<void> all_told;
-  std::atomic<int> told = 0;
+TEST_F(LiveTablesTest, NotifyEveryCaller) {
+  std::promise<void> all_notified;
+  std::atomic<int> notified = 0;
   for (int i = 0; i < 10; ++i) {
-    tables_->Reload([&](const LiveTables::Outcome& outcome) {
-      EXPECT_TRUE(outcome.ok());
-      if (++told == 10) all_told.set_value();
+    tables_->Reload([&](const LiveTables::ReloadResult& result) {
+      EXPECT_TRUE(result.ok());
+      if (++notified == 10) all_notified.set_value();
     });
   }
-  all_told.get_future().get();
+  all_notified.get_future().get();
 }
 
 }  // namespace

@@ -8,14 +8,14 @@
 #include <sstream>
 
 #include "service/server/ground/limits.h"
-#include "service/server/observe/call_log.h"
+#include "service/server/observe/records.h"
 
 namespace albtpu::server {
 namespace {
 
 using ::testing::MatchesRegex;
 
-// All that is logged while it lives.
+// Captures all lines that are logged during its life.
 class LogLines {
  public:
   explicit LogLines(LogStyle style) : before_(spdlog::default_logger()) {
@@ -40,7 +40,7 @@ class LogLines {
   std::ostringstream text_;
 };
 
-TEST(Log, IsReadByPeople) {
+TEST(Log, WritesPlainText) {
   const LogLines lines(LogStyle::kText);
   spdlog::info("ready");
   Log(spdlog::level::info, "tables reloaded", {{"loaded", 2}, {"name", "survey"}});
@@ -48,13 +48,13 @@ TEST(Log, IsReadByPeople) {
   EXPECT_EQ(lines.text(), "program: ready\nprogram: tables reloaded [loaded=2 name=survey]\nprogram: done\n");
 }
 
-TEST(Log, HasOneLineForEachWhateverIsQuoted) {
+TEST(Log, WritesOneLinePerMessageEvenIfTheMessageHasLineBreaks) {
   const LogLines lines(LogStyle::kText);
   spdlog::info("there is no 'a\nprogram: all is well'");
   EXPECT_EQ(lines.text(), "program: there is no 'a program: all is well'\n");
 }
 
-TEST(Log, CutsLinesThatAPipeWouldNotTakeAtOnce) {
+TEST(Log, CutsLinesToTheLengthThatAPipeTakesAtOnce) {
   for (const LogStyle style : {LogStyle::kText, LogStyle::kJson}) {
     const LogLines lines(style);
     Log(spdlog::level::info, std::string(100'000, '\x1b'), {{"name", "a"}});
@@ -65,13 +65,13 @@ TEST(Log, CutsLinesThatAPipeWouldNotTakeAtOnce) {
   }
 }
 
-TEST(Log, TellsATerminalNothing) {
+TEST(Log, ReplacesControlCharacters) {
   const LogLines lines(LogStyle::kText);
   Log(spdlog::level::info, "there is no '\x1b[2J\xff\xc2\x9b'", {{"name", "a\x07"}});
   EXPECT_EQ(lines.text(), "program: there is no ' [2J\xef\xbf\xbd ' [name=a ]\n");
 }
 
-TEST(Log, IsReadByMachines) {
+TEST(Log, WritesJson) {
   const LogLines lines(LogStyle::kJson);
   Log(spdlog::level::warn, "a \"quoted\"\nword, and \xff", {{"seconds", 0.5}});
   const std::vector<nlohmann::json> json = lines.json();
@@ -83,7 +83,7 @@ TEST(Log, IsReadByMachines) {
   EXPECT_EQ(json[0].at("seconds"), 0.5);
 }
 
-TEST(Log, CarriesTheRequestThatIsWorkedOn) {
+TEST(Log, NamesTheCurrentRequest) {
   const grpc::CallbackServerContext context;
   const RequestId id(context);
   const LogLines lines(LogStyle::kJson);
@@ -99,16 +99,16 @@ TEST(Log, CarriesTheRequestThatIsWorkedOn) {
   EXPECT_FALSE(json[2].contains("request_id"));
 }
 
-TEST(CallLog, LeavesOutWhatNobodyCouldRead) {
+TEST(CallLog, LimitsTheLinesPerSecond) {
   const LogLines lines(LogStyle::kJson);
   CallLog log;
   for (int i = 0; i < 50 * kMaxCallLinesPerSecond; ++i) log.Write(spdlog::level::info, "call failed", {});
-  // A second may end in between.
+  // A second may end during the loop.
   EXPECT_GE(lines.json().size(), static_cast<std::size_t>(kMaxCallLinesPerSecond));
   EXPECT_LE(lines.json().size(), static_cast<std::size_t>(10 * kMaxCallLinesPerSecond));
 }
 
-TEST(RequestId, OfOnesOwnIsRandomAndStays) {
+TEST(RequestId, IsRandomAndConstantIfTheCallerSendsNone) {
   const grpc::CallbackServerContext context;
   const RequestId a(context), b(context);
   EXPECT_THAT(a.text(), MatchesRegex("[0-9a-f]{16}"));
@@ -116,13 +116,13 @@ TEST(RequestId, OfOnesOwnIsRandomAndStays) {
   EXPECT_NE(a.text(), b.text());
 }
 
-TEST(RequestId, OfACallerIsSaneOrNotTaken) {
-  for (const char* sane : {"1", "b7ad6b71-6920-4e5b-8e2a-3c1d7f0a9d11", "line_12.las"}) {
-    EXPECT_TRUE(RequestId::IsSane(sane)) << sane;
+TEST(RequestId, OfACallerIsCheckedBeforeUse) {
+  for (const char* valid : {"1", "b7ad6b71-6920-4e5b-8e2a-3c1d7f0a9d11", "line_12.las"}) {
+    EXPECT_TRUE(RequestId::IsValid(valid)) << valid;
   }
-  for (const std::string& other : {std::string(), std::string("a b"), std::string("a\nb"),
-                                   std::string("\xc3\xa9"), std::string(65, 'a')}) {
-    EXPECT_FALSE(RequestId::IsSane(other)) << other;
+  for (const std::string& invalid : {std::string(), std::string("a b"), std::string("a\nb"),
+                                     std::string("\xc3\xa9"), std::string(65, 'a')}) {
+    EXPECT_FALSE(RequestId::IsValid(invalid)) << invalid;
   }
 }
 

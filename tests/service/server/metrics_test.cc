@@ -19,11 +19,11 @@ const prometheus::MetricFamily& Family(const std::vector<prometheus::MetricFamil
   for (const prometheus::MetricFamily& family : families) {
     if (family.name == name) return family;
   }
-  ADD_FAILURE() << "there is no " << name;
+  ADD_FAILURE() << "no metric " << name;
   std::abort();
 }
 
-// The metric that has all of these labels.
+// The metric with all of these labels.
 prometheus::ClientMetric Metric(const prometheus::Collectable& source, const std::string& name,
                                 const std::map<std::string, std::string>& labels) {
   const std::vector<prometheus::MetricFamily> families = source.Collect();
@@ -89,24 +89,24 @@ TEST_F(Metrics, CountCallsByMethodAndCode) {
   EXPECT_EQ(Metric(*metrics_.registry, "albtpu_calls_under_way", {{"method", "QueryPulses"}}).gauge.value, 0);
 }
 
-// To Prometheus, a counter that appears at 1 has not risen.
-TEST_F(Metrics, CountFaultsFromZero) {
-  std::set<std::string> there;
+// Prometheus sees no increase in a counter that appears at 1.
+TEST_F(Metrics, StartTheCountersOfFaultsAtZero) {
+  std::set<std::string> present;
   const std::vector<prometheus::MetricFamily> families = metrics_.registry->Collect();
   for (const prometheus::ClientMetric& metric : Family(families, "albtpu_calls_total").metric) {
     EXPECT_EQ(metric.counter.value, 0);
     std::map<std::string, std::string> labels;
     for (const auto& label : metric.label) labels[label.name] = label.value;
-    there.insert(labels["method"] + " " + labels["code"]);
+    present.insert(labels["method"] + " " + labels["code"]);
   }
   for (const std::string method : kMethodNames) {
     for (const char* code : {" INTERNAL", " UNKNOWN", " DATA_LOSS", " RESOURCE_EXHAUSTED"}) {
-      EXPECT_EQ(there.count(method + code), 1u) << method << code;
+      EXPECT_EQ(present.count(method + code), 1u) << method << code;
     }
   }
 }
 
-TEST_F(Metrics, TellHowLongAnswersAreAndTake) {
+TEST_F(Metrics, MeasureTheLengthAndTimeOfAnswers) {
   v1::QueryColumnsRequest request;
   v1::QueryColumnsResponse response;
   for (std::size_t count : {1, 100, 20000}) {
@@ -141,7 +141,7 @@ TEST_F(Metrics, CountEachAnswerOfAStreamAndTheCallOnce) {
             4u);
 }
 
-TEST_F(Metrics, NameTheTablesThatAnswer) {
+TEST_F(Metrics, NameTheTablesInUse) {
   const TableMetrics tables(*tables_);
   const auto info = Metric(tables, "albtpu_table_info", {{"name", "survey"}, {"digest", survey_.digest()}});
   EXPECT_EQ(info.gauge.value, 1);
@@ -149,7 +149,7 @@ TEST_F(Metrics, NameTheTablesThatAnswer) {
   EXPECT_EQ(Metric(tables, "albtpu_table_info", {{"name", "survey"}, {"default", "true"}}).gauge.value, 1);
 }
 
-TEST(ReloadMetrics, CountResultsAndRememberTheLast) {
+TEST(ReloadMetrics, CountResultsAndKeepTheLast) {
   prometheus::Registry registry;
   ReloadMetrics metrics(registry);
   const auto last = [&] { return Metric(registry, "albtpu_last_reload_successful", {}).gauge.value; };
@@ -169,7 +169,7 @@ TEST(ReloadMetrics, CountResultsAndRememberTheLast) {
   EXPECT_EQ(count("loaded"), 1);
 }
 
-TEST(ProcessMetrics, AreThoseOfThisProcess) {
+TEST(ProcessMetrics, DescribeThisProcess) {
   const ProcessMetrics process;
   const std::vector<prometheus::MetricFamily> families = process.Collect();
   EXPECT_GT(Family(families, "process_resident_memory_bytes").metric[0].gauge.value, 1e6);
@@ -181,7 +181,7 @@ TEST(ProcessMetrics, AreThoseOfThisProcess) {
               static_cast<double>(std::time(nullptr)), 60);
 }
 
-TEST(MetricsEndpoint, SaysWhyItCannotListen) {
+TEST(MetricsEndpoint, ReportsWhyItCannotListen) {
   const auto first = MetricsEndpoint::Start(OrDie(ListenAddress::Parse("127.0.0.1:0")), {});
   ASSERT_TRUE(first.ok()) << first.status();
   const auto second = MetricsEndpoint::Start(OrDie(ListenAddress::Parse((*first)->address())), {});

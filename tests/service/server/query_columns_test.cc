@@ -38,7 +38,7 @@ class QueryColumns : public ServedTables {
     return Ask(request);
   }
 
-  void ExpectRefused(const v1::PulseColumns& pulses, const std::string& message) {
+  void ExpectRejected(const v1::PulseColumns& pulses, const std::string& message) {
     v1::QueryColumnsRequest request;
     *request.mutable_pulses() = pulses;
     v1::QueryColumnsResponse response;
@@ -50,7 +50,7 @@ class QueryColumns : public ServedTables {
 
 std::vector<int> Bytes(const std::string& column) { return {column.begin(), column.end()}; }
 
-// A number of a row and of a column: the same bits, or no number in both.
+// A number in a row and in a column: the same bits, or absent in both.
 void ExpectSame(bool present, float row, float column) {
   if (present) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(row), std::bit_cast<std::uint32_t>(column));
@@ -89,7 +89,7 @@ void ExpectSame(const v1::QueryPulsesResponse& rows, const v1::QueryColumnsRespo
   }
 }
 
-// Pulses in and around the domain, some of them not finite.
+// Pulses within and around the domain, some of them not finite.
 std::vector<v1::Pulse> RandomPulses(std::size_t count, bool with_azimuth) {
   std::mt19937 random(1);
   const auto draw = [&](float from, float to) {
@@ -130,7 +130,7 @@ v1::PulseColumns InColumns(const std::vector<v1::Pulse>& pulses) {
   return message;
 }
 
-TEST_F(QueryColumns, GivesTheBitsOfQueryPulses) {
+TEST_F(QueryColumns, GivesTheSameBitsAsQueryPulses) {
   for (const char* table : {"survey", "published"}) {
     for (v1::Coverage coverage : {v1::COVERAGE_UNSPECIFIED, v1::COVERAGE_TWO_SIGMA, v1::COVERAGE_P95}) {
       for (bool with_azimuth : {true, false}) {
@@ -152,7 +152,7 @@ TEST_F(QueryColumns, GivesTheBitsOfQueryPulses) {
   }
 }
 
-TEST_F(QueryColumns, AnswersWhatWasAskedAndNothingElse) {
+TEST_F(QueryColumns, AnswersOnlyWhatIsRequested) {
   v1::QueryColumnsRequest request;
   *request.mutable_pulses() = WireColumns(3);
   request.add_quantities(v1::QUANTITY_TVU);
@@ -175,7 +175,7 @@ TEST_F(QueryColumns, AnswersWhatWasAskedAndNothingElse) {
   EXPECT_THAT(more.s44().remaining_thu(), IsEmpty());
 }
 
-TEST_F(QueryColumns, TakesOneNumberForAllPulses) {
+TEST_F(QueryColumns, AcceptsOneNumberForAllPulses) {
   v1::PulseColumns columns = WireColumns(5);
   const std::string expected = Ask(columns).SerializeAsString();
   columns.set_wind_speed(Column({4.5f}));
@@ -185,7 +185,7 @@ TEST_F(QueryColumns, TakesOneNumberForAllPulses) {
   EXPECT_EQ(Ask(WireColumns(1)).pulse_count(), 1);
 }
 
-TEST_F(QueryColumns, TakesAnEmptyFetchAsFullyDeveloped) {
+TEST_F(QueryColumns, TreatsAnEmptyFetchAsAFullyDevelopedSea) {
   v1::PulseColumns columns = WireColumns(2);
   columns.set_fetch(Column({kInfinity}));
   const std::string expected = Ask(columns).SerializeAsString();
@@ -193,7 +193,7 @@ TEST_F(QueryColumns, TakesAnEmptyFetchAsFullyDeveloped) {
   EXPECT_EQ(Ask(columns).SerializeAsString(), expected);
 }
 
-TEST_F(QueryColumns, SaysThatThereWasNoAzimuth) {
+TEST_F(QueryColumns, ReportsAnAbsentAzimuth) {
   v1::PulseColumns columns = WireColumns(2);
   EXPECT_FALSE(Ask(columns).azimuth_absent());
   columns.clear_azimuth();
@@ -214,38 +214,38 @@ TEST_F(QueryColumns, GivesEachPulseItsOutcome) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(thu[i])) << i;
 }
 
-TEST_F(QueryColumns, RefusesAnEmptyBatch) {
-  ExpectRefused({}, "send at least one");
+TEST_F(QueryColumns, RejectsAnEmptyBatch) {
+  ExpectRejected({}, "send at least one");
   v1::QueryColumnsResponse response;
   EXPECT_THAT(ServedTables::QueryColumns({}, response).error_message(), HasSubstr("send at least one"));
 }
 
-TEST_F(QueryColumns, RefusesColumnsOfDifferentLengths) {
+TEST_F(QueryColumns, RejectsColumnsOfDifferentLengths) {
   v1::PulseColumns columns = WireColumns(5);
   columns.set_incidence(Column({1, 2, 3}));
-  ExpectRefused(columns, "column 'incidence' has 3 numbers, column 'wind_speed' has 5");
+  ExpectRejected(columns, "column 'incidence' has 3 numbers, column 'wind_speed' has 5");
 }
 
-TEST_F(QueryColumns, RefusesPartsOfNumbers) {
+TEST_F(QueryColumns, RejectsColumnsWithAPartOfANumber) {
   v1::PulseColumns columns = WireColumns(2);
   columns.mutable_azimuth()->append("x");
-  ExpectRefused(columns, "column 'azimuth' has 9 bytes");
+  ExpectRejected(columns, "column 'azimuth' has 9 bytes");
   columns = WireColumns(2);
   columns.set_depth("xyz");
-  ExpectRefused(columns, "column 'depth' has 3 bytes");
+  ExpectRejected(columns, "column 'depth' has 3 bytes");
 }
 
-TEST_F(QueryColumns, RefusesAMissingColumn) {
+TEST_F(QueryColumns, RejectsAMissingColumn) {
   v1::PulseColumns columns = WireColumns(2);
   columns.clear_depth();
-  ExpectRefused(columns, "column 'depth' is empty");
+  ExpectRejected(columns, "column 'depth' is empty");
 }
 
-TEST_F(QueryColumns, RefusesMorePulsesThanAMessageTakes) {
-  ExpectRefused(WireColumns(kMaxPulses + 1), "column 'wind_speed' has 65537 numbers: a message takes 65536");
+TEST_F(QueryColumns, RejectsTooManyPulses) {
+  ExpectRejected(WireColumns(kMaxPulses + 1), "column 'wind_speed' has 65537 numbers: a message takes 65536");
 }
 
-TEST_F(QueryColumns, RefusesNumbersThatNoQuantityHas) {
+TEST_F(QueryColumns, RejectsInvalidNumbersOfQuantities) {
   for (int number : {0, 7, -1}) {
     v1::QueryColumnsRequest request;
     *request.mutable_pulses() = WireColumns(1);
@@ -257,7 +257,7 @@ TEST_F(QueryColumns, RefusesNumbersThatNoQuantityHas) {
   }
 }
 
-TEST_F(QueryColumns, KeepsTheLargestAnswerWithinTheDefaultLimitOfClients) {
+TEST_F(QueryColumns, KeepsTheLargestAnswerBelowTheDefaultLimitOfClients) {
   v1::QueryOptions options;
   options.set_standard_errors(true);
   options.set_best_s44_order(true);
@@ -269,7 +269,7 @@ TEST_F(QueryColumns, KeepsTheLargestAnswerWithinTheDefaultLimitOfClients) {
   EXPECT_LT(answer.ByteSizeLong(), kMaxMessageBytes);
 }
 
-TEST_F(QueryColumns, RefusesAMessageLongerThanTheLimit) {
+TEST_F(QueryColumns, RejectsAMessageAboveTheSizeLimit) {
   v1::QueryColumnsRequest request;
   *request.mutable_pulses() = WireColumns(400000);
   v1::QueryColumnsResponse response;

@@ -49,7 +49,7 @@ class QueryPulses : public ServedTables {
   }
 };
 
-// The server answers in single precision, within 1e-5 of the slow twin (column_query.h).
+// The server computes in single precision, within 1e-5 of the reference implementation (column_query.h).
 void ExpectNear(const v1::SeaSurface& wire, const std::array<float, kQuantityCount>& values) {
   const float answered[] = {
       wire.refraction_along_wind(), wire.refraction_cross_wind(), wire.thu(), wire.tvu(),
@@ -59,7 +59,7 @@ void ExpectNear(const v1::SeaSurface& wire, const std::array<float, kQuantityCou
   }
 }
 
-TEST_F(QueryPulses, AnswersWhatTheTableSays) {
+TEST_F(QueryPulses, InterpolatesTheTable) {
   const v1::PulseUncertainty answer = AskOne(WirePulse());
   EXPECT_EQ(answer.outcome(), v1::OUTCOME_INTERPOLATED);
   EXPECT_EQ(answer.axis(), v1::AXIS_UNSPECIFIED);
@@ -78,7 +78,7 @@ TEST_F(QueryPulses, NamesTheTableAndTheCoverage) {
   EXPECT_EQ(response.coverage(), v1::COVERAGE_TWO_SIGMA);
 }
 
-TEST_F(QueryPulses, KeepsTheOrder) {
+TEST_F(QueryPulses, AnswersInTheOrderOfTheRequest) {
   v1::QueryPulsesRequest request;
   for (int depth = 20; depth >= 0; --depth) {
     v1::Pulse* pulse = request.add_pulses();
@@ -94,26 +94,26 @@ TEST_F(QueryPulses, KeepsTheOrder) {
   }
 }
 
-TEST_F(QueryPulses, AnswersFromTheTableThatIsNamed) {
+TEST_F(QueryPulses, UsesTheNamedTable) {
   v1::QueryOptions options;
   const std::pair<const char*, float> factors[] = {
       {"survey", 1.0f}, {"twice", 3.0f}, {"twice/2", 3.0f}, {"twice/1", 2.0f}};
   const float thu = Interpolate(survey_, TablesPulse())[Quantity::kThu];
   for (const auto& [name, factor] : factors) {
     options.set_table(name);
-    // Each node is rounded to single precision, and so is the answer.
+    // Each node and the answer are rounded to single precision.
     EXPECT_NEAR(AskOne(WirePulse(), options).sea_surface().thu(), factor * thu, 3e-7 * factor * thu) << name;
   }
 }
 
-TEST_F(QueryPulses, AddsStandardErrorsIfAsked) {
+TEST_F(QueryPulses, AddsStandardErrorsOnRequest) {
   v1::QueryOptions options;
   options.set_standard_errors(true);
   ExpectNear(AskOne(WirePulse(), options).sea_surface_standard_error(),
              Interpolate(survey_, TablesPulse()).standard_errors);
 }
 
-TEST_F(QueryPulses, LeavesOutWhatTheTableDoesNotHold) {
+TEST_F(QueryPulses, OmitsQuantitiesThatTheTableDoesNotHold) {
   v1::QueryOptions options;
   options.set_table("published");
   options.set_standard_errors(true);
@@ -124,7 +124,7 @@ TEST_F(QueryPulses, LeavesOutWhatTheTableDoesNotHold) {
   EXPECT_FALSE(answer.sea_surface_standard_error().has_thu());
 }
 
-TEST_F(QueryPulses, RestatesAt95PercentIfAsked) {
+TEST_F(QueryPulses, ConvertsTo95PercentOnRequest) {
   v1::QueryPulsesRequest request = OnePulse();
   request.mutable_options()->set_coverage(v1::COVERAGE_P95);
   request.mutable_options()->set_standard_errors(true);
@@ -150,7 +150,7 @@ TEST_F(QueryPulses, ComparesWithS44At95PercentAtAnyCoverage) {
   }
 }
 
-TEST_F(QueryPulses, AnswersOnlyThePartOfS44ThatIsAsked) {
+TEST_F(QueryPulses, AnswersOnlyTheRequestedPartOfS44) {
   v1::QueryOptions options;
   options.set_best_s44_order(true);
   EXPECT_FALSE(AskOne(WirePulse(), options).s44().has_remaining_thu());
@@ -159,7 +159,7 @@ TEST_F(QueryPulses, AnswersOnlyThePartOfS44ThatIsAsked) {
   EXPECT_EQ(AskOne(WirePulse(), options).s44().best_order(), v1::S44_ORDER_UNSPECIFIED);
 }
 
-TEST_F(QueryPulses, TakesAbsentFetchAsFullyDeveloped) {
+TEST_F(QueryPulses, TreatsAnAbsentFetchAsAFullyDevelopedSea) {
   v1::Pulse pulse = WirePulse();
   pulse.set_fetch(kInfinity);
   const v1::PulseUncertainty infinite = AskOne(pulse);
@@ -168,7 +168,7 @@ TEST_F(QueryPulses, TakesAbsentFetchAsFullyDeveloped) {
   EXPECT_EQ(infinite.outcome(), v1::OUTCOME_INTERPOLATED);
 }
 
-TEST_F(QueryPulses, TakesTheWorseOf0And90DegreesWithoutAzimuthAndSaysSo) {
+TEST_F(QueryPulses, UsesTheWorseOf0And90DegreesWithoutAzimuthAndReportsIt) {
   v1::Pulse pulse = WirePulse();
   pulse.clear_azimuth();
   const v1::PulseUncertainty answer = AskOne(pulse);
@@ -178,7 +178,7 @@ TEST_F(QueryPulses, TakesTheWorseOf0And90DegreesWithoutAzimuthAndSaysSo) {
   ExpectNear(answer.sea_surface(), Interpolate(survey_, absent).values);
 }
 
-TEST_F(QueryPulses, NamesTheAxisThatIsOutOfDomainAndInventsNothing) {
+TEST_F(QueryPulses, NamesTheAxisThatIsOutOfDomainAndGivesNoNumbers) {
   using Setter = void (v1::Pulse::*)(float);
   struct Case {
     Setter set;
@@ -205,7 +205,7 @@ TEST_F(QueryPulses, NamesTheAxisThatIsOutOfDomainAndInventsNothing) {
   }
 }
 
-TEST_F(QueryPulses, CallsWhatIsNotFiniteInvalid) {
+TEST_F(QueryPulses, MarksPulsesThatAreNotFiniteInvalid) {
   for (float value : {kNaN, kInfinity, -kInfinity}) {
     v1::Pulse pulse = WirePulse();
     pulse.set_incidence(value);
@@ -218,7 +218,7 @@ TEST_F(QueryPulses, CallsWhatIsNotFiniteInvalid) {
   EXPECT_EQ(AskOne(pulse).outcome(), v1::OUTCOME_INVALID);
 }
 
-TEST_F(QueryPulses, CallsAMissingCoordinateInvalidForThatPulseOnly) {
+TEST_F(QueryPulses, MarksOnlyThePulseWithAMissingCoordinateInvalid) {
   using Clearer = void (v1::Pulse::*)();
   const std::pair<Clearer, v1::Axis> cases[] = {{&v1::Pulse::clear_wind_speed, v1::AXIS_WIND_SPEED},
                                                 {&v1::Pulse::clear_incidence, v1::AXIS_INCIDENCE},
@@ -236,13 +236,13 @@ TEST_F(QueryPulses, CallsAMissingCoordinateInvalidForThatPulseOnly) {
   }
 }
 
-TEST_F(QueryPulses, RefusesAnEmptyBatch) {
+TEST_F(QueryPulses, RejectsAnEmptyBatch) {
   const grpc::Status status = Fail({});
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(status.error_message(), HasSubstr("send at least one"));
 }
 
-TEST_F(QueryPulses, RefusesAnUnknownTableAndListsThoseThereAre) {
+TEST_F(QueryPulses, RejectsAnUnknownTableAndListsTheExistingOnes) {
   v1::QueryPulsesRequest request = OnePulse();
   request.mutable_options()->set_table("slow");
   const grpc::Status status = Fail(request);
@@ -252,13 +252,13 @@ TEST_F(QueryPulses, RefusesAnUnknownTableAndListsThoseThereAre) {
                     Not(HasSubstr(folder_.path().string()))));
 }
 
-TEST_F(QueryPulses, SurvivesATableNameOfAnyLength) {
+TEST_F(QueryPulses, HandlesATableNameOfAnyLength) {
   v1::QueryPulsesRequest request = OnePulse();
   request.mutable_options()->set_table(std::string(1 << 20, 'x'));
   EXPECT_EQ(Fail(request).error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(QueryPulses, RefusesNumbersThatNoEnumHas) {
+TEST_F(QueryPulses, RejectsInvalidEnumNumbers) {
   v1::QueryPulsesRequest coverage = OnePulse();
   coverage.mutable_options()->set_coverage(static_cast<v1::Coverage>(7));
   EXPECT_EQ(Fail(coverage).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
@@ -269,7 +269,7 @@ TEST_F(QueryPulses, RefusesNumbersThatNoEnumHas) {
   EXPECT_THAT(Fail(order).error_message(), HasSubstr("options.s44_order is -1"));
 }
 
-TEST_F(QueryPulses, TakesAsManyPulsesAsAnAnswerHolds) {
+TEST_F(QueryPulses, AcceptsAsManyPulsesAsAnAnswerHolds) {
   v1::QueryPulsesRequest request;
   request.mutable_options()->set_best_s44_order(true);
   request.mutable_options()->set_s44_order(v1::S44_ORDER_1A);
@@ -288,7 +288,7 @@ TEST_F(QueryPulses, TakesAsManyPulsesAsAnAnswerHolds) {
   EXPECT_LT(with.ByteSizeLong(), kMaxMessageBytes);
 }
 
-TEST_F(QueryPulses, RefusesMorePulsesThanAMessageTakes) {
+TEST_F(QueryPulses, RejectsTooManyPulses) {
   v1::QueryPulsesRequest request;
   for (std::size_t i = 0; i < kMaxPulses + 1; ++i) *request.add_pulses() = WirePulse();
   const grpc::Status status = Fail(request);

@@ -1,4 +1,4 @@
-// A server on a free port that answers from synthetic tables, and a client of it.
+// A server on a free port with synthetic tables, and a client of it.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
-#include "service/server/observe/server_metrics.h"
+#include "service/server/observe/metrics.h"
 #include "service/server/server.h"
 #include "service/server/tables/table_catalog.h"
 #include "tables/file/table_io.h"
@@ -41,12 +41,12 @@ inline void WriteOrDie(const UncertaintyTable& table, const std::filesystem::pat
 
 inline std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
   grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // A proxy in the environment does not know our loopback.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // A proxy from the environment cannot reach our loopback.
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
 
-// Tables `survey` (synthetic), `published` (without biases and standard errors) and `twice/1`, `twice/2` (all
-// values times 2 and 3).
+// Serves the tables `survey` (synthetic), `published` (without biases and standard errors), `twice/1` and `twice/2`
+// (all values times 2 and 3).
 class ServedTables : public ::testing::Test {
  protected:
   ServedTables()
@@ -101,7 +101,7 @@ class ServedTables : public ::testing::Test {
   std::unique_ptr<v1::UncertaintyService::Stub> stub_;
 };
 
-// A pulse inside the domain of the synthetic tables, between their nodes.
+// A pulse within the domain of the synthetic tables, between their nodes.
 inline v1::Pulse WirePulse() {
   v1::Pulse pulse;
   pulse.set_wind_speed(4.5f);

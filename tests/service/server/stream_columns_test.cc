@@ -23,7 +23,7 @@ class StreamColumns : public ServedTables {
     return request;
   }
 
-  // All of one length, told apart by their depth.
+  // Requests of equal length differ by their depth.
   static v1::StreamColumnsRequest Request(std::size_t count, float depth) {
     v1::PulseColumns pulses = WireColumns(count);
     pulses.set_depth(Column({depth}));
@@ -44,10 +44,10 @@ class StreamColumns : public ServedTables {
   grpc::ClientContext context_;
 };
 
-TEST_F(StreamColumns, AnswersEachRequestAsACallOfItsOwnAndInOrder) {
+TEST_F(StreamColumns, AnswersEachRequestInOrderLikeASeparateCall) {
   const auto stream = Open();
   std::vector<v1::StreamColumnsRequest> requests;
-  for (int i = 0; i < 12; ++i) {  // Short and long ones in turn, which are answered on different threads.
+  for (int i = 0; i < 12; ++i) {  // Short and long requests are handled on different threads.
     requests.push_back(Request(i % 3 == 0 ? 5 : 20000, static_cast<float>(i)));
     requests.back().mutable_query()->mutable_options()->set_table(i % 2 == 0 ? "survey" : "twice/1");
     requests.back().mutable_query()->mutable_options()->set_standard_errors(i % 4 == 0);
@@ -65,13 +65,13 @@ TEST_F(StreamColumns, AnswersEachRequestAsACallOfItsOwnAndInOrder) {
   EXPECT_TRUE(stream->Finish().ok());
 }
 
-TEST_F(StreamColumns, IsWellWithoutAnyRequest) {
+TEST_F(StreamColumns, MayEndWithoutARequest) {
   const auto stream = Open();
   stream->WritesDone();
   EXPECT_TRUE(stream->Finish().ok());
 }
 
-TEST_F(StreamColumns, EndsAtTheFirstRequestThatCannotBeReadAfterTheAnswersBeforeIt) {
+TEST_F(StreamColumns, EndsAtTheFirstInvalidRequestAfterSendingTheAnswersBeforeIt) {
   v1::PulseColumns part_of_a_number = WireColumns(3);
   part_of_a_number.mutable_depth()->append("x");
   v1::PulseColumns another_length = WireColumns(3);
@@ -97,7 +97,7 @@ TEST_F(StreamColumns, EndsAtTheFirstRequestThatCannotBeReadAfterTheAnswersBefore
   }
 }
 
-TEST_F(StreamColumns, NamesTheTableThatIsNotThere) {
+TEST_F(StreamColumns, EndsAtAnUnknownTable) {
   const auto stream = Open();
   v1::StreamColumnsRequest request = Request(3, 1);
   request.mutable_query()->mutable_options()->set_table("slow");
@@ -107,8 +107,8 @@ TEST_F(StreamColumns, NamesTheTableThatIsNotThere) {
   EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
-TEST_F(StreamColumns, IsReadNoFartherThanItsAnswersAreTaken) {
-  constexpr int kMany = 200;  // 200 answers have 300 MB: no window of HTTP/2 or TCP holds them.
+TEST_F(StreamColumns, ReadsNoRequestsWhileItsAnswersAreNotRead) {
+  constexpr int kMany = 200;  // 200 answers have 300 MB, more than any window of HTTP/2 or TCP.
   const v1::StreamColumnsRequest request = [] {
     v1::StreamColumnsRequest r = Request(kMaxPulses, 3);
     for (v1::Quantity q : {v1::QUANTITY_THU, v1::QUANTITY_TVU, v1::QUANTITY_BIAS_VERTICAL}) {
@@ -124,15 +124,15 @@ TEST_F(StreamColumns, IsReadNoFartherThanItsAnswersAreTaken) {
   int written = 0;
   for (; written < kMany; ++written) {
     stream->Write(request, nullptr);
-    // A write that is not done in this time waits for the server, which waits for a reader. On a machine so
-    // slow that it only looks like that, less is shown, and nothing fails.
+    // A write that takes longer waits for the server, which waits for a reader. On a very slow machine the test ends
+    // the loop too early, which proves less but does not fail.
     const auto patience = std::chrono::system_clock::now() + std::chrono::seconds(2);
     if (events.AsyncNext(&tag, &ok, patience) == grpc::CompletionQueue::TIMEOUT) break;
     ASSERT_TRUE(ok);
   }
   EXPECT_LT(written, kMany / 4);
 
-  // Nothing is lost: all that was written is answered once it is read. The write that waited ends meanwhile.
+  // Nothing is lost: every request is answered once answers are read. The pending write finishes meanwhile.
   v1::StreamColumnsResponse response;
   for (int read = 0; read <= written;) {
     stream->Read(&response, &response);
@@ -149,7 +149,7 @@ TEST_F(StreamColumns, IsReadNoFartherThanItsAnswersAreTaken) {
   }
 }
 
-TEST_F(StreamColumns, LeavesNothingBehindWhenItsCallerStopsHalfWay) {
+TEST_F(StreamColumns, FreesEverythingWhenItsCallerCancels) {
   for (int i = 0; i < 10; ++i) {
     grpc::ClientContext context;
     const auto stream = stub_->StreamColumns(&context);
@@ -167,8 +167,8 @@ TEST_F(StreamColumns, LeavesNothingBehindWhenItsCallerStopsHalfWay) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, kDrainTime / 2);
 }
 
-TEST_F(StreamColumns, IsRefusedWhenTooManyAreUnderWay) {
-  // More streams than a connection takes wait in the client: several connections are needed.
+TEST_F(StreamColumns, IsRefusedWhenTooManyAreOpen) {
+  // A client holds back more streams than one connection allows, so several connections are needed.
   std::vector<std::unique_ptr<v1::UncertaintyService::Stub>> stubs;
   std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
   std::vector<std::unique_ptr<Stream>> streams;
@@ -191,7 +191,7 @@ TEST_F(StreamColumns, IsRefusedWhenTooManyAreUnderWay) {
   const grpc::Status status = refused->Finish();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_THAT(status.error_message(), HasSubstr("try again"));
-  // Short requests are none of these.
+  // Short requests do not count.
   v1::QueryColumnsResponse answer;
   EXPECT_TRUE(QueryColumns(Request(1, 1).query(), answer).ok());
 
@@ -207,10 +207,10 @@ TEST_F(StreamColumns, IsRefusedWhenTooManyAreUnderWay) {
   EXPECT_TRUE(admitted->Finish().ok());
 }
 
-// Bytes where a message should be, to any method.
-class BytesOfNoMessage : public ServedTables, public ::testing::WithParamInterface<const char*> {};
+// Bytes that are not a message, sent to each method.
+class InvalidBytes : public ServedTables, public ::testing::WithParamInterface<const char*> {};
 
-TEST_P(BytesOfNoMessage, AreRefused) {
+TEST_P(InvalidBytes, AreRejected) {
   grpc::GenericStub generic(channel_);
   grpc::ClientContext context;
   context.set_wait_for_ready(true);
@@ -230,7 +230,7 @@ TEST_P(BytesOfNoMessage, AreRefused) {
   EXPECT_THAT(status.error_message(), HasSubstr("do not parse"));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BytesOfNoMessage,
+INSTANTIATE_TEST_SUITE_P(All, InvalidBytes,
                          ::testing::Values("QueryPulses", "QueryColumns", "StreamColumns"));
 
 }  // namespace

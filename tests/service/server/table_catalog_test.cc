@@ -36,13 +36,13 @@ TEST_F(Catalog, FindsTablesByName) {
   EXPECT_EQ(OrDie(catalog.Find("quick"))->table.digest(), table_.digest());
 }
 
-TEST_F(Catalog, TakesTheGivenDefault) {
+TEST_F(Catalog, UsesTheGivenDefault) {
   Add("quick.h5");
   Add("survey.h5");
   EXPECT_EQ(OrDie(OrDie(Load("quick")).Find(""))->name, "quick");
 }
 
-TEST_F(Catalog, RefusesADefaultThatIsNotThere) {
+TEST_F(Catalog, RejectsADefaultThatDoesNotExist) {
   Add("quick.h5");
   const absl::Status status = Load("survey").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
@@ -55,7 +55,7 @@ TEST_F(Catalog, MayHaveNoDefault) {
   EXPECT_EQ(OrDie(Load()).Find("").status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
-TEST_F(Catalog, TakesAPublishedTableOnlyWhenNamed) {
+TEST_F(Catalog, UsesAPublishedTableOnlyIfNamed) {
   WriteOrDie(testing::SyntheticTable({.published = true}), folder_ / "article.h5");
   WriteOrDie(testing::SyntheticTable(), folder_ / "bay.h5");
   const TableCatalog catalog = OrDie(Load());
@@ -63,13 +63,13 @@ TEST_F(Catalog, TakesAPublishedTableOnlyWhenNamed) {
   EXPECT_EQ(OrDie(catalog.Find("article"))->name, "article");
 }
 
-TEST_F(Catalog, NeedsATable) {
+TEST_F(Catalog, RejectsAnEmptyFolder) {
   const absl::Status status = Load().status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(status.message()), HasSubstr("NAME.h5"));
 }
 
-TEST_F(Catalog, RefusesADamagedTableAndNamesItsFile) {
+TEST_F(Catalog, RejectsADamagedTableAndNamesItsFile) {
   Add("quick.h5");
   std::ofstream(folder_ / "survey.h5") << "not a table";
   EXPECT_THAT(std::string(Load().status().message()), HasSubstr((folder_ / "survey.h5").string()));

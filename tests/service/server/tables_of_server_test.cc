@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 using TablesOfServer = ServedTables;
 
-TEST_F(TablesOfServer, AreListedByNameAndFromTheNewestVersion) {
+TEST_F(TablesOfServer, AreListedByNameAndNewestVersionFirst) {
   v1::ListTablesResponse response;
   ASSERT_TRUE(ListTables(response).ok());
   std::vector<std::string> names, versions;
@@ -57,7 +57,7 @@ TEST_F(TablesOfServer, AreDescribedWithAxesAndQuantities) {
   }
 }
 
-TEST_F(TablesOfServer, CarryTheirProvenance) {
+TEST_F(TablesOfServer, IncludeTheirProvenance) {
   v1::GetTableResponse response;
   ASSERT_TRUE(GetTable("", response).ok());
   const auto& attributes = response.table().attributes();
@@ -68,7 +68,7 @@ TEST_F(TablesOfServer, CarryTheirProvenance) {
   EXPECT_THAT(attributes.at("interpolation_error").numbers().values(), ElementsAre(0.01, 0.02, 0.03));
 }
 
-TEST_F(TablesOfServer, NameOnlyTheQuantitiesThatTheyHold) {
+TEST_F(TablesOfServer, ListOnlyTheQuantitiesThatTheyHold) {
   v1::GetTableResponse response;
   ASSERT_TRUE(GetTable("published", response).ok());
   ASSERT_EQ(response.table().quantities_size(), 4);
@@ -76,7 +76,7 @@ TEST_F(TablesOfServer, NameOnlyTheQuantitiesThatTheyHold) {
   EXPECT_EQ(response.table().campaign(), "");
 }
 
-TEST_F(TablesOfServer, AreNotFoundUnderAnotherName) {
+TEST_F(TablesOfServer, AreNotFoundByAnotherName) {
   v1::GetTableResponse response;
   const grpc::Status status = GetTable("twice/3", response);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);

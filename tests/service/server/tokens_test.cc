@@ -14,7 +14,7 @@ constexpr char kOther[] = "AZaz09-._~+/AZaz09-._~+/==";
 
 std::string Problem(std::string_view text) { return std::string(Tokens::Parse(text).status().message()); }
 
-TEST(Tokens, AcceptTheirOwnAlone) {
+TEST(Tokens, AcceptOnlyTheTokensOfTheirFile) {
   const Tokens tokens = Tokens::Parse(kToken).value();
   EXPECT_TRUE(tokens.Accept("Bearer c0ffee00c0ffee00c0ffee00c0ffee00"));
   for (const char* wrong :
@@ -26,7 +26,7 @@ TEST(Tokens, AcceptTheirOwnAlone) {
   }
 }
 
-TEST(Tokens, TakeTheSchemeInAnyCase) {  // RFC 7235, 2.1
+TEST(Tokens, AcceptTheSchemeInAnyCase) {  // RFC 7235, 2.1
   EXPECT_TRUE(Tokens::Parse(kToken)->Accept("bearer c0ffee00c0ffee00c0ffee00c0ffee00"));
 }
 
@@ -36,14 +36,14 @@ TEST(Tokens, MayBeSeveral) {
   EXPECT_TRUE(tokens.Accept(std::string("Bearer ") + kOther));
 }
 
-TEST(Tokens, AreThereAndHardToGuess) {
+TEST(Tokens, MustExistAndBeHardToGuess) {
   EXPECT_THAT(Problem(" \n\n"), HasSubstr("openssl rand"));
   EXPECT_THAT(Problem(std::string(kToken) + "\nshort\n"), HasSubstr("line 2 has 5 characters"));
 }
 
 TEST(Tokens, AreNotRepeatedInErrors) {
   const std::string problem = Problem("two words that are long enough");
-  EXPECT_THAT(problem, HasSubstr("line 1 is no token"));
+  EXPECT_THAT(problem, HasSubstr("line 1 is not a token"));
   EXPECT_THAT(problem, Not(HasSubstr("words")));
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "service/server/ground/limits.h"
-#include "service/server/observe/server_metrics.h"
+#include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
 namespace {
@@ -14,31 +14,31 @@ class UnreadAnswersTest : public ::testing::Test {
  protected:
   ServerMetrics metrics_;
   UnreadAnswers unread_{metrics_.calls};
-  grpc::CallbackServerContext context_;  // Of no call.
+  grpc::CallbackServerContext context_;  // Belongs to no call.
 };
 
 TEST_F(UnreadAnswersTest, HaveRoomUpToTheLimit) {
-  EXPECT_TRUE(unread_.HaveRoomFor(kMaxUnreadBytes));
-  EXPECT_FALSE(unread_.HaveRoomFor(kMaxUnreadBytes + 1));
+  EXPECT_TRUE(unread_.HasRoomFor(kMaxUnreadBytes));
+  EXPECT_FALSE(unread_.HasRoomFor(kMaxUnreadBytes + 1));
 }
 
-TEST_F(UnreadAnswersTest, TakeRoomUntilTheyHaveGone) {
-  std::optional<UnreadAnswers::Answer> first;
+TEST_F(UnreadAnswersTest, TakeRoomUntilTheyAreDestroyed) {
+  std::optional<UnreadAnswers::Entry> first;
   first.emplace(unread_, context_, 1000);
   {
-    const UnreadAnswers::Answer second(unread_, context_, kMaxUnreadBytes - 1000);
-    EXPECT_FALSE(unread_.HaveRoomFor(1));
+    const UnreadAnswers::Entry second(unread_, context_, kMaxUnreadBytes - 1000);
+    EXPECT_FALSE(unread_.HasRoomFor(1));
     first.reset();
-    EXPECT_TRUE(unread_.HaveRoomFor(1000));
-    EXPECT_FALSE(unread_.HaveRoomFor(1001));
+    EXPECT_TRUE(unread_.HasRoomFor(1000));
+    EXPECT_FALSE(unread_.HasRoomFor(1001));
   }
-  EXPECT_TRUE(unread_.HaveRoomFor(kMaxUnreadBytes));
+  EXPECT_TRUE(unread_.HasRoomFor(kMaxUnreadBytes));
 }
 
-TEST_F(UnreadAnswersTest, StayUntilTheyAreDue) {
-  const UnreadAnswers::Answer answer(unread_, context_, 1000);
+TEST_F(UnreadAnswersTest, AreKeptUntilTheirTimeIsUp) {
+  const UnreadAnswers::Entry answer(unread_, context_, 1000);
   unread_.DropUnread(UnreadAnswers::Clock::now());
-  EXPECT_FALSE(unread_.HaveRoomFor(kMaxUnreadBytes));
+  EXPECT_FALSE(unread_.HasRoomFor(kMaxUnreadBytes));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "service/server/ground/repeated.h"
+#include "service/server/ground/periodic_task.h"
 
 #include <gtest/gtest.h>
 
@@ -8,28 +8,28 @@
 namespace albtpu::server {
 namespace {
 
-TEST(Repeated, WorksAgainAndAgain) {
+TEST(PeriodicTask, RunsRepeatedly) {
   std::promise<void> third;
   int times = 0;
-  const Repeated repeated(std::chrono::milliseconds(1), [&] {
+  const PeriodicTask task(std::chrono::milliseconds(1), [&] {
     if (++times == 3) third.set_value();
   });
   third.get_future().wait();
 }
 
-TEST(Repeated, EndsAtOnceHoweverLongItsInterval) {
+TEST(PeriodicTask, StopsAtOnceHoweverLongItsInterval) {
   bool worked = false;
   {
-    const Repeated repeated(std::chrono::hours(1), [&] { worked = true; });
+    const PeriodicTask task(std::chrono::hours(1), [&] { worked = true; });
   }
   EXPECT_FALSE(worked);
 }
 
-TEST(Repeated, EndsWhenItsWorkIsDone) {
+TEST(PeriodicTask, WaitsForItsWorkToEnd) {
   std::promise<void> begun;
   bool done = false;
   {
-    const Repeated repeated(std::chrono::milliseconds(1), [&, first = true]() mutable {
+    const PeriodicTask task(std::chrono::milliseconds(1), [&, first = true]() mutable {
       if (!std::exchange(first, false)) return;
       begun.set_value();
       done = true;

@@ -1,4 +1,4 @@
-#include "service/server/calls/pulse_columns.h"
+#include "service/server/calls/request_columns.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
-#include "service/server/tables/field_violations.h"
 
 namespace albtpu::server {
 namespace {
@@ -18,8 +18,8 @@ bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId:
 
 std::string Quoted(AxisId axis) { return absl::StrCat("column '", std::string(Describe(axis).name), "'"); }
 
-// The axis of the longest column.
-AxisId Longest(const ColumnBytes& columns) {
+// The axis of the longest column, which has one number for each pulse.
+AxisId LongestColumn(const ColumnBytes& columns) {
   return *std::max_element(kAxes.begin(), kAxes.end(), [&](AxisId a, AxisId b) {
     return columns[Index(a)]->size() < columns[Index(b)]->size();
   });
@@ -27,23 +27,23 @@ AxisId Longest(const ColumnBytes& columns) {
 
 std::string Path(AxisId axis) { return absl::StrCat("pulses.", std::string(Describe(axis).name)); }
 
-absl::Status CheckBytes(const ColumnBytes& columns) {
+absl::Status CheckColumnBytes(const ColumnBytes& columns) {
   FieldViolations violations;
   for (AxisId axis : kAxes) {
     const std::size_t bytes = columns[Index(axis)]->size();
     if (bytes % sizeof(float) == 0) continue;
     violations.Add(Path(axis), absl::StrCat(Quoted(axis), " has ", bytes,
-                                            " bytes: single precision numbers have 4 bytes each"));
+                                            " bytes: expected single precision numbers of 4 bytes each"));
   }
   return violations.ToStatus();
 }
 
-// What is wrong with the column of `axis`, of whole numbers, where the longest has `count`; empty: nothing.
-std::string Problem(const ColumnBytes& columns, AxisId axis, AxisId longest, std::size_t count) {
+// The error in the column of `axis`, or an empty string if it is valid. `count` is the length of the longest column.
+std::string ColumnError(const ColumnBytes& columns, AxisId axis, AxisId longest, std::size_t count) {
   const std::size_t length = columns[Index(axis)]->size() / sizeof(float);
   if (length > kMaxPulses) {
     return absl::StrCat(Quoted(axis), " has ", length, " numbers: a message takes ", kMaxPulses,
-                        " pulses, send several");
+                        " pulses at most; send several messages");
   }
   if (length == 0 && !MayBeAbsent(axis)) {
     return absl::StrCat(Quoted(axis), " is empty: send one number for each pulse, or one number for all");
@@ -55,31 +55,32 @@ std::string Problem(const ColumnBytes& columns, AxisId axis, AxisId longest, std
   return "";
 }
 
-absl::Status CheckLengths(const ColumnBytes& columns, AxisId longest) {
+absl::Status CheckColumnLengths(const ColumnBytes& columns, AxisId longest) {
   const std::size_t count = columns[Index(longest)]->size() / sizeof(float);
-  if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
+  if (count == 0) return FieldViolation("pulses", "there are no pulses: send at least one");
   FieldViolations violations;
   for (AxisId axis : kAxes) {
-    const std::string problem = Problem(columns, axis, longest, count);
-    if (!problem.empty()) violations.Add(Path(axis), problem);
+    const std::string error = ColumnError(columns, axis, longest, count);
+    if (!error.empty()) violations.Add(Path(axis), error);
   }
   return violations.ToStatus();
 }
 
 }  // namespace
 
-absl::StatusOr<PulseColumns> ReadColumns(const v1::PulseColumns& columns) {
+absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns) {
   const ColumnBytes bytes = {&columns.wind_speed(), &columns.fetch(),     &columns.incidence(),
                              &columns.azimuth(),    &columns.footprint(), &columns.depth()};
-  const AxisId longest = Longest(bytes);
-  absl::Status status = CheckBytes(bytes);
-  if (status.ok()) status = CheckLengths(bytes, longest);
+  const AxisId longest = LongestColumn(bytes);
+  absl::Status status = CheckColumnBytes(bytes);
+  if (status.ok()) status = CheckColumnLengths(bytes, longest);
   if (!status.ok()) return status;
   PulseColumns pulses;
   pulses.size = bytes[Index(longest)]->size() / sizeof(float);
   for (AxisId axis : kAxes) {
     const std::string& column = *bytes[Index(axis)];
-    // A string's bytes are aligned for floats: within the string behind a pointer and a size, or on the heap.
+    // The bytes of a std::string are aligned for floats, both inside the object, after pointer and size, and on the
+    // heap.
     pulses.axis[Index(axis)] = {reinterpret_cast<const float*>(column.data()), column.size() / sizeof(float)};
   }
   return pulses;

@@ -1,11 +1,11 @@
-#include "service/server/calls/answer_columns.h"
+#include "service/server/calls/query_columns.h"
 
 #include <array>
 #include <cstdint>
 
 #include "absl/status/statusor.h"
-#include "service/server/calls/pulse_columns.h"
 #include "service/server/calls/query_plan.h"
+#include "service/server/calls/request_columns.h"
 #include "service/server/tables/table_messages.h"
 #include "service/server/tables/wire_enums.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using QuantitySelection = std::array<bool, kQuantityCount>;
 
-// The quantities that a request names; all if it names none.
+// The quantities that the request names, or all if it names none.
 absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryColumnsRequest& request) {
   QuantitySelection selection;
   selection.fill(request.quantities_size() == 0);
@@ -52,7 +52,7 @@ std::array<float*, kQuantityCount> AddSeaSurface(int field, const QuantitySelect
   return columns;
 }
 
-// Those columns alone that were asked for.
+// Adds only the columns that were requested.
 AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selection, std::size_t count,
                          ColumnMessage& message) {
   using Fields = v1::QueryColumnsResponse;
@@ -79,13 +79,13 @@ AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selecti
 
 }  // namespace
 
-absl::Status AnswerInColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
-                             ColumnMessage& response, OutcomeTally& tally) {
+absl::Status QueryColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
+                          ColumnMessage& response, OutcomeTally& tally) {
   const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
   if (!plan.ok()) return plan.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
   if (!selection.ok()) return selection.status();
-  const absl::StatusOr<PulseColumns> pulses = ReadColumns(request.pulses());
+  const absl::StatusOr<PulseColumns> pulses = ReadPulseColumns(request.pulses());
   if (!pulses.ok()) return pulses.status();
   v1::QueryColumnsResponse head;
   *head.mutable_table() = WriteReference(*plan->source);

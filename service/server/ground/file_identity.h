@@ -1,4 +1,4 @@
-// Whether a file on disk is still the one that was read.
+// Tells whether a file on disk is still the one that was read.
 #pragma once
 
 #include <sys/stat.h>
@@ -8,11 +8,11 @@
 
 namespace albtpu::server {
 
-// Device, inode, size, and the times of the last change of content and of the file itself, in s and ns. The
-// last of them nobody can set back. Zeros: there is no such file.
-using FileStamp = std::array<long long, 7>;
+// Device, inode, size, and the times of the last change of the content and of the inode, each in s and ns.
+// No program can set the last of these times back. All zeros if there is no such file.
+using FileIdentity = std::array<long long, 7>;
 
-inline FileStamp StampOf(const std::filesystem::path& path) {
+inline FileIdentity IdentityOf(const std::filesystem::path& path) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return {};
   return {static_cast<long long>(found.st_dev),

@@ -1,10 +1,10 @@
-#include "service/server/ground/repeated.h"
+#include "service/server/ground/periodic_task.h"
 
 #include <utility>
 
 namespace albtpu::server {
 
-Repeated::Repeated(std::chrono::milliseconds interval, std::function<void()> work)
+PeriodicTask::PeriodicTask(std::chrono::milliseconds interval, std::function<void()> work)
     : thread_([this, interval, work = std::move(work)] {
         std::unique_lock lock(mutex_);
         while (!stopped_.wait_for(lock, interval, [this] { return stop_; })) {
@@ -14,7 +14,7 @@ Repeated::Repeated(std::chrono::milliseconds interval, std::function<void()> wor
         }
       }) {}
 
-Repeated::~Repeated() {
+PeriodicTask::~PeriodicTask() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;

@@ -1,4 +1,4 @@
-#include "service/server/calls/pulse_rows.h"
+#include "service/server/calls/query_rows.h"
 
 #include <array>
 #include <cmath>
@@ -8,15 +8,15 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "service/server/calls/query_plan.h"
+#include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
-#include "service/server/tables/field_violations.h"
 #include "service/server/tables/table_messages.h"
 #include "service/server/tables/wire_enums.h"
 
 namespace albtpu::server {
 namespace {
 
-// A coordinate that is missing is not a number, and makes the pulse invalid.
+// A missing coordinate becomes NaN, which makes the pulse invalid.
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
 using Rows = google::protobuf::RepeatedPtrField<v1::Pulse>;
@@ -24,13 +24,14 @@ using Values = std::array<float, kQuantityCount>;
 
 absl::Status CheckCount(const QueryPlan& plan, const Rows& rows) {
   const auto count = static_cast<std::size_t>(rows.size());
-  if (count == 0) return FieldViolation("pulses", "there is no pulse: send at least one");
+  if (count == 0) return FieldViolation("pulses", "there are no pulses: send at least one");
   const std::size_t limit = plan.standard_errors ? kMaxPulsesWithStandardErrors : kMaxPulses;
   if (count <= limit) return absl::OkStatus();
   return FieldViolation(
       "pulses",
       absl::StrCat("there are ", count, " pulses: a message takes ", limit,
-                   plan.standard_errors ? " with standard errors, or use QueryColumns" : ", send several"));
+                   plan.standard_errors ? " with standard errors at most; send several or use QueryColumns"
+                                        : " at most; send several messages"));
 }
 
 v1::SeaSurface WriteSeaSurface(const Values& values) {
@@ -48,7 +49,7 @@ v1::SeaSurface WriteSeaSurface(const Values& values) {
   return sea_surface;
 }
 
-// The rows that have an azimuth, or those that have none, and their answers, in columns.
+// The rows with an azimuth, or those without one, and their answers, copied into columns.
 class RowColumns {
  public:
   RowColumns(const QueryPlan& plan, const Rows& rows, bool with_azimuth) : plan_(plan) {
@@ -57,12 +58,12 @@ class RowColumns {
     }
   }
 
-  // Writes each answer to the place of its row.
-  void Answer(v1::QueryPulsesResponse& response, OutcomeTally& tally) {
+  // Queries the pulses and writes each answer to the place of its row.
+  void Query(v1::QueryPulsesResponse& response, OutcomeTally& tally) {
     if (places_.empty()) return;
     PulseColumns pulses{.size = places_.size(), .axis = {}};
     for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
-    AnswerOnAllCores(plan_.source->interpolator, plan_.query, pulses, MakeAnswers());
+    AnswerOnAllCores(plan_.source->interpolator, plan_.query, pulses, AllocateAnswers());
     tally.Add(outcomes_, outcome_axes_);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Write(i, *response.mutable_uncertainties(places_[i]));
@@ -81,23 +82,23 @@ class RowColumns {
     add(AxisId::kDepth, row.has_depth() ? row.depth() : kMissing);
   }
 
-  AnswerColumns MakeAnswers() {
+  AnswerColumns AllocateAnswers() {
     const std::size_t count = places_.size();
-    const auto made = [&](auto& column) {
+    const auto allocate = [&](auto& column) {
       column.resize(count);
       return column.data();
     };
     AnswerColumns answers;
-    answers.outcomes = made(outcomes_);
-    answers.outcome_axes = made(outcome_axes_);
+    answers.outcomes = allocate(outcomes_);
+    answers.outcome_axes = allocate(outcome_axes_);
     for (std::size_t q = 0; q < kQuantityCount; ++q) {
-      answers.values[q] = made(values_[q]);
-      if (plan_.standard_errors) answers.standard_errors[q] = made(standard_errors_[q]);
+      answers.values[q] = allocate(values_[q]);
+      if (plan_.standard_errors) answers.standard_errors[q] = allocate(standard_errors_[q]);
     }
-    if (plan_.best_s44_order) answers.best_s44_orders = made(best_orders_);
+    if (plan_.best_s44_order) answers.best_s44_orders = allocate(best_orders_);
     if (plan_.query.s44_order.has_value()) {
-      answers.remaining_thu = made(remaining_thu_);
-      answers.remaining_tvu = made(remaining_tvu_);
+      answers.remaining_thu = allocate(remaining_thu_);
+      answers.remaining_tvu = allocate(remaining_tvu_);
     }
     return answers;
   }
@@ -139,8 +140,8 @@ class RowColumns {
 
 }  // namespace
 
-absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
-                          v1::QueryPulsesResponse& response, OutcomeTally& tally) {
+absl::Status QueryRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
+                       v1::QueryPulsesResponse& response, OutcomeTally& tally) {
   const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
   if (!plan.ok()) return plan.status();
   const absl::Status status = CheckCount(*plan, request.pulses());
@@ -150,7 +151,7 @@ absl::Status AnswerInRows(const TableCatalog& catalog, const v1::QueryPulsesRequ
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
   for (bool with_azimuth : {true, false}) {
-    RowColumns(*plan, request.pulses(), with_azimuth).Answer(response, tally);
+    RowColumns(*plan, request.pulses(), with_azimuth).Query(response, tally);
   }
   return absl::OkStatus();
 }

@@ -1,0 +1,27 @@
+// Handlers of the methods that take many pulses, from serialized request to serialized response. Parsing and
+// serializing a long message take as long as the query itself, so a worker does all three.
+#pragma once
+
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/status.h>
+
+#include "service/server/observe/outcome_tally.h"
+#include "service/server/tables/table_catalog.h"
+
+namespace albtpu::server {
+
+// If the status is OK, `response` is set and its pulses are counted in `tally`. Bytes that do not parse as the request
+// message of the method are INVALID_ARGUMENT.
+using MessageHandler = grpc::Status (*)(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                        grpc::ByteBuffer& response, OutcomeTally& tally);
+
+grpc::Status HandleQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                               grpc::ByteBuffer& response, OutcomeTally& tally);
+grpc::Status HandleQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                grpc::ByteBuffer& response, OutcomeTally& tally);
+
+// Handles one request of a stream.
+grpc::Status HandleStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+                                 grpc::ByteBuffer& response, OutcomeTally& tally);
+
+}  // namespace albtpu::server

@@ -1,0 +1,169 @@
+#include "service/server/observe/metrics.h"
+
+#include <algorithm>
+#include <string>
+
+#include "absl/status/status.h"
+#include "tables/schema.h"
+#include "tables/version.h"
+
+namespace albtpu::server {
+namespace {
+
+// From a single pulse, tens of microseconds, to a full message that waits for many others.
+const prometheus::Histogram::BucketBoundaries kSeconds = {25e-6,  50e-6, 100e-6, 250e-6, 500e-6, 1e-3,
+                                                          2.5e-3, 5e-3,  10e-3,  25e-3,  50e-3,  0.1,
+                                                          0.25,   0.5,   1,      2.5,    5,      10};
+const prometheus::Histogram::BucketBoundaries kPulses = {1, 10, 100, 1000, 4096, 16384, 32768, 65536};
+
+// Codes whose counters exist from the start, so that their first call is noticed: Prometheus sees no increase in a
+// counter that appears at 1.
+constexpr std::array kCodesFromStart = {grpc::StatusCode::OK, grpc::StatusCode::INTERNAL,
+                                        grpc::StatusCode::UNKNOWN, grpc::StatusCode::DATA_LOSS,
+                                        grpc::StatusCode::RESOURCE_EXHAUSTED};
+
+bool HasChanges(const std::vector<TableCatalog::Change>& changes) {
+  return std::any_of(changes.begin(), changes.end(), [](const TableCatalog::Change& change) {
+    return change.kind != TableCatalog::Change::Kind::kKept;
+  });
+}
+
+}  // namespace
+
+std::string CodeName(grpc::StatusCode code) {
+  const std::string name = absl::StatusCodeToString(static_cast<absl::StatusCode>(code));
+  return name.empty() ? "UNKNOWN" : name;
+}
+
+CallMetrics::CallMetrics(prometheus::Registry& registry)
+    : calls_(prometheus::BuildCounter()
+                 .Name("albtpu_calls_total")
+                 .Help("Calls that have ended, by method and status code.")
+                 .Register(registry)) {
+  auto& in_progress = prometheus::BuildGauge()
+                          .Name("albtpu_calls_under_way")
+                          .Help("Calls that have begun and not ended.")
+                          .Register(registry);
+  auto& seconds = prometheus::BuildHistogram()
+                      .Name("albtpu_answer_seconds")
+                      .Help(
+                          "Time from a request to its answer, without the network; in a stream, from the "
+                          "moment that it is the turn of the request.")
+                      .Register(registry);
+  auto& batch = prometheus::BuildHistogram()
+                    .Name("albtpu_answer_pulses")
+                    .Help("Pulses of an answer.")
+                    .Register(registry);
+  auto& pulses = prometheus::BuildCounter()
+                     .Name("albtpu_pulses_total")
+                     .Help("Pulses that were answered, by outcome and the axis that made it.")
+                     .Register(registry);
+  for (std::size_t i = 0; i < kMethodNames.size(); ++i) {
+    const prometheus::Labels method = {{"method", kMethodNames[i]}};
+    for (const grpc::StatusCode code : kCodesFromStart) Ended(static_cast<Method>(i), code);
+    in_progress_[i] = &in_progress.Add(method);
+    if (i >= kPulseMethods) continue;
+    seconds_[i] = &seconds.Add(method, kSeconds);
+    pulses_[i] = &batch.Add(method, kPulses);
+  }
+  unread_ = &prometheus::BuildCounter()
+                 .Name("albtpu_unread_answers_total")
+                 .Help("Answers to single calls that were dropped: their callers did not read them.")
+                 .Register(registry)
+                 .Add({});
+  interpolated_ = &pulses.Add({{"outcome", "INTERPOLATED"}, {"axis", ""}});
+  for (AxisId axis : kAxes) {
+    const std::string name(Describe(axis).name);
+    out_of_domain_[Index(axis)] = &pulses.Add({{"outcome", "OUT_OF_DOMAIN"}, {"axis", name}});
+    invalid_[Index(axis)] = &pulses.Add({{"outcome", "INVALID"}, {"axis", name}});
+  }
+}
+
+void CallMetrics::CountEnd(Method method, grpc::StatusCode code) {
+  in_progress_[Index(method)]->Decrement();
+  const auto number = static_cast<std::size_t>(code);
+  Ended(method, number < kCodes ? number : static_cast<std::size_t>(grpc::StatusCode::UNKNOWN)).Increment();
+}
+
+void CallMetrics::CountAnswer(Method method, const OutcomeTally& tally, std::chrono::duration<double> took) {
+  seconds_[Index(method)]->Observe(took.count());
+  pulses_[Index(method)]->Observe(static_cast<double>(tally.pulses()));
+  if (tally.interpolated > 0) interpolated_->Increment(static_cast<double>(tally.interpolated));
+  if (tally.interpolated == tally.pulses()) return;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (tally.out_of_domain[i] > 0) out_of_domain_[i]->Increment(static_cast<double>(tally.out_of_domain[i]));
+    if (tally.invalid[i] > 0) invalid_[i]->Increment(static_cast<double>(tally.invalid[i]));
+  }
+}
+
+prometheus::Counter& CallMetrics::Ended(Method method, std::size_t code) {
+  std::atomic<prometheus::Counter*>& place = ended_[Index(method)][code];
+  prometheus::Counter* counter = place.load(std::memory_order_acquire);
+  if (counter == nullptr) {  // Threads that add the same counter at the same time get the same object.
+    counter =
+        &calls_.Add({{"method", Name(method)}, {"code", CodeName(static_cast<grpc::StatusCode>(code))}});
+    place.store(counter, std::memory_order_release);
+  }
+  return *counter;
+}
+
+AccessMetrics::AccessMetrics(prometheus::Registry& registry)
+    : certificate_expiry_(prometheus::BuildGauge()
+                              .Name("albtpu_certificate_expiry_timestamp_seconds")
+                              .Help("When the certificate ends that new connections are shown.")
+                              .Register(registry)) {
+  refused_connections_ = &prometheus::BuildCounter()
+                              .Name("albtpu_refused_connections_total")
+                              .Help("Connections that were closed at once: there were as many as can be.")
+                              .Register(registry)
+                              .Add({});
+  ended_connections_ = &prometheus::BuildCounter()
+                            .Name("albtpu_ended_connections_total")
+                            .Help("Connections that were ended: they had more calls in memory than they may.")
+                            .Register(registry)
+                            .Add({});
+  auto& calls = prometheus::BuildCounter()
+                    .Name("albtpu_refused_calls_total")
+                    .Help("Calls that were refused before they reached a method, by reason.")
+                    .Register(registry);
+  no_token_ = &calls.Add({{"reason", "no token"}});
+  wrong_token_ = &calls.Add({{"reason", "wrong token"}});
+}
+
+ReloadMetrics::ReloadMetrics(prometheus::Registry& registry) {
+  auto& reloads = prometheus::BuildCounter()
+                      .Name("albtpu_reloads_total")
+                      .Help("Reloads of the tables, by result.")
+                      .Register(registry);
+  loaded_ = &reloads.Add({{"result", "loaded"}});
+  unchanged_ = &reloads.Add({{"result", "unchanged"}});
+  refused_ = &reloads.Add({{"result", "refused"}});
+  last_succeeded_ = &prometheus::BuildGauge()
+                         .Name("albtpu_last_reload_successful")
+                         .Help("1 if the last reload, or the start, took the tables as they lay on disk.")
+                         .Register(registry)
+                         .Add({}, 1);
+  last_success_time_ = &prometheus::BuildGauge()
+                            .Name("albtpu_last_reload_success_timestamp_seconds")
+                            .Help("When the tables were last taken as they lay on disk.")
+                            .Register(registry)
+                            .Add({});
+  last_success_time_->SetToCurrentTime();
+}
+
+void ReloadMetrics::Count(const LiveTables::ReloadResult& result) {
+  last_succeeded_->Set(result.ok() ? 1 : 0);
+  if (!result.ok()) return refused_->Increment();
+  last_success_time_->SetToCurrentTime();
+  (HasChanges(*result) ? loaded_ : unchanged_)->Increment();
+}
+
+ServerMetrics::ServerMetrics() {
+  prometheus::BuildGauge()
+      .Name("albtpu_build_info")
+      .Help("1; which program this is.")
+      .Register(*registry)
+      .Add({{"version", std::string(Version())}, {"commit", std::string(Commit())}}, 1);
+}
+
+}  // namespace albtpu::server
