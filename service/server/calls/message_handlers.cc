@@ -28,7 +28,7 @@ grpc::Status HandleParsed(const grpc::ByteBuffer& bytes, Query query) try {
   Request request;
   if (Parse(bytes, request)) return ToGrpcStatus(query(request));
   return ToGrpcStatus(absl::InvalidArgumentError(
-      absl::StrCat("the message is not a ", request.GetTypeName(), " (its bytes do not parse)")));
+      absl::StrCat("the message is not a valid ", request.GetTypeName(), " (its bytes do not parse)")));
 } catch (const std::exception& error) {
   return ToGrpcStatus(absl::InternalError(error.what()));
 }
