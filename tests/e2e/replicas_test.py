@@ -83,9 +83,9 @@ class Replicas(unittest.TestCase):
                    "--footprint", "0.5", "--overwrite"]
         return subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
 
-    def assert_written(self, asking, output):
-        said = asking.communicate(timeout=PATIENCE)[1]
-        self.assertEqual(asking.returncode, 0, said)
+    def assert_written(self, client, output):
+        said = client.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(client.returncode, 0, said)
         undisturbed = self.folder / "undisturbed.csv"
         if not undisturbed.exists():
             self.assertEqual(subprocess.run([QUERY, "csv", "in.csv", undisturbed, "--table", "tables/quick.h5",
@@ -101,28 +101,28 @@ class Replicas(unittest.TestCase):
         self.assertGreater(min(pulses), 0.2 * LINES)  # There are only a few chunks.
 
     def test_answer_each_pulse_of_a_file_once_when_one_is_killed(self):
-        asking = self.csv("killed.csv")
+        client = self.csv("killed.csv")
         self.busy_one().stop(signal.SIGKILL)
-        self.assertIsNone(asking.poll(), "the client finished first")
-        self.assert_written(asking, "killed.csv")
+        self.assertIsNone(client.poll(), "the client finished first")
+        self.assert_written(client, "killed.csv")
 
-    def test_answer_each_pulse_of_a_file_once_when_one_falls_silent(self):
-        asking = self.csv("silent.csv")
+    def test_answer_each_pulse_of_a_file_once_when_one_stops_responding(self):
+        client = self.csv("silent.csv")
         silent = self.busy_one()
         silent.process.send_signal(signal.SIGSTOP)  # Like a machine that has lost its network.
-        self.assertIsNone(asking.poll(), "the client finished first")
-        self.assert_written(asking, "silent.csv")
+        self.assertIsNone(client.poll(), "the client finished first")
+        self.assert_written(client, "silent.csv")
         silent.process.send_signal(signal.SIGCONT)
 
     def test_answer_each_pulse_of_arrays_once_when_one_is_killed(self):
         pulses = dict(wind_speed=5, incidence=10, footprint=0.5, depth=depths(PULSES))
         answers = []
         with albtpu.connect(self.address) as service:
-            asking = threading.Thread(target=lambda: answers.append(service.query(**pulses)))
-            asking.start()
+            client = threading.Thread(target=lambda: answers.append(service.query(**pulses)))
+            client.start()
             self.busy_one().stop(signal.SIGKILL)
-            self.assertTrue(asking.is_alive(), "the client finished first")
-            asking.join(PATIENCE)
+            self.assertTrue(client.is_alive(), "the client finished first")
+            client.join(PATIENCE)
             disturbed, = answers
             undisturbed = service.query(**pulses)
         self.assertEqual(disturbed.outcomes.size, PULSES)

@@ -11,10 +11,9 @@ namespace albtpu::server {
 
 // PEM files, as given by flags. A path is empty if its flag is not given.
 struct CertificateFiles {
-  std::filesystem::path certificate =
-      {};                                // --tls-cert: the server's certificate, then the intermediate ones.
-  std::filesystem::path key = {};        // --tls-key
-  std::filesystem::path client_ca = {};  // --tls-client-ca: the authorities of client certificates.
+  std::filesystem::path certificate = {};  // --tls-cert: the server's, then intermediate certificates.
+  std::filesystem::path key = {};          // --tls-key
+  std::filesystem::path client_ca = {};    // --tls-client-ca: the authorities of client certificates.
 };
 
 // The content of these files.

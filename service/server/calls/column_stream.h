@@ -45,7 +45,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
 
   std::mutex mutex_;       // Guards the members up to the blank line.
   bool waiting_ = false;   // `next_` holds a request.
-  bool read_all_ = false;  // No further request will arrive.
+  bool read_all_ = false;  // No further request will arrive, or the caller has disconnected.
   bool busy_ = false;      // `current_` is being handled, or `answer_` is being sent.
   bool ended_ = false;
 

@@ -20,7 +20,7 @@ long AllCalls() {
 }
 
 // A call stays in memory for a moment after its caller has the answer.
-bool ReachesCalls(long count) {
+bool WaitForCalls(long count) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (std::chrono::steady_clock::now() < end) {
     if (AllCalls() == count) return true;
@@ -32,7 +32,7 @@ bool ReachesCalls(long count) {
 TEST_F(ConnectionCallsTest, CountsACallUntilItHasEnded) {
   v1::ListTablesResponse tables;
   ASSERT_TRUE(ListTables(tables).ok());  // Opens a connection.
-  ASSERT_TRUE(ReachesCalls(0));
+  ASSERT_TRUE(WaitForCalls(0));
   grpc::ClientContext context;
   auto stream = stub_->StreamColumns(&context);
   v1::StreamColumnsRequest request;
@@ -43,7 +43,7 @@ TEST_F(ConnectionCallsTest, CountsACallUntilItHasEnded) {
   EXPECT_EQ(AllCalls(), 1);
   stream->WritesDone();
   ASSERT_TRUE(stream->Finish().ok());
-  EXPECT_TRUE(ReachesCalls(0));
+  EXPECT_TRUE(WaitForCalls(0));
 }
 
 TEST_F(ConnectionCallsTest, IdentifiesTheCallerByItsAddress) {
