@@ -6,8 +6,8 @@ from albtpu.v1 import admin_service_pb2 as albtpu_dot_v1_dot_admin__service__pb2
 
 
 class AdminServiceStub(object):
-    """For those that run a server. Open to callers on the machine of the server; where the server asks for a token
-    or for a certificate of its clients, to all that bring one. Others get PERMISSION_DENIED.
+    """For operators of a server. Callers on the machine of the server are accepted; if the server requires a token or a
+    client certificate, so are all callers with one. Others get PERMISSION_DENIED.
     """
 
     def __init__(self, channel):
@@ -24,17 +24,17 @@ class AdminServiceStub(object):
 
 
 class AdminServiceServicer(object):
-    """For those that run a server. Open to callers on the machine of the server; where the server asks for a token
-    or for a certificate of its clients, to all that bring one. Others get PERMISSION_DENIED.
+    """For operators of a server. Callers on the machine of the server are accepted; if the server requires a token or a
+    client certificate, so are all callers with one. Others get PERMISSION_DENIED.
     """
 
     def ReloadTables(self, request, context):
-        """Reads the folder of tables again, as SIGHUP does: to be called when tables have been added, exchanged or
-        removed there. New tables are checked as a whole before any of them answers; then all take their places at
-        once. Calls under way, streams too, end on the tables on which they began.
+        """Reads the folder of tables again, as SIGHUP does. Call it after tables have been added, replaced or removed. All
+        new tables are checked completely before any of them is used; then all take effect at once. Calls in progress,
+        including streams, keep the tables with which they began.
 
-        Errors: FAILED_PRECONDITION: a table is damaged or none at all, or the folder cannot be taken as it is; the
-        message says which and why. Nothing has changed then, and all tables from before still answer.
+        Errors: FAILED_PRECONDITION if a file is damaged or is not a table, or if the folder as a whole is invalid; the
+        message says which and why. Nothing has changed then, and all previous tables stay in use.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -56,8 +56,8 @@ def add_AdminServiceServicer_to_server(servicer, server):
 
  # This class is part of an EXPERIMENTAL API.
 class AdminService(object):
-    """For those that run a server. Open to callers on the machine of the server; where the server asks for a token
-    or for a certificate of its clients, to all that bring one. Others get PERMISSION_DENIED.
+    """For operators of a server. Callers on the machine of the server are accepted; if the server requires a token or a
+    client certificate, so are all callers with one. Others get PERMISSION_DENIED.
     """
 
     @staticmethod

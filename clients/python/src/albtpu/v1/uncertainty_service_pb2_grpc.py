@@ -8,13 +8,14 @@ from albtpu.v1 import uncertainty_service_pb2 as albtpu_dot_v1_dot_uncertainty__
 class UncertaintyServiceStub(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
 
-    A pulse never fails a call: what cannot be answered gets an outcome of its own. A call fails as a whole,
-    with a message that says what would be right, only when it cannot be read as pulses or names no table.
-    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
-    limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
-    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
+    A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
+    message that says what would be right, only if it cannot be read as pulses or selects no table.
+
+    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its limit, or
+    a message is longer than 4 MiB; wait, or send less), UNAVAILABLE (the server is shutting down; try again),
+    UNAUTHENTICATED (the server requires a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED and
+    CANCELLED. If INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a google.rpc.Status)
+    contain a google.rpc.BadRequest that lists the invalid fields by path: `pulses.depth`.
     """
 
     def __init__(self, channel):
@@ -53,64 +54,65 @@ class UncertaintyServiceStub(object):
 class UncertaintyServiceServicer(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
 
-    A pulse never fails a call: what cannot be answered gets an outcome of its own. A call fails as a whole,
-    with a message that says what would be right, only when it cannot be read as pulses or names no table.
-    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
-    limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
-    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
+    A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
+    message that says what would be right, only if it cannot be read as pulses or selects no table.
+
+    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its limit, or
+    a message is longer than 4 MiB; wait, or send less), UNAVAILABLE (the server is shutting down; try again),
+    UNAUTHENTICATED (the server requires a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED and
+    CANCELLED. If INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a google.rpc.Status)
+    contain a google.rpc.BadRequest that lists the invalid fields by path: `pulses.depth`.
     """
 
     def QueryPulses(self, request, context):
-        """The uncertainty of pulses given one by one, in their order. For light use; `QueryColumns` is several
+        """The uncertainty of pulses given one by one, in the order of the request. For light use; `QueryColumns` is several
         times faster.
 
         Errors:
-        * INVALID_ARGUMENT: no pulse; more than 65 536 pulses, or than 32 768 with standard errors (the answer
-        would pass 4 MiB); a number that is no value of its enum.
-        * NOT_FOUND: there is no table of that name; the message lists those there are.
-        * FAILED_PRECONDITION: no table was named and there is no default; the message lists the names.
+        * INVALID_ARGUMENT: no pulses; more than 65 536 pulses, or more than 32 768 with standard errors (the response
+        would exceed 4 MiB); a number that is not a value of its enum.
+        * NOT_FOUND: there is no table with that name; the message lists the existing names.
+        * FAILED_PRECONDITION: no table was named and there is no default; the message lists the existing names.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def QueryColumns(self, request, context):
-        """The uncertainty of pulses given in columns, in columns. For survey rates. Gives the numbers that
-        `QueryPulses` gives, bit by bit.
+        """The uncertainty of pulses, both in columns. For survey rates. The values are identical to those of `QueryPulses`,
+        bit for bit.
 
         Errors:
-        * INVALID_ARGUMENT: no pulse; more than 65 536 pulses; an empty column that is required; a column whose
-        bytes are no multiple of 4; columns of different lengths; a number that is no value of its enum.
-        * NOT_FOUND, FAILED_PRECONDITION: as `QueryPulses`.
+        * INVALID_ARGUMENT: no pulses; more than 65 536 pulses; a required column that is empty; a column whose length in
+        bytes is not a multiple of 4; columns of different lengths; a number that is not a value of its enum.
+        * NOT_FOUND, FAILED_PRECONDITION: as for `QueryPulses`.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def StreamColumns(self, request_iterator, context):
-        """Many queries of `QueryColumns` in one call: one answer for each request, in the order of the requests.
-        For files and whole surveys; each request has the limits of `QueryColumns` and may ask for another table or
-        other columns than the one before.
+        """Many queries of `QueryColumns` in one call, with one response for each request, in the order of the requests. For
+        files and whole surveys. Each request has the limits of `QueryColumns` and may select another table or other
+        columns than the one before.
 
-        Keep a few requests (four, say) ahead of the answers, so that neither side waits for the other, and read
-        while you write: the server holds two requests of a stream and one answer at most, so that a caller that
-        does not read its answers is soon not read either. Each answer names its table by digest: a caller that
-        wants all of its pulses from one table compares them.
+        Send a few requests ahead of the responses (four, for example), so that neither side waits for the other, and
+        read while you write: the server holds at most two requests and one response of a stream, so it soon stops
+        reading from a caller that does not read. Each response names its table by digest; a caller that needs all pulses
+        from one table must compare the digests.
 
-        Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that
-        `QueryColumns` would give; the answers of the requests before it are sent first, those after it are not
-        read. A caller that half-closes gets its last answers and OK; a stream without any request is OK. One on
-        which nothing moves for a minute or two ends: DEADLINE_EXCEEDED where the next request does not come,
-        CANCELLED where answers are not read.
+        Errors: those of `QueryColumns`. The first request that fails ends the stream with the status that `QueryColumns`
+        would return. The responses to the requests before it are sent first; the requests after it are not read. A
+        caller that half-closes gets its last responses and OK; a stream without requests ends with OK. A stream without
+        activity for one to two minutes ends: with DEADLINE_EXCEEDED if the next request does not arrive, with CANCELLED
+        if responses are not read.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
     def ListTables(self, request, context):
-        """All tables of the server. They are few: the answer is never paged.
+        """All tables of the server. The response is never paged, because there are only a few tables.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -119,7 +121,7 @@ class UncertaintyServiceServicer(object):
     def GetTable(self, request, context):
         """Axes, quantities and provenance of one table.
 
-        Errors: NOT_FOUND and FAILED_PRECONDITION as `QueryPulses`.
+        Errors: NOT_FOUND and FAILED_PRECONDITION as for `QueryPulses`.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -163,13 +165,14 @@ def add_UncertaintyServiceServicer_to_server(servicer, server):
 class UncertaintyService(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
 
-    A pulse never fails a call: what cannot be answered gets an outcome of its own. A call fails as a whole,
-    with a message that says what would be right, only when it cannot be read as pulses or names no table.
-    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its
-    limit, or a message is longer than 4 MiB: wait, or send less), UNAVAILABLE (the server is going: try
-    again), UNAUTHENTICATED (it wants a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED
-    and CANCELLED. Where INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a
-    google.rpc.Status) hold a google.rpc.BadRequest with those that were found, by path: `pulses.depth`.
+    A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
+    message that says what would be right, only if it cannot be read as pulses or selects no table.
+
+    Besides the errors listed at each method, any call may fail with RESOURCE_EXHAUSTED (the server is at its limit, or
+    a message is longer than 4 MiB; wait, or send less), UNAVAILABLE (the server is shutting down; try again),
+    UNAUTHENTICATED (the server requires a token as metadata, `authorization: Bearer TOKEN`), DEADLINE_EXCEEDED and
+    CANCELLED. If INVALID_ARGUMENT is about fields, its details (`grpc-status-details-bin`, a google.rpc.Status)
+    contain a google.rpc.BadRequest that lists the invalid fields by path: `pulses.depth`.
     """
 
     @staticmethod
