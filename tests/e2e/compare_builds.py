@@ -107,7 +107,8 @@ def compare_tables(old, new, folder):
         digest = 32  # bytes at the end of a unit
         survey.append([path.name for path in units])
         unit.append([build.without_origin(path.read_bytes()[:-digest]) for path in units])
-    differs |= report(not equal_but_for_a_checksum(*quick), f"quick.h5, {len(quick[0])} bytes but version, commit and their digests")
+    differs |= report(not equal_but_for_a_checksum(*quick),
+                      f"quick.h5, {len(quick[0])} bytes but version, commit and their digests")
     differs |= report(survey[0] != survey[1] or unit[0] != unit[1], f"{len(unit[0])} units of a shard of survey.toml")
     return differs
 
