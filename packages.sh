@@ -1,7 +1,7 @@
-# Sourced by quickstart.sh and test.sh: the Debian packages of packages.txt.
+# Sourced by quickstart.sh and test.sh: installs the Debian packages that packages.txt lists.
 
-# Prints the names in packages.txt: those that building takes, and with a word such as `tests` those of the section
-# below its line "# tests only".
+# Prints the package names that the build needs; with an argument such as `tests`, also those of the section that begins
+# with the line "# tests only".
 package_names() {
   {
     sed '/ only$/,$d' packages.txt
@@ -9,22 +9,23 @@ package_names() {
   } | sed '/^#/d; /^$/d'
 }
 
-# Installs those that are missing, as root or through sudo; nothing is touched when none is.
+# Installs the missing ones, as root or through sudo. Does nothing if none is missing.
 install_packages() {
   if ! command -v apt-get dpkg-query >/dev/null; then
-    echo "$0: no apt-get: Debian 12 is right, or a machine that has what packages.txt lists" >&2
+    echo "$0: apt-get is missing (expected Debian 12); elsewhere, install the packages of packages.txt and build with" \
+      "cmake --preset release" >&2
     return 1
   fi
   local installed missing
   installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')
-  ! command -v kubectl >/dev/null || installed+=$'\nkubernetes-client'  # Another than Debian's does as well.
+  ! command -v kubectl >/dev/null || installed+=$'\nkubernetes-client'  # Any kubectl will do, not only Debian's.
   missing=$(comm -13 <(sort -u <<<"$installed") <(package_names "$@" | sort -u))
   [[ -n $missing ]] || return 0
   local names as_root=()
   mapfile -t names <<<"$missing"
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
-      echo "$0: packages are missing and there is no sudo: as root, apt-get install ${names[*]}" >&2
+      echo "$0: packages are missing, and so is sudo; as root, run apt-get install ${names[*]}" >&2
       return 1
     fi
     as_root=(sudo)

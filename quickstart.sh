@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a survey file with THU and TVU on every bathymetric point, without a question:
-# builds, makes a small lookup table by Monte Carlo, serves it, and annotates a flight line through the
-# service. All that it makes is in build/ and out/, beside this file.
+# From a bare Debian 12 to a survey file with THU and TVU at every bathymetric point, without user input: builds the
+# programs, makes a small table by Monte Carlo, serves it and annotates a flight line through the service. Everything
+# that it writes is in build/ and out/ beside this file.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
 
 campaign=generator/campaigns/quick.toml
 table=out/tables/quick.h5
-sample=../shared/data/florida_topobathy_snippet.las  # Real; not part of this repository, and need not be there.
+sample=../shared/data/florida_topobathy_snippet.las  # From a real survey; optional, not part of this repository.
 simulated=out/simulated_flight.las
 annotated=out/annotated.las
 
@@ -20,10 +20,10 @@ cmake --build --preset release -j "$(nproc)" \
   --target albtpu-generate albtpu-serve albtpu-query albtpu_simulated_flight
 cmake --install build/release --prefix out >/dev/null
 
-echo "== Making $table by Monte Carlo, as $campaign says"
+echo "== Making $table by Monte Carlo from $campaign"
 mkdir -p out/tables
 if [[ $table -nt $campaign && $table -nt out/bin/albtpu-generate ]]; then
-  echo "It is there, newer than the campaign and the program."
+  echo "$table exists and is newer than the campaign and the program."
 else
   out/bin/albtpu-generate table --campaign "$campaign" --output "$table" --overwrite
 fi
@@ -32,7 +32,7 @@ echo "== Starting the service"
 exec {service_log}< <(exec out/bin/albtpu-serve --tables out/tables --listen 127.0.0.1:0 2>&1)
 service=$!
 trap 'kill "$service" 2>/dev/null && wait "$service" 2>/dev/null || true' EXIT
-read -r ready <&"$service_log" || ready="albtpu-serve: ended without a word"
+read -r ready <&"$service_log" || ready="albtpu-serve ended without output"
 echo "$ready"
 [[ $ready =~ 'ready on '([^,]+) ]] || exit 1
 address=${BASH_REMATCH[1]}
@@ -43,7 +43,7 @@ if [[ -r $sample ]]; then
   input=$sample
   conditions+=(--classes 26 --water-level -23.09)
 else
-  echo "There is no $sample: the flight line is simulated."
+  echo "$sample is missing; using a simulated flight line."
   input=$simulated
   conditions+=(--water-level 0 --wind-from 250 --flight-direction 0)
   build/release/tests/survey/albtpu_simulated_flight "$input"
@@ -52,6 +52,6 @@ echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite
 
 echo "== Done"
-echo "$annotated has total_thu and total_tvu on each bathymetric point: 2 sigma, m, the sea surface alone."
-echo "Ask for one pulse:"
+echo "$annotated has total_thu and total_tvu at each bathymetric point: 2 sigma, in m, of the sea surface alone."
+echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

@@ -1,32 +1,33 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, runs every test, says what was skipped and why, and ends with
-# CTest's summary.
+# Installs missing packages, builds everything and runs every test. The closing lines name what was not built and which
+# tests were skipped, and why; CTest's summary comes last.
 #
 # Usage: test.sh [--aarch64] [--containers] [--fuzz] [--sanitizers] [--soak]
-#   --aarch64      also the kernels' tests on that architecture, emulated
-#   --containers   also the images, by podman or docker, and the jobs of Slurm and Kubernetes
-#   --fuzz         also every fuzz target for a minute (installs clang, 400 MB); tests/fuzz/run.sh for longer
-#   --sanitizers   also the tests under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer
-#   --soak         also half an hour of everything at once against one server
+#   --aarch64      also run the kernels' tests on that architecture, emulated
+#   --containers   also test the images with podman or docker, and the Slurm and Kubernetes jobs
+#   --fuzz         also run every fuzz target for one minute (installs clang, 400 MB); tests/fuzz/run.sh runs longer
+#   --sanitizers   also run the tests under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer
+#   --soak         also run half an hour of mixed load and faults against one server
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
 
-declare -A further=(
+declare -A optional_runs=(
   [aarch64]=tests/generator/aarch64.sh [containers]=tests/e2e/containers.sh [fuzz]="tests/fuzz/run.sh 60"
   [sanitizers]=tests/sanitizers/run.sh [soak]=tests/faults/soak.sh)
-asked=()
+requested=()
 for flag in "$@"; do
-  if [[ $flag != --?* || -z ${further[${flag#--}]-} ]]; then
-    echo "$0: '$flag' is none of its flags: ${!further[*]}" >&2
+  if [[ $flag != --?* || -z ${optional_runs[${flag#--}]-} ]]; then
+    names=("${!optional_runs[@]}")
+    echo "$0: unknown argument '$flag'; the flags are ${names[*]/#/--}" >&2
     exit 2
   fi
-  asked+=("${flag#--}")
+  requested+=("${flag#--}")
 done
 
-for section in tests "${asked[@]}"; do install_packages "$section"; done
+for section in tests "${requested[@]}"; do install_packages "$section"; done
 
-# Unpacked alone: installed, its package starts a server.
+# promtool is unpacked without installing its package, because the package would start a Prometheus server.
 tools=build/promtool
 if ! command -v promtool >/dev/null && [[ ! -x $tools/usr/bin/promtool ]]; then
   mkdir -p "$tools"
@@ -45,17 +46,18 @@ status=0
 ctest --preset release --parallel 2 --output-junit "$PWD/$results" --test-output-size-passed 1000000 \
   | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
 
-for name in "${asked[@]}"; do
-  if ! ${further[$name]} 2>&1 | tee "build/release/$name.log"; then
+for name in "${requested[@]}"; do
+  if ! ${optional_runs[$name]} 2>&1 | tee "build/release/$name.log"; then
     echo "failed: $name"
     status=1
   fi
 done
 
+cat build/release/not_built.txt
 python3 tests/skipped.py "$results"
-for name in "${!further[@]}"; do
-  if [[ " ${asked[*]} " != *" $name "* ]]; then
-    echo "skipped: $name: tested by --$name"
+for name in "${!optional_runs[@]}"; do
+  if [[ " ${requested[*]} " != *" $name "* ]]; then
+    echo "skipped: $name: --$name runs it"
   else
     sed -nE "/^skipped: /p; s/.* \.\.\. skipped ['\"](.+)['\"]\$/skipped: $name: \1/p" "build/release/$name.log" | uniq
   fi

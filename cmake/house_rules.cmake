@@ -1,52 +1,54 @@
-# With ALBTPU_SANITIZE, what all that we compile is compiled with, generated code too: of an inline function that two
-# files have, the linker keeps either.
+# Compiles `target` for ALBTPU_SANITIZE. All targets need this, those of generated code too: if two files define the same
+# inline function, the linker keeps either one.
 function(albtpu_sanitize target)
   if(NOT ALBTPU_SANITIZE)
     return()
   endif()
-  target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)  # Indices of views, which no sanitizer sees.
+  # The sanitizers do not check the indices of views; libstdc++'s assertions do.
+  target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
   target_compile_options(${target} PRIVATE -fsanitize=${ALBTPU_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer)
   target_link_options(${target} PUBLIC -fsanitize=${ALBTPU_SANITIZE})
   if(ALBTPU_SANITIZE STREQUAL "thread")
-    # Headers of protobuf and Abseil lay out classes otherwise where this is defined, and their libraries are compiled
-    # without. libstdc++ derives the second from it, and takes a short cut past atomic numbers without.
+    # The headers of protobuf and Abseil change the layout of classes if __SANITIZE_THREAD__ is defined, but Debian's
+    # libraries are compiled without it. libstdc++ derives _GLIBCXX_TSAN from it; without _GLIBCXX_TSAN it bypasses
+    # atomic operations.
     target_compile_options(${target} PRIVATE -U__SANITIZE_THREAD__ -D_GLIBCXX_TSAN=1)
   endif()
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL "EXECUTABLE" AND ALBTPU_BUILD_TESTS)  # Which bring it.
+  if(type STREQUAL "EXECUTABLE" AND ALBTPU_BUILD_TESTS)  # tests/sanitizers defines albtpu_seen_libraries.
     target_link_libraries(${target} PRIVATE albtpu_seen_libraries)
   endif()
 endfunction()
 
-# What all of our own code is compiled with: albtpu_target(NAME) is called once for each target.
+# Compile options of all our own code; to be called once for each target.
 function(albtpu_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
 endfunction()
 
-# A program that is installed. In the build tree it lies in bin/ as well, so that it finds share/ the same way.
+# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way.
 function(albtpu_program target)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# Kernels that are compiled once for each of Highway's instruction sets but AVX-512 and those without a fixed
-# width, and chosen when the program runs: albtpu_kernels(NAME PRIVATE|PUBLIC) is called for each target that has or
-# tests any.
+# For targets that contain or test Highway kernels. A kernel is compiled once for each instruction set, except AVX-512
+# and those of variable vector width, and the best one is chosen at run time:
+#   albtpu_kernels(NAME PRIVATE|PUBLIC)
 function(albtpu_kernels target scope)
   target_compile_definitions(${target} ${scope}
     "HWY_DISABLED_TARGETS=(HWY_AVX3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
-  # Highway's NEON is with the cryptographic instructions; compiled for less, the members that g++ makes by itself
-  # cannot hold its vectors.
+  # Highway's NEON target includes the cryptographic instructions. Compiled without them, member functions that g++
+  # generates implicitly cannot hold its vectors.
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
     target_compile_options(${target} PRIVATE -march=armv8-a+crypto)
   endif()
   target_link_libraries(${target} ${scope} hwy::hwy)
 endfunction()
 
-# A GoogleTest program of one source file or more, registered with CTest under one label.
+# A GoogleTest program, whose tests are registered with CTest under one label:
 #   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
 function(albtpu_test name label)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})

@@ -1,17 +1,18 @@
-# What is installed beside the programs and the protos: each program finds the tables relative to itself.
+# Installs data and documents beside the programs and the protos. Each program finds the tables relative to itself.
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
 file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/shipped/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
 install(FILES LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)
 install(DIRECTORY clients/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# The Python package as it is: for pip, or for PYTHONPATH.
+# The sources of the Python package, for pip or PYTHONPATH.
 install(DIRECTORY clients/python DESTINATION ${CMAKE_INSTALL_DOCDIR}/clients PATTERN "__pycache__" EXCLUDE
         PATTERN "*.egg-info" EXCLUDE PATTERN "build" EXCLUDE PATTERN ".mypy_cache" EXCLUDE)
 install(DIRECTORY validation/paper validation/plots DESTINATION ${data}/validation
         PATTERN "__pycache__" EXCLUDE)
 
-# What C++ programs of others link.
+# The libraries for users' C++ programs.
 albtpu_package_component(tables)
 albtpu_package_component(client)

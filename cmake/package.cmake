@@ -1,23 +1,24 @@
-# The installed CMake package, for C++ programs of others: find_package(albtpu) gives albtpu::tables and
-# albtpu::client (albtpuConfig.cmake.in says when).
+# The installed CMake package for users' C++ programs: find_package(albtpu) defines albtpu::tables and albtpu::client;
+# see albtpuConfig.cmake.in.
 include(CMakePackageConfigHelpers)
 set(ALBTPU_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/albtpu)
 configure_package_config_file(cmake/albtpuConfig.cmake.in ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
   INSTALL_DESTINATION ${ALBTPU_PACKAGE_DIR})
-# Before version 1 a minor version may change what programs see.
+# Before version 1, a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/albtpuConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/albtpuConfig.cmake
               ${PROJECT_BINARY_DIR}/package/albtpuConfigVersion.cmake
         DESTINATION ${ALBTPU_PACKAGE_DIR})
 
-# Makes a static library part of a component of the package, with the headers that its users include:
+# Adds a static library and its public headers to a component of the package:
 #   albtpu_package(TARGET COMPONENT [NAME name] [HEADERS ...])
-# It is albtpu::NAME there, albtpu::COMPONENT unless named, and may be linked into shared objects.
+# Users link it as albtpu::NAME (by default albtpu::COMPONENT). It may be linked into shared objects.
 #
-# Installed headers are <albtpu/tables/table_io.h>, in the tree "tables/file/table_io.h": a folder `tables` on the
-# include path of another project would hide headers of its own, or be hidden by them, and users need not follow
-# the rooms of the tree. What the headers include is respelled as they are installed.
+# The header "tables/file/table_io.h" of the source tree is installed as <albtpu/tables/table_io.h>: a folder `tables`
+# on the include path of another project would hide headers of that project, or be hidden by them, and users do not
+# depend on the rooms of the source tree. The #include lines of the headers are changed accordingly when they are
+# installed.
 function(albtpu_package target component)
   cmake_parse_arguments(ARG "" "NAME" "HEADERS" ${ARGN})
   if(NOT ARG_NAME)
@@ -37,7 +38,7 @@ function(albtpu_package target component)
   install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/respell_includes.cmake)
 endfunction()
 
-# Writes down the libraries of a component; to be called once for each, last.
+# Exports the libraries of a component; to be called once per component, after all of its albtpu_package().
 function(albtpu_package_component component)
   install(EXPORT albtpu_${component} FILE albtpu_${component}.cmake NAMESPACE albtpu::
           DESTINATION ${ALBTPU_PACKAGE_DIR})

@@ -1,5 +1,5 @@
-# Run by the installation: in the installed `headers` of `folder`, "tables/file/table_io.h" becomes
-# "albtpu/tables/table_io.h".
+# Runs at installation: changes "tables/file/table_io.h" to "albtpu/tables/table_io.h" in the #include lines of the
+# installed `headers` in `folder`.
 foreach(header IN LISTS headers)
   cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" OUTPUT_VARIABLE installed)
   set(installed "$ENV{DESTDIR}${installed}/${header}")

@@ -1,6 +1,6 @@
-# The commit this tree was built from, for `--version` and for the provenance of tables. Written at every
-# build, and only when it changed, so that a commit does not recompile the tree.
-set(ALBTPU_COMMIT "unknown" CACHE STRING "The commit, where the sources are there without git")
+# The commit that is built, for `--version` and for the provenance of tables. Looked up at every build and written only
+# if it has changed, so that a commit recompiles one file.
+set(ALBTPU_COMMIT "unknown" CACHE STRING "The commit, for sources without a git repository")
 set(ALBTPU_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 add_custom_target(albtpu_version_source
   COMMAND ${CMAKE_COMMAND}

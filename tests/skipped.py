@@ -1,14 +1,14 @@
-"""Prints which tests CTest or their own framework skipped, and why.
+"""Prints which tests were skipped, by CTest or by their own framework, and why.
 
-Usage: skipped.py RESULTS.xml, as `ctest --output-junit RESULTS.xml` writes it
+Usage: skipped.py RESULTS.xml, a file written by `ctest --output-junit RESULTS.xml`
 """
 
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
-# GoogleTest, unittest, and our own scripts that exit with SKIP_RETURN_CODE.
-REASONS = (re.compile(r": Skipped\n(.+)"), re.compile(r"\.\.\. skipped '(.+)'"),
+# As printed by GoogleTest, by unittest, and by our own scripts that exit with SKIP_RETURN_CODE.
+REASONS = (re.compile(r": Skipped\n(.+)"), re.compile(r"""\.\.\. skipped ['"](.+)['"]$""", re.MULTILINE),
            re.compile(r"^skipped: (.+)", re.MULTILINE))
 
 
