@@ -1,4 +1,4 @@
-// The uncertainty of a flight line, from a server.
+// Queries a server for the uncertainty of a flight line.
 //
 //   ask 127.0.0.1:50051
 #include <albtpu/service/client/server_source.h>
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   const albtpu::client::TableSummary& table = (*server)->table();
   std::printf("# %s, version %s, digest %s\n", table.id.c_str(), table.version.c_str(), table.digest.c_str());
 
-  // Columns: a number for each pulse, or one for all, or none (a fully developed sea; no azimuth).
+  // Columns with one number per pulse, one number for all pulses, or none (a fully developed sea; no azimuth).
   std::vector<float> incidence, depth;
   for (int i = 0; i <= 20; ++i) {
     incidence.push_back(static_cast<float>(i));
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
       .size = depth.size(),
       .axis = {std::span(&wind_speed, 1), {}, incidence, {}, std::span(&footprint, 1), depth}};
 
-  // Any number of pulses at a time: millions go as a stream of messages. What is not wanted stays null.
+  // Any number of pulses; millions are sent as a stream of messages. Quantities that are not requested stay null.
   std::vector<float> thu(pulses.size), tvu(pulses.size);
   albtpu::AnswerColumns answers;
   answers.values[albtpu::Index(Quantity::kThu)] = thu.data();

@@ -1,4 +1,4 @@
-// The uncertainty of a pulse and of a flight line, from a table in this process.
+// Interpolates a table in process: the uncertainty of one pulse and of a flight line.
 //
 //   table /usr/local/share/albtpu/tables/survey.h5
 #include <albtpu/tables/column_query.h>
@@ -16,13 +16,13 @@ int main(int argc, char** argv) {
   const absl::StatusOr<albtpu::UncertaintyTable> table = albtpu::ReadTable(argv[1]);
   if (!table.ok()) return std::fprintf(stderr, "table: %s\n", table.status().ToString().c_str()), 1;
 
-  // One pulse. Outside the table it has no number, and the outcome names the axis.
+  // One pulse. Outside the domain of the table it has no numbers, and the outcome names the axis.
   const albtpu::PulseUncertainty one = albtpu::Interpolate(
       *table, {.wind_speed = 7, .incidence = 12, .azimuth = 30, .footprint = 0.6f, .depth = 8});
   std::printf("# %s: THU %.9g m, TVU %.9g m, 2 sigma\n", albtpu::OutcomeText(one).c_str(),
               one[Quantity::kThu], one[Quantity::kTvu]);
 
-  // Many, as columns: a number for each pulse, or one for all, or none (a fully developed sea; no azimuth).
+  // Many pulses, as columns with one number per pulse, one number for all, or none (fully developed sea; no azimuth).
   std::vector<float> incidence, depth;
   for (int i = 0; i <= 20; ++i) {
     incidence.push_back(static_cast<float>(i));

@@ -11,15 +11,15 @@ import pathlib
 import albtpu
 import numpy as np
 
-NO_DATA = -1.0  # Where there is no number: points of other classes, or out of the domain of the table.
+NO_DATA = -1.0  # For points of other classes, and those out of the domain of the table.
 
 
 def annotate(source, z, scan_angle, classification, *, water_level, wind_speed, altitude, divergence,
              classes=(40,)):
-    """THU and TVU in m, 2 sigma, float32, of points in columns; and the answer for the bathymetric ones.
+    """THU and TVU of all points (float32, m, 2 sigma), and the answer for the bathymetric points.
 
-    `z` and `water_level` in m, `scan_angle` in degrees, `altitude` in m above the water, `divergence` in
-    mrad, full angle. The azimuth is left out: each value is the larger of those along and across the wind.
+    `z` and `water_level` are in m, `scan_angle` in degrees, `altitude` in m above the water, `divergence` in
+    mrad, full angle. The azimuth is omitted: each value is the larger of those along and across the wind.
     """
     bathymetric = np.isin(classification, classes)
     incidence = np.abs(scan_angle[bathymetric])
@@ -44,7 +44,7 @@ def main():
     for flag, unit in (("water-level", "m"), ("wind-speed", "m/s at 10 m"), ("altitude", "m above the water"),
                        ("divergence", "mrad, full angle")):
         parser.add_argument(f"--{flag}", type=float, required=True, help=unit)
-    parser.add_argument("--classes", type=int, nargs="+", default=[40], help="of bathymetric points")
+    parser.add_argument("--classes", type=int, nargs="+", default=[40], help="classes of bathymetric points")
     flags = parser.parse_args()
 
     import laspy

@@ -2,27 +2,27 @@
 
     pdal pipeline pdal_pipeline.json --readers.las.filename=line.laz --writers.las.filename=annotated.laz
 
-PDAL calls `annotate` with NumPy arrays by dimension, and puts the options of `pdalargs` into this module:
+PDAL calls `annotate` with NumPy arrays by dimension, and defines `pdalargs` in this module. Its options:
 
-service or table  where to ask, "HOST:PORT", or a table file
+service or table  "HOST:PORT" of a service, or a table file
 water_level       m, in the datum of Z
 wind_speed        m/s at 10 m
 altitude          m above the water
 divergence        mrad, full angle of the beam
-classes           of bathymetric points; 40 if left out
-fetch, azimuth    m, degrees from downwind; may be left out
+classes           classes of bathymetric points; default 40
+fetch, azimuth    m, degrees from downwind; optional
 """
 
 import albtpu
 import numpy as np
 
-NO_DATA = -1.0  # Where there is no number: points of other classes, or out of the domain of the table.
+NO_DATA = -1.0  # For points of other classes, and those out of the domain of the table.
 
 
 def annotate(ins, outs):
-    options = pdalargs  # noqa: F821, PDAL defines it
+    options = pdalargs  # noqa: F821, defined by PDAL
     bathymetric = np.isin(ins["Classification"], options.get("classes", [40]))
-    incidence = np.abs(ins["ScanAngleRank"][bathymetric]).astype(float)  # Degrees, whatever the point format.
+    incidence = np.abs(ins["ScanAngleRank"][bathymetric]).astype(float)  # Degrees in every point format.
     slant_range = options["altitude"] / np.cos(np.radians(incidence))
     optional = {axis: options[axis] for axis in ("fetch", "azimuth") if axis in options}
     source = albtpu.open_table(options["table"]) if "table" in options else albtpu.connect(options["service"])

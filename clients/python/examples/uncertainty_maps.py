@@ -1,9 +1,9 @@
-"""How the sea surface's uncertainty grows with wind, incidence and depth: a notebook in cells, or a script.
+"""Maps of the sea surface's uncertainty over wind, incidence and depth: a notebook in cells, or a script.
 
-    python3 uncertainty_maps.py survey.h5 FOLDER        (or HOST:PORT instead of the table file)
+    python3 uncertainty_maps.py survey.h5 FOLDER        (or HOST:PORT of a service instead of the table file)
 """
 
-# %% Where to ask, and where the plots go
+# %% The source of the answers, and the folder for the plots
 import pathlib
 import sys
 
@@ -16,7 +16,7 @@ source = albtpu.open_table(where) if where.endswith(".h5") else albtpu.connect(w
 axes = source.table().axes
 print({name: f"{axis.nodes[0]:g} to {axis.nodes[-1]:g} {axis.units}" for name, axis in axes.items()})
 
-# %% Three axes that broadcast to a cube: one query
+# %% One query with three axes that broadcast to a cube
 wind_speed = np.linspace(axes["wind_speed"].nodes[0], axes["wind_speed"].nodes[-1], 40)
 incidence = np.array([0.0, 10.0, 20.0])
 depth = np.linspace(0, axes["depth"].nodes[-1], 60)
@@ -26,7 +26,7 @@ answer = source.query(wind_speed=wind_speed[:, None, None], incidence=incidence[
 cube = answer.to_xarray(("wind_speed", "incidence", "depth"))
 print(cube)
 
-# %% THU over wind and depth, a panel an incidence
+# %% THU over wind and depth, one panel per incidence
 cube.thu.plot.contourf(x="wind_speed", y="depth", col="incidence", levels=12, yincrease=False)
 plt.savefig(folder / "thu.png")
 
@@ -41,10 +41,10 @@ axes_of_plot.invert_yaxis()
 axes_of_plot.legend(title="wind")
 figure.savefig(folder / "tvu.png")
 
-# %% What Special Order leaves to all other sources of vertical error
+# %% The part of the Special Order limit that is left for all other sources of vertical error
 plt.figure()
 cube.remaining_tvu.sel(incidence=20.0).plot(x="wind_speed", y="depth", yincrease=False)
 plt.savefig(folder / "special_order.png")
 
-# %% Where which order is left open
+# %% The strictest S-44 order that the sea surface alone does not exceed
 cube.best_s44_orders.sel(incidence=20.0).to_pandas().to_csv(folder / "best_orders.csv")

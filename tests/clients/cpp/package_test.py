@@ -1,4 +1,4 @@
-"""The installed CMake package and its examples: they build elsewhere, and say what albtpu-query says.
+"""The installed CMake package: its examples build outside of the tree, and agree with albtpu-query.
 
 Usage: package_test.py CMAKE BUILD_FOLDER C_COMPILER CXX_COMPILER
 """
@@ -18,7 +18,7 @@ from serving import Server
 
 CMAKE, BUILD, C_COMPILER, CXX_COMPILER = sys.argv[1:5]
 PULSE = ("--wind-speed", "7", "--incidence", "12", "--azimuth", "30", "--footprint", "0.6", "--depth", "8")
-LINE = ("--wind-speed", "7", "--footprint", "0.6", "--coverage", "p95")  # And two columns.
+LINE = ("--wind-speed", "7", "--footprint", "0.6", "--coverage", "p95")  # In addition to the two columns of the file.
 
 PLUGIN = {
     "CMakeLists.txt": """
@@ -26,14 +26,14 @@ PLUGIN = {
         project(plugin LANGUAGES CXX)
         find_package(albtpu REQUIRED COMPONENTS tables)
         if(TARGET albtpu::client OR TARGET gRPC::grpc)
-          message(FATAL_ERROR "more than was asked for")
+          message(FATAL_ERROR "only the component tables was requested")
         endif()
         add_library(plugin MODULE plugin.cc)
         target_link_libraries(plugin PRIVATE albtpu::tables)
         target_link_options(plugin PRIVATE -Wl,--no-undefined)
         """,
-    # Headers of this name are the plug-in's own.
-    "tables/schema.h": "#error not the header that was meant\n",
+    # A header of the plug-in's own that has the name of one of ours.
+    "tables/schema.h": "#error wrong header\n",
     "plugin.cc": """
         #include <albtpu/tables/column_query.h>
         #include <albtpu/tables/table_io.h>
@@ -59,7 +59,7 @@ class Package(unittest.TestCase):
         cls.table = cls.prefix / "share/albtpu/tables/survey.h5"
 
     def configure(self, source, *flags):
-        """Returns the build folder and what CMake said."""
+        """Returns the build folder and the result of CMake."""
         build = self.folder / "build" / source.name
         shutil.rmtree(build, ignore_errors=True)
         result = subprocess.run(
@@ -85,7 +85,7 @@ class Package(unittest.TestCase):
         return self.run_program(self.prefix / "bin/albtpu-query", *arguments, "--table", self.table)
 
     def expected_line(self, line):
-        """What albtpu-query answers for the pulses of `line`: CSV of incidence, depth, THU and TVU."""
+        """The answer of albtpu-query for the pulses of `line`: CSV of incidence, depth, THU and TVU."""
         pulses, answers = self.folder / "pulses.csv", self.folder / "answers.csv"
         rows = [row[:2] for row in csv.reader(io.StringIO(line))]
         with pulses.open("w") as file:
@@ -96,13 +96,13 @@ class Package(unittest.TestCase):
             return "".join(",".join(cells) + "\n" for cells in
                            [columns, *([row[name] for name in columns] for row in csv.DictReader(file))])
 
-    def test_examples_say_what_the_command_line_says(self):
+    def test_examples_agree_with_the_command_line(self):
         build = self.build(self.prefix / "share/doc/albtpu/clients/cpp")
         one, from_table = self.run_program(build / "table", self.table).split("\n", 1)
         pulse = json.loads(self.query("pulse", *PULSE, "--json"))
         numbers = re.fullmatch(r"# INTERPOLATED: THU (\S+) m, TVU (\S+) m, 2 sigma", one)
         self.assertIsNotNone(numbers, one)
-        # Rows are computed in double precision, columns in single.
+        # Single pulses are computed in double precision, columns in single precision.
         self.assertAlmostEqual(float(numbers[1]), pulse["thu"], delta=1e-5 * pulse["thu"])
         self.assertAlmostEqual(float(numbers[2]), pulse["tvu"], delta=1e-5 * pulse["tvu"])
         self.assertEqual(from_table, self.expected_line(from_table))
@@ -116,20 +116,20 @@ class Package(unittest.TestCase):
         self.assertEqual(lost.returncode, 1)
         self.assertIn(server.address, lost.stderr)
 
-    def test_tables_alone_go_into_a_shared_object_where_there_is_no_grpc(self):
+    def test_component_tables_links_into_a_shared_object_without_grpc(self):
         source = self.folder / "plugin"
         for name, text in PLUGIN.items():
             (source / name).parent.mkdir(parents=True, exist_ok=True)
             (source / name).write_text(text)
         self.build(source, "-DCMAKE_DISABLE_FIND_PACKAGE_gRPC=ON", f"-DCMAKE_CXX_FLAGS=-I'{source}'")
 
-    def test_client_says_what_it_misses(self):
+    def test_component_client_names_the_missing_package(self):
         _, configured = self.configure(self.prefix / "share/doc/albtpu/clients/cpp",
                                        "-DCMAKE_DISABLE_FIND_PACKAGE_gRPC=ON")
         self.assertNotEqual(configured.returncode, 0)
         self.assertIn("install libgrpc++-dev", configured.stdout)
 
-    def test_headers_include_what_is_installed_or_packaged(self):
+    def test_headers_include_only_installed_and_packaged_headers(self):
         include = self.prefix / "include"
         headers = list(include.rglob("*.h"))
         self.assertTrue(headers)

@@ -1,4 +1,4 @@
-"""How a server is reached: in plain text, by TLS, with certificates and tokens.
+"""Connections to a server: in plain text and with TLS, certificates and tokens.
 
 Usage: channel_test.py TABLE.h5
 """
@@ -16,12 +16,12 @@ import albtpu
 from fake_service import FakeService, Running
 
 TABLE = sys.argv[1]
-HOSTS = pathlib.Path("/etc/hosts")  # a machine made from nothing may have none, and then no name without a name server
+HOSTS = pathlib.Path("/etc/hosts")  # Missing in some minimal containers, where no name can be resolved.
 LOCALHOST = HOSTS.is_file() and "localhost" in HOSTS.read_text().split()
 
 
 class PlainText(unittest.TestCase):
-    def test_reaches_names_and_addresses(self):
+    def test_connects_to_names_and_addresses(self):
         service = FakeService(TABLE)
         with Running(service) as running:
             port = running.address.rpartition(":")[2]
@@ -31,22 +31,22 @@ class PlainText(unittest.TestCase):
                     self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
                     self.assertTrue(client.tables()[0].is_default)
 
-    def test_says_that_it_is_closed(self):
+    def test_refuses_calls_after_close(self):
         with Running(FakeService(TABLE)) as running:
             client = albtpu.connect(running.address)
             client.close()
             pulse = dict(wind_speed=5, incidence=5, footprint=1, depth=5)
-            for ask in (client.tables, client.table, lambda: client.query(**pulse)):
+            for call in (client.tables, client.table, lambda: client.query(**pulse)):
                 with self.assertRaisesRegex(albtpu.ArgumentError, "is closed: connect again"):
-                    ask()
+                    call()
 
-    def test_refuses_what_is_no_address(self):
+    def test_refuses_invalid_addresses(self):
         for target in ("", "localhost", "two words:1", None, 50051):
             with self.assertRaisesRegex(albtpu.ArgumentError, "it should be HOST:PORT"):
                 albtpu.connect(target)
 
 
-@unittest.skipUnless(shutil.which("openssl"), "there is no openssl to make certificates with")
+@unittest.skipUnless(shutil.which("openssl"), "openssl is missing; apt-get install openssl")
 class Tls(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -73,7 +73,7 @@ class Tls(unittest.TestCase):
         self.addCleanup(running.stop)
         return service, running.address
 
-    def test_is_spoken_with_who_is_trusted(self):
+    def test_connects_only_to_trusted_servers(self):
         _, address = self.run_service()
         with albtpu.connect(address, ca=self.file("server.pem")) as client:
             self.assertEqual(len(client.tables()), 1)
@@ -82,7 +82,7 @@ class Tls(unittest.TestCase):
                 with self.assertRaises(albtpu.UnreachableError):
                     client.tables()
 
-    def test_shows_its_certificate(self):
+    def test_presents_the_certificate_of_the_client(self):
         _, address = self.run_service(root_certificates=self.read("client.pem"), require_client_auth=True)
         ca = self.file("server.pem")
         ours = dict(cert=self.file("client.pem"), key=self.file("client.key"))
@@ -92,13 +92,13 @@ class Tls(unittest.TestCase):
             with self.assertRaises(albtpu.UnreachableError):
                 client.tables()
 
-    def test_sends_its_token(self):
+    def test_sends_the_token(self):
         service, address = self.run_service()
         with albtpu.connect(address, ca=self.file("server.pem"), token="open sesame") as client:
             client.tables()
         self.assertEqual(service.metadata["authorization"], "Bearer open sesame")
 
-    def test_refuses_files_that_are_none(self):
+    def test_refuses_files_that_are_missing_or_invalid(self):
         for files, hint in (({"ca": self.file("nowhere.pem")}, "'ca', .*nowhere.pem: No such file"),
                             ({"ca": TABLE}, "should be a PEM file"),
                             ({"cert": self.file("client.pem")}, "give both 'cert' and 'key'"),

@@ -1,4 +1,4 @@
-"""The examples in docstrings, run in the folder of the shipped tables.
+"""Runs the examples in docstrings, in the folder of the shipped tables.
 
 Usage: docstrings_test.py TABLES_FOLDER
 """
@@ -22,7 +22,7 @@ def load_tests(loader, tests, pattern):
 
 
 class Docstrings(unittest.TestCase):
-    def test_are_there_for_what_is_public(self):
+    def test_exist_for_all_public_names(self):
         for name in albtpu.__all__:
             thing = getattr(albtpu, name)
             if callable(thing):

@@ -1,4 +1,4 @@
-"""The examples do what they say. PDAL and laspy are not installed: arrays stand in for what they hand over.
+"""Runs the examples. PDAL and laspy are not installed; the tests call the functions with arrays instead.
 
 Usage: examples_test.py EXAMPLES_FOLDER TABLE.h5
 """
@@ -42,7 +42,7 @@ def expected(quantity):
 
 
 class Examples(unittest.TestCase):
-    def test_annotate_in_a_pipeline_of_pdal(self):
+    def test_annotate_in_a_pdal_pipeline(self):
         pipeline = json.loads((EXAMPLES / "pdal_pipeline.json").read_text())
         stage = pipeline[1]
         written = [f"{name}=float" for name in stage["add_dimension"]]

@@ -1,4 +1,4 @@
-"""A service in Python that answers from a table file, and can be told to do what a good one would not."""
+"""A service in Python that answers from a table file, and that a test can make misbehave."""
 
 from concurrent import futures
 
@@ -14,7 +14,7 @@ S44_ORDERS = (None, "exclusive", "special", "1a", "1b", "2")
 
 
 class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
-    """`before_answer(service, request, context)` is called for each batch; `requests` has all of them."""
+    """Calls `before_answer(service, request, context)` for each batch, and keeps all batches in `requests`."""
 
     def __init__(self, path, before_answer=None):
         self.source = albtpu.open_table(path)
@@ -63,7 +63,7 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
 
 
 class Running:
-    """Runs `service` on `address`, a free port of the loopback unless it says which."""
+    """Runs `service` on `address`, by default on a free port of the loopback."""
 
     def __init__(self, service, address="127.0.0.1:0", credentials=None):
         self.server = grpc.server(futures.ThreadPoolExecutor(4), options=[("grpc.so_reuseport", 0)])

@@ -1,4 +1,4 @@
-"""pip installs the package from its folder, and it runs from where it was installed.
+"""pip installs the package from its folder, and the installed package works.
 
 Usage: install_test.py PACKAGE_FOLDER TABLE.h5
 """
@@ -13,24 +13,33 @@ import tempfile
 import unittest
 
 PACKAGE, TABLE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-ASK = """import albtpu, sys, albtpu.v1.uncertainty_service_pb2_grpc
+QUERY = """import albtpu, sys, albtpu.v1.uncertainty_service_pb2_grpc
 print(albtpu.__file__)
 print(albtpu.open_table(sys.argv[1]).query(wind_speed=5, incidence=10, footprint=0.5, depth=8).outcome)
 """
-LIGHT = """import albtpu, sys
+OPEN = """import albtpu, sys
 albtpu.open_table(sys.argv[1]).query(wind_speed=5, incidence=10, footprint=0.5, depth=8)
-print("grpc" in sys.modules)
+print("grpc" in sys.modules, "xarray" in sys.modules)
+"""
+XARRAY = """import sys, xarray
+table = xarray.open_dataset(sys.argv[1])
+xarray.testing.assert_identical(table, xarray.open_dataset(sys.argv[1], engine="netcdf4").load())
+print(xarray.backends.list_engines()["albtpu"].description, table.thu.attrs["units"], "albtpu" in sys.modules)
+"""
+NETCDF4 = """import sys, xarray
+print(xarray.open_dataset(sys.argv[1], engine="netcdf4").thu.attrs["units"])
+xarray.open_dataset(sys.argv[1])
 """
 
 
 @unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("setuptools"),
-                     "there is no pip, or no setuptools")
+                     "pip or setuptools is missing; apt-get install python3-pip python3-setuptools")
 class Installation(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        source = cls.folder / "source"  # Building leaves files behind.
+        source = cls.folder / "source"  # The build writes into the source folder.
         shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
         result = subprocess.run(
@@ -39,19 +48,34 @@ class Installation(unittest.TestCase):
         assert result.returncode == 0, result.stdout + result.stderr
         cls.environment = {**environment, "PYTHONPATH": str(cls.folder / "site")}
 
-    def run_python(self, program):
-        return subprocess.run([sys.executable, "-c", program, TABLE.resolve()], check=True,
-                              capture_output=True, text=True, cwd="/", env=self.environment).stdout
+    def run_python(self, program, path=TABLE):
+        result = subprocess.run([sys.executable, "-c", program, path.resolve()], capture_output=True, text=True,
+                                cwd="/", env=self.environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
 
-    def test_answers_from_there(self):
-        where, outcome = self.run_python(ASK).splitlines()
+    def test_answers_from_the_installed_files(self):
+        where, outcome = self.run_python(QUERY).splitlines()
         self.assertTrue(pathlib.Path(where).is_relative_to(self.folder / "site"), where)
         self.assertEqual(outcome, "INTERPOLATED")
 
-    def test_reads_files_without_grpc(self):
-        self.assertEqual(self.run_python(LIGHT), "False\n")
+    def test_reads_files_without_grpc_and_xarray(self):
+        self.assertEqual(self.run_python(OPEN), "False False\n")
 
-    def test_brings_type_hints_and_its_version(self):
+    def test_lets_xarray_open_tables_without_naming_an_engine(self):
+        renamed = shutil.copy(TABLE, self.folder / "table.dat")
+        for path in (TABLE, renamed):
+            self.assertEqual(self.run_python(XARRAY, path),
+                             "Open table files of albtpu, after checking their seal m True\n")
+
+    def test_is_not_needed_by_xarray_with_the_engine_netcdf4(self):
+        environment = {name: value for name, value in self.environment.items() if name != "PYTHONPATH"}
+        result = subprocess.run([sys.executable, "-c", NETCDF4, TABLE.resolve()], capture_output=True, text=True,
+                                cwd="/", env=environment)
+        self.assertEqual(result.stdout, "m\n")
+        self.assertIn("did not find a match", result.stderr)  # Without the engine, xarray does not know the file.
+
+    def test_installs_type_hints_and_its_version(self):
         package = self.folder / "site/albtpu"
         self.assertTrue((package / "py.typed").is_file())
         self.assertTrue((package / "v1/uncertainty_pb2.pyi").is_file())

@@ -1,4 +1,4 @@
-"""What may be asked, and the shape of what is answered.
+"""The arguments of queries, and the shape of the answers.
 
 Usage: query_test.py TABLE.h5
 """
@@ -20,63 +20,73 @@ class Queries(unittest.TestCase):
     def setUpClass(cls):
         cls.source = albtpu.open_table(TABLE)
 
-    def ask(self, **changes):
+    def query(self, **changes):
         return self.source.query(**{**PULSE, **changes})
 
-    def test_take_numbers_lists_and_arrays_of_one_shape(self):
-        one = self.ask()
+    def test_accept_numbers_lists_and_arrays_of_one_shape(self):
+        one = self.query()
         self.assertEqual(one.thu.shape, ())
         self.assertGreater(float(one.thu), 0)
         for depth, shape in (([8, 9], (2,)), (np.int16([[8], [9]]), (2, 1)), (np.float32(8), ()),
                              (np.array([8, 9], ">f8"), (2,)), (np.arange(20)[5:9:2], (2,)), ([], (0,))):
-            answer = self.ask(depth=depth)
+            answer = self.query(depth=depth)
             self.assertEqual((answer.thu.shape, answer.outcome.shape), (shape, shape))
             if answer.thu.size:
-                self.assertAlmostEqual(answer.thu.flat[0], float(self.ask(depth=np.ravel(depth)[0]).thu), 7)
+                self.assertAlmostEqual(answer.thu.flat[0], float(self.query(depth=np.ravel(depth)[0]).thu), 7)
 
     def test_broadcast(self):
         incidence, depth = np.linspace(0, 25, 4)[:, None], np.linspace(0, 20, 3)
-        answer = self.ask(incidence=incidence, depth=depth)
+        answer = self.query(incidence=incidence, depth=depth)
         self.assertEqual(answer.thu.shape, (4, 3))
         for i, j in np.ndindex(4, 3):
-            self.assertEqual(answer.thu[i, j], self.ask(incidence=incidence[i, 0], depth=depth[j]).thu)
+            self.assertEqual(answer.thu[i, j], self.query(incidence=incidence[i, 0], depth=depth[j]).thu)
 
-    def test_hold_what_is_masked_or_no_number_for_invalid(self):
+    def test_treat_masked_and_non_finite_coordinates_as_invalid(self):
         for depth in (np.ma.masked_array([8, 9], [False, True]), [8, np.nan], [8, np.inf], [8, -1e300]):
-            answer = self.ask(depth=depth)
+            answer = self.query(depth=depth)
             self.assertEqual(list(answer.outcome), ["INTERPOLATED", "INVALID"])
             self.assertTrue(np.isnan(answer.tvu[1]))
 
-    def test_take_numbers_that_single_precision_does_not_hold(self):
+    def test_accept_numbers_too_large_for_single_precision(self):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             for depth in (1e300, [1e300, 8]):
-                self.assertEqual(self.ask(depth=depth).outcome.flat[0], "INVALID")
+                self.assertEqual(self.query(depth=depth).outcome.flat[0], "INVALID")
 
-    def test_are_refused_with_what_would_be_right(self):
+    def test_are_refused_with_a_message_that_says_what_is_expected(self):
         for changes, hint in (
-                ({"windspeed": 5}, "has no 'windspeed': did you mean 'wind_speed'?"),
-                ({"zzz": 5}, "there are wind_speed, incidence"),
+                ({"windspeed": 5}, r"no argument 'windspeed' \(did you mean 'wind_speed'\?\); its arguments are wind_"),
+                ({"zzz": 5}, "no argument 'zzz'; its arguments are wind_speed, incidence, footprint, depth, fetch"),
                 ({"depth": "8"}, "depth is of type <U1: it should be numbers, in m"),
                 ({"depth": None}, "depth is of type object"),
-                ({"depth": [[1, 2], [3]]}, "depth is no array"),
+                ({"depth": [[1, 2], [3]]}, "depth is not an array"),
                 ({"depth": np.array([True])}, "depth is of type bool"),
                 ({"depth": [1j]}, "depth is of type complex128"),
                 ({"depth": [1, 2], "incidence": [1, 2, 3]}, r"incidence \(3,\), depth \(2,\)"),
-                ({"coverage": "95"}, "coverage is '95': it should be '2sigma' or 'p95'"),
-                ({"s44_order": "1c"}, "s44_order is '1c': it should be 'exclusive' or"),
+                ({"coverage": "95"}, r"coverage is '95' \(did you mean 'p95'\?\): it should be '2sigma' or 'p95'"),
+                ({"s44_order": "1c"}, "s44_order is '1c'.*: it should be 'exclusive' or"),
                 ({"quantities": ["thu", "bias"]}, "quantities is 'bias'"),
+                ({"quantities": "tuv"}, r"'tuv' \(did you mean 'tvu'\?\): it should be 'refraction_along_wind' or"),
                 ({"quantities": 5}, "quantities is 5: it should be names"),
                 ({"quantities": [["thu"]]}, "it should be names"),
                 ({"coverage": ["p95"]}, "coverage is \\['p95'\\]"),
                 ({"table": 5}, "table is 5: it should be a name"),
                 ({"quantities": []}, "name at least one")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):
-                self.ask(**changes)
+                self.query(**changes)
         self.assertTrue(issubclass(albtpu.ArgumentError, (albtpu.Error, ValueError)))
 
-    def test_are_answered_in_what_was_asked_for(self):
-        answer = self.ask(quantities="tvu")
+    def test_name_the_misspelt_coordinate_rather_than_the_missing_one(self):
+        for wrong, right in (("windspeed", "wind_speed"), ("incident", "incidence"), ("footprnt", "footprint"),
+                             ("Depth", "depth")):
+            pulse = {wrong if axis == right else axis: value for axis, value in PULSE.items()}
+            with self.assertRaisesRegex(albtpu.ArgumentError, f"'{wrong}' .did you mean '{right}'"):
+                self.source.query(**pulse)
+        with self.assertRaisesRegex(TypeError, "missing 1 required keyword-only argument: 'depth'"):
+            self.source.query(wind_speed=5, incidence=10, footprint=0.5)
+
+    def test_return_only_what_was_requested(self):
+        answer = self.query(quantities="tvu")
         self.assertEqual(list(answer.values), ["tvu"])
         self.assertEqual(answer.standard_errors, {})
         self.assertIsNone(answer.best_s44_order)
@@ -85,8 +95,8 @@ class Queries(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "no 'colour'$"):
             answer.colour
 
-    def test_are_answered_with_names_units_and_provenance(self):
-        answer = self.ask(depth=[8, 30, np.nan, 9], standard_errors=True, best_s44_order=True, s44_order="2")
+    def test_return_names_units_and_provenance(self):
+        answer = self.query(depth=[8, 30, np.nan, 9], standard_errors=True, best_s44_order=True, s44_order="2")
         self.assertEqual(answer.outcome_counts(), {"INTERPOLATED": 2, "OUT_OF_DOMAIN:depth": 1, "INVALID": 1})
         self.assertEqual(list(answer.interpolated), [True, False, False, True])
         self.assertEqual(answer.table[:3], ("synthetic", "synthetic", "1"))
@@ -99,9 +109,9 @@ class Queries(unittest.TestCase):
         self.assertIn("of shape (4,), 2sigma, table synthetic 1: ", repr(answer))
         self.assertIn("2 INTERPOLATED", repr(answer))
 
-    def test_become_a_dataset_of_xarray(self):
+    def test_convert_to_an_xarray_dataset(self):
         depth = np.linspace(0, 20, 3)
-        answer = self.ask(incidence=np.linspace(0, 25, 4)[:, None], depth=depth, standard_errors=True,
+        answer = self.query(incidence=np.linspace(0, 25, 4)[:, None], depth=depth, standard_errors=True,
                           best_s44_order=True, s44_order="1a", coverage="p95")
         dataset = answer.to_xarray(("incidence", "depth"))
         np.testing.assert_array_equal(dataset.thu.sel(depth=10.0), answer.thu[:, 1])
@@ -110,11 +120,11 @@ class Queries(unittest.TestCase):
         self.assertEqual(dataset.thu.attrs["ancillary_variables"], "thu_standard_error")
         self.assertEqual(dataset.attrs["table_digest"], answer.table.digest)
         self.assertIn("INTERPOLATED", dataset.outcomes.attrs["flag_meanings"])
-        self.assertEqual(self.ask(depth=depth).to_xarray().thu.dims, ("pulse",))
-        self.assertEqual(self.ask(depth=[]).to_xarray().thu.shape, (0,))
-        self.assertEqual(self.ask().to_xarray().thu.dims, ())
-        for dims, hint in ((("depth",), "1 dimensions are named: the answer has 2"),
-                           (("depth", "incidence"), "it is no index of a dimension")):
+        self.assertEqual(self.query(depth=depth).to_xarray().thu.dims, ("pulse",))
+        self.assertEqual(self.query(depth=[]).to_xarray().thu.shape, (0,))
+        self.assertEqual(self.query().to_xarray().thu.dims, ())
+        for dims, hint in ((("depth",), "dims has 1 names: the answer has 2 dimensions"),
+                           (("depth", "incidence"), "incidence varies along .*: it cannot index the dimension")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):
                 answer.to_xarray(dims)
 

@@ -1,4 +1,4 @@
-"""Pulses that find every outcome: inside a table, on its nodes and edges, outside, and of no meaning."""
+"""Pulses with every outcome: inside a table, on its nodes and edges, outside of it, and invalid."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ BAD = (np.nan, np.inf, -np.inf, -1.0, 0.0, -0.0, 1e38, 1e300)
 
 
 def pulses_of_all_kinds(table, count, seed=1):
-    """Six columns of float64, between nodes or on them; a third of the pulses may have bad numbers."""
+    """Six columns of float64, between nodes or on them; up to a third of the pulses have bad numbers."""
     random = np.random.default_rng(seed)
     columns = {}
     for name in AXES:

@@ -1,4 +1,4 @@
-"""The package asks albtpu-serve, and gets what it reads from the table file itself.
+"""The package gets the same answers from albtpu-serve as from the table file.
 
 Usage: service_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE SHIPPED_TABLES...
 """
@@ -22,10 +22,10 @@ from serving import Server
 
 SERVE, SYNTHETIC_TABLE, *SHIPPED_TABLES = sys.argv[1:]
 PULSES = 5_000
-# What single precision may make of a sum, relative; of a bias, in which terms cancel, by its greatest value.
+# Relative error of a sum in single precision; for biases, in which terms cancel, relative to the greatest value.
 RELATIVE, CANCELLED = 1e-5, 1e-6
 ORDER = "special"
-# Some batches more than are under way at a time.
+# More batches than are in flight at a time.
 LINE = dict(wind_speed=5, incidence=np.linspace(0, 20, 600_000), footprint=0.5,
             depth=np.linspace(20, 0, 600_000))
 
@@ -46,18 +46,18 @@ class Service(unittest.TestCase):
         cls.addClassCleanup(cls.service.close)
 
     def assert_alike(self, ours, theirs, what, ties=None):
-        """`ties` has, by quantity, the pulses whose standard error may be that at either azimuth."""
+        """`ties` marks, by quantity, the pulses whose standard error may be that at either azimuth."""
         self.assertEqual(ours.table, theirs.table)
         arrays = theirs.to_dict()
         self.assertEqual(list(ours.to_dict()), list(arrays))
         for name, array in ours.to_dict().items():
             message = f"{what}: {name}"
             expected = arrays[name]
-            if name == "best_s44_orders":  # Where a limit is met to the last digit, either order is right.
+            if name == "best_s44_orders":  # Where a value equals a limit up to rounding, either order is correct.
                 self.assertLess(np.mean(array != expected), 1e-4, message)
             elif array.dtype == np.uint8:
                 np.testing.assert_array_equal(array, expected, message)
-            elif name.startswith("remaining"):  # Of limit^2 - ours^2, where ours may be all but the limit.
+            elif name.startswith("remaining"):  # sqrt(limit^2 - ours^2), where ours may almost equal the limit.
                 limit = limits(ORDER, np.where(theirs.interpolated, theirs.pulses["depth"], 0))
                 off = np.abs(array**2 - expected**2) > 2 * RELATIVE * limit[name.endswith("tvu")] ** 2
                 self.assertFalse(off.any(), f"{message}: {array[off]} is not {expected[off]}")
@@ -74,22 +74,22 @@ class Service(unittest.TestCase):
         for name, file in self.files.items():
             pulses = pulses_of_all_kinds(file.table(), PULSES)
             for left_out in ((), ("azimuth",), ("fetch", "azimuth")):
-                asked = {axis: column for axis, column in pulses.items() if axis not in left_out}
+                kept = {axis: column for axis, column in pulses.items() if axis not in left_out}
                 ties = None if "azimuth" not in left_out else {
                     quantity: np.isclose(np.abs(along), np.abs(across), rtol=RELATIVE)
                     for quantity, along, across in zip(albtpu.QUANTITIES, *(
-                        file.query(**asked, azimuth=azimuth).values.values() for azimuth in (0, 90)))}
+                        file.query(**kept, azimuth=azimuth).values.values() for azimuth in (0, 90)))}
                 for coverage in ("2sigma", "p95"):
-                    asks = dict(**asked, **options, coverage=coverage)
-                    self.assert_alike(self.service.query(**asks, table=name), file.query(**asks),
+                    query = dict(**kept, **options, coverage=coverage)
+                    self.assert_alike(self.service.query(**query, table=name), file.query(**query),
                                       f"{name} at {coverage} without {left_out}", ties)
 
-    def test_agrees_with_the_file_where_columns_are_constant(self):
+    def test_agrees_with_the_file_for_constant_columns(self):
         file = self.files["synthetic"]
         pulses = pulses_of_all_kinds(file.table(), 3000, seed=5)
         for axis, number in (("wind_speed", 5), ("fetch", np.inf), ("depth", 21), ("footprint", np.nan)):
-            asks = {**pulses, axis: number}
-            self.assert_alike(self.service.query(**asks), file.query(**asks), f"{axis} {number}")
+            query = {**pulses, axis: number}
+            self.assert_alike(self.service.query(**query), file.query(**query), f"{axis} {number}")
 
     def test_lists_and_describes_tables_as_the_files_do(self):
         listed = self.service.tables()
@@ -107,20 +107,20 @@ class Service(unittest.TestCase):
             self.assertEqual((theirs.title, theirs.campaign), (ours.title, ours.campaign))
             self.assertEqual(theirs.attributes, ours.attributes)
 
-    def test_says_which_tables_there_are(self):
+    def test_lists_the_tables_if_a_name_is_unknown(self):
         pulse = dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)
-        for ask in (lambda: self.service.query(**pulse, table="nowhere"),
+        for call in (lambda: self.service.query(**pulse, table="nowhere"),
                     lambda: self.service.table("nowhere"),
                     lambda: self.service.query(**{**pulse, "depth": []}, table="nowhere")):
             with self.assertRaisesRegex(albtpu.TableNotFoundError, "synthetic"):
-                ask()
+                call()
 
-    def test_answers_no_pulse_with_nothing(self):
+    def test_answers_a_query_without_pulses(self):
         answer = self.service.query(wind_speed=5, incidence=10, footprint=0.5, depth=np.empty((0, 3)))
         self.assertEqual(answer.thu.shape, (0, 3))
         self.assertEqual(answer.table, self.files["synthetic"].table().reference)
 
-    def test_waits_for_a_server_that_comes_back(self):
+    def test_waits_for_a_server_to_restart(self):
         with Server(SERVE, "--tables", self.folder) as server:
             client = albtpu.connect(server.address, patience=60)
             self.addCleanup(client.close)
@@ -129,8 +129,8 @@ class Service(unittest.TestCase):
         with Server(SERVE, "--tables", self.folder, listen=server.address):
             self.assertEqual(len(client.tables()), len(self.files))
 
-    def ask_while_the_server_is_replaced(self, *flags):
-        """An answer of several batches, half of them by a server with the table that `flags` make."""
+    def query_while_the_server_is_replaced(self, *flags):
+        """The answer to a query during which the server is replaced by one whose table was made with `flags`."""
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         table = pathlib.Path(folder, "synthetic.h5")
@@ -154,13 +154,13 @@ class Service(unittest.TestCase):
             for server in servers:
                 server.__exit__()
 
-    def test_goes_on_when_a_server_is_killed_and_comes_back(self):
-        answer = self.ask_while_the_server_is_replaced()
+    def test_continues_when_a_server_is_killed_and_restarted(self):
+        answer = self.query_while_the_server_is_replaced()
         np.testing.assert_array_equal(answer.thu, self.service.query(**LINE).thu)
 
     def test_never_mixes_two_tables(self):
         with self.assertRaisesRegex(albtpu.TableChangedError, "changed from digest"):
-            self.ask_while_the_server_is_replaced("--factor", "2")
+            self.query_while_the_server_is_replaced("--factor", "2")
 
 
 if __name__ == "__main__":

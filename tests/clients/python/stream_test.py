@@ -1,4 +1,4 @@
-"""Large queries in batches, and servers that fail while they are asked.
+"""Large queries in batches, and servers that fail during a query.
 
 Usage: stream_test.py TABLE.h5
 """
@@ -21,7 +21,7 @@ from fake_service import FakeService, Running
 TABLE = sys.argv[1]
 BATCH = 32768
 PULSES = 3 * BATCH + 100
-DEPTHS = np.linspace(0, 25, PULSES)  # The deepest are out of domain.
+DEPTHS = np.linspace(0, 25, PULSES)  # The greatest depths are out of domain.
 PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5)
 
 
@@ -43,14 +43,14 @@ class Stream(unittest.TestCase):
         for name, array in expected.to_dict().items():
             np.testing.assert_array_equal(answer.to_dict()[name], array, name)
 
-    def test_puts_the_answers_of_all_batches_into_their_places(self):
+    def test_puts_the_answers_to_all_batches_into_their_places(self):
         service, running = self.run_service()
         options = dict(coverage="p95", standard_errors=True, s44_order="1b", best_s44_order=True)
         self.assert_right(self.connect(running).query(**PULSE, depth=DEPTHS, **options), **options)
         lengths = [len(request.pulses.depth) // 4 for request in service.requests]
         self.assertEqual(lengths, [BATCH] * 3 + [100])
 
-    def test_sends_what_is_constant_once_and_asks_for_what_is_wanted(self):
+    def test_sends_constants_once_and_requests_only_the_chosen_quantities(self):
         service, running = self.run_service()
         wind = np.repeat([5.0, 6.0], BATCH)  # Constant in each batch.
         answer = self.connect(running).query(wind_speed=wind, incidence=10, azimuth=30, footprint=0.5,
@@ -65,14 +65,14 @@ class Stream(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "bias_vertical.*name it in 'quantities'"):
             answer.bias_vertical
 
-    def test_repeats_one_answer_where_all_pulses_are_alike(self):
+    def test_sends_one_pulse_if_all_pulses_are_equal(self):
         service, running = self.run_service()
         answer = self.connect(running).query(**PULSE, depth=np.full((3, 4), 5.0))
         self.assertEqual(len(service.requests[0].pulses.depth), 4)
         self.assertEqual(answer.thu.shape, (3, 4))
         self.assertEqual(len(np.unique(answer.thu)), 1)
 
-    def test_stays_a_few_batches_ahead_of_the_answers_and_no_more(self):
+    def test_sends_at_most_eight_batches_ahead_of_the_answers(self):
         eighth_is_sent = threading.Event()
         leads, answered = [], []
 
@@ -92,7 +92,7 @@ class Stream(unittest.TestCase):
         self.assertEqual(len(leads), 12)
         self.assertEqual(max(leads), 7)
 
-    def test_goes_on_where_a_server_left_off(self):
+    def test_continues_after_the_last_answer_of_a_failed_server(self):
         def abort_once(service, request, context):
             if len(service.requests) == 3:
                 context.abort(grpc.StatusCode["UNAVAILABLE"], "restarting")
@@ -101,9 +101,9 @@ class Stream(unittest.TestCase):
         self.assert_right(self.connect(running).query(**PULSE, depth=DEPTHS))
         first = [np.frombuffer(request.pulses.depth, "<f4")[0] for request in service.requests]
         self.assertEqual(first[2], np.float32(DEPTHS[2 * BATCH]))
-        self.assertEqual(first.count(first[0]), 1)  # What was answered is not asked again.
+        self.assertEqual(first.count(first[0]), 1)  # Answered batches are not sent again.
 
-    def test_gives_up_on_a_server_that_is_not_there(self):
+    def test_gives_up_on_an_absent_server(self):
         _, running = self.run_service()
         running.stop()
         with self.assertRaisesRegex(albtpu.UnreachableError, f"{running.address}.*start albtpu-serve there"):
@@ -111,7 +111,7 @@ class Stream(unittest.TestCase):
         with self.assertRaises(ConnectionError):
             self.connect(running).tables()
 
-    def test_gives_up_on_a_server_that_falls_silent(self):
+    def test_gives_up_on_a_server_that_stops_answering(self):
         released = threading.Event()
         self.addCleanup(released.set)
         _, running = self.run_service(lambda service, *_: len(service.requests) == 2 and released.wait())
@@ -128,17 +128,17 @@ class Stream(unittest.TestCase):
         with self.assertRaisesRegex(albtpu.TableChangedError, problem):
             self.connect(running).query(**PULSE, depth=DEPTHS)
 
-    def test_says_what_the_server_said(self):
+    def test_reports_the_message_of_the_server(self):
         for code, kind in (("NOT_FOUND", albtpu.TableNotFoundError),
                            ("INVALID_ARGUMENT", albtpu.ServiceError),
                            ("FAILED_PRECONDITION", albtpu.TableNotFoundError),
                            ("RESOURCE_EXHAUSTED", albtpu.ServiceError)):
-            _, running = self.run_service(lambda *call: call[-1].abort(grpc.StatusCode[code], "so it is"))
-            with self.assertRaisesRegex(kind, "so it is") as failure:
+            _, running = self.run_service(lambda *call: call[-1].abort(grpc.StatusCode[code], "the reason"))
+            with self.assertRaisesRegex(kind, "the reason") as failure:
                 self.connect(running).query(**PULSE, depth=DEPTHS, table="nowhere")
             self.assertEqual(failure.exception.code, code)
 
-    def test_refuses_an_answer_of_another_length(self):
+    def test_refuses_an_answer_of_the_wrong_length(self):
         service, running = self.run_service()
         whole = service.answer
 

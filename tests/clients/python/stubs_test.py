@@ -1,6 +1,8 @@
-"""What is committed of the wire is what protoc and grpc_python_plugin make of the .proto files.
+"""The committed messages and stubs are those that protoc and grpc_python_plugin generate from the .proto files.
 
-Usage: stubs_test.py PROTO_FOLDER PACKAGE_FOLDER; with --write it is made anew.
+Usage: stubs_test.py PROTO_FOLDER PACKAGE_FOLDER [--write]
+
+--write generates them anew.
 """
 
 import pathlib
@@ -30,7 +32,7 @@ class Stubs(unittest.TestCase):
         committed = {path.name: path.read_text() for path in STUBS.iterdir() if "_pb2" in path.stem}
         self.assertEqual(sorted(made), sorted(committed))
         for name, text in made.items():
-            self.assertEqual(committed[name], text, f"protoc makes another {name}: run this with --write")
+            self.assertEqual(committed[name], text, f"{name} is out of date: run this test with --write")
 
 
 if __name__ == "__main__":

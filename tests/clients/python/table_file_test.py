@@ -1,4 +1,4 @@
-"""Answers from a table file.
+"""Queries of a table file.
 
 Usage: table_file_test.py ALBTPU_SYNTHETIC_TABLE
 """
@@ -38,7 +38,7 @@ class TableFile(unittest.TestCase):
         subprocess.run([SYNTHETIC_TABLE, cls.folder / name, *flags], check=True)
         return cls.folder / name
 
-    def test_has_the_values_of_the_file_at_its_nodes_bit_by_bit(self):
+    def test_returns_the_values_of_the_file_at_its_nodes_bit_by_bit(self):
         nodes = np.meshgrid(*(self.table.axes[axis].nodes for axis in AXES), indexing="ij", sparse=True)
         answer = self.source.query(**dict(zip(AXES, nodes)), standard_errors=True)
         self.assertTrue(answer.interpolated.all())
@@ -49,7 +49,7 @@ class TableFile(unittest.TestCase):
                 expected = np.broadcast_to(values, answer.outcomes.shape)
                 np.testing.assert_array_equal(ours[name], expected, dataset)
 
-    def test_has_what_scipy_makes_of_the_file_between_nodes(self):
+    def test_agrees_with_scipy_between_nodes(self):
         random = np.random.default_rng(2)
         axes = self.table.axes
         pulses = {axis: np.clip(random.uniform(*nodes[[0, -1]], 2000).astype("f4"), *nodes[[0, -1]])
@@ -62,16 +62,16 @@ class TableFile(unittest.TestCase):
             nodes = [scaled[axis](axes[axis].nodes.astype(float)) for axis in over]
             at = np.column_stack([scaled[axis](pulses[axis].astype(float)) for axis in over])
             theirs = RegularGridInterpolator(nodes, values)(at)
-            # Both sum in double precision; ours is rounded once to single.
+            # Both sum in double precision; ours is then rounded to single precision.
             np.testing.assert_allclose(answer.values[name], theirs, rtol=1e-7, atol=1e-9, err_msg=name)
 
-    def test_is_the_same_whether_a_column_is_constant_or_not(self):
+    def test_gives_the_same_answer_whether_or_not_a_column_is_constant(self):
         pulses = pulses_of_all_kinds(self.table, 500)
         for axis in AXES:
             nodes = self.table.axes[axis].nodes
             for number in (nodes[1] * 0.9, nodes[-1], np.nan, 1e9):
                 once = self.source.query(**{**pulses, axis: number})
-                # Two numbers that differ, of which the first 500 pulses see one.
+                # A column with two different numbers; the first 500 pulses have the first.
                 repeated = {name: np.append(column, column[0]) for name, column in pulses.items()}
                 repeated[axis] = np.append(np.full(500, number), 3.0)
                 many = self.source.query(**repeated)
@@ -79,7 +79,7 @@ class TableFile(unittest.TestCase):
                 np.testing.assert_array_equal(once.outcome_axes, many.outcome_axes[:500])
                 np.testing.assert_allclose(once.thu, many.thu[:500], rtol=2e-7)
 
-    def test_names_the_first_axis_that_made_an_outcome(self):
+    def test_names_the_first_axis_that_caused_an_outcome(self):
         for changes, word in (({}, "INTERPOLATED"), ({"depth": 20.001}, "OUT_OF_DOMAIN:depth"),
                               ({"depth": -0.1, "wind_speed": 2.9}, "OUT_OF_DOMAIN:wind_speed"),
                               ({"wind_speed": 2.9, "depth": np.nan}, "INVALID"),
@@ -94,12 +94,12 @@ class TableFile(unittest.TestCase):
         answer = self.source.query(**{**PULSE, "wind_speed": 2.9, "depth": np.nan})
         self.assertEqual(list(albtpu.AXES)[answer.outcome_axes - 1], "depth")
 
-    def test_folds_azimuths_as_the_sea_does(self):
+    def test_folds_azimuths_by_the_symmetry_of_the_sea(self):
         azimuth = np.array([30, -30, 150, 210, 330, 390, -510])
         thu = self.source.query(**{**PULSE, "azimuth": azimuth}).thu
         np.testing.assert_array_equal(thu, np.full(7, thu[0]))
 
-    def test_takes_the_larger_of_along_and_across_the_wind_without_azimuth(self):
+    def test_returns_the_larger_of_along_and_across_the_wind_without_azimuth(self):
         pulses = pulses_of_all_kinds(self.table, 2000, seed=3)
         del pulses["azimuth"]
         without = self.source.query(**pulses, standard_errors=True)
@@ -112,14 +112,14 @@ class TableFile(unittest.TestCase):
                 expected = np.where(larger, getattr(across, kind)[name], getattr(along, kind)[name])
                 np.testing.assert_array_equal(getattr(without, kind)[name], expected, f"{kind} {name}")
 
-    def test_restates_at_95_per_cent(self):
+    def test_converts_to_95_per_cent(self):
         two_sigma, p95 = (self.source.query(**PULSE, coverage=coverage) for coverage in ("2sigma", "p95"))
         for name in ("tvu", "refraction_along_wind"):
             self.assertAlmostEqual(p95.values[name] / two_sigma.values[name], 0.979982, 6)
         self.assertTrue(0.865 < p95.thu / two_sigma.thu < 0.981)
         self.assertEqual(p95.bias_vertical, two_sigma.bias_vertical)
 
-    def test_compares_with_s44(self):
+    def test_compares_with_the_limits_of_s44(self):
         answer = self.source.query(**{**PULSE, "depth": [8, 999]}, s44_order="1b", best_s44_order=True)
         p95 = self.source.query(**PULSE, coverage="p95")
         self.assertAlmostEqual(answer.remaining_thu[0], np.sqrt(5.4 ** 2 - p95.thu ** 2), 5)
@@ -128,24 +128,24 @@ class TableFile(unittest.TestCase):
         self.assertEqual(list(answer.best_s44_order), ["exclusive", ""])
         self.assertTrue(np.isnan(answer.remaining_thu[1]))
 
-    def test_has_no_number_for_what_a_table_does_not_hold(self):
+    def test_returns_nan_for_what_a_table_does_not_have(self):
         published = albtpu.open_table(self.make("published.h5", "--published"))
         self.assertNotIn("bias_vertical", published.table().quantities)
         answer = published.query(**PULSE, standard_errors=True)
         self.assertTrue(np.isnan(answer.bias_vertical) and np.isnan(answer.standard_errors["thu"]))
         self.assertFalse(np.isnan(answer.thu))
 
-    def test_knows_what_it_is(self):
+    def test_identifies_its_table(self):
         self.assertEqual(self.table.reference.name, "synthetic")
         self.assertEqual(self.table.reference.digest, self.file.attrs["content_digest"].decode())
         self.assertEqual(list(self.table.axes), list(AXES))
-        with self.assertRaisesRegex(albtpu.ArgumentError, "'synthetic': leave 'other' out"):
+        with self.assertRaisesRegex(albtpu.ArgumentError, "only the table 'synthetic': omit table='other'"):
             self.source.query(**PULSE, table="other")
 
-    def test_is_refused_if_it_is_not_whole(self):
+    def test_is_refused_if_it_is_damaged(self):
         whole = self.path.read_bytes()
         for content, problem in ((b"", "is empty"), (b"LAS", "does not begin with its seal"),
-                                 (whole[:100], "100 bytes are there"), (whole[:-1], "is truncated"),
+                                 (whole[:100], "is truncated: it has 100 bytes"), (whole[:-1], "is truncated"),
                                  (whole + b"\0", "is damaged: it has"), (whole[512:], "without the seal"),
                                  (whole[:8] + b"\2" + whole[9:], "has format version 2"),
                                  (whole[:9999] + b"?" + whole[10000:], "SHA-256")):
@@ -156,7 +156,7 @@ class TableFile(unittest.TestCase):
         with self.assertRaisesRegex(albtpu.TableFileError, "nowhere.h5: No such file"):
             albtpu.open_table(self.folder / "nowhere.h5")
 
-    def test_is_refused_if_it_breaks_a_rule_of_the_format(self):
+    def test_is_refused_if_it_violates_the_format(self):
         def delete(file):
             del file["thu"]
 
@@ -200,8 +200,8 @@ class TableFile(unittest.TestCase):
                                 (replace("thu", link), "variable 'thu' is a link"),
                                 (replace("thu", external), "variable 'thu' has its values in other files"),
                                 (replace("thu", virtual), "variable 'thu' has its values in other files"),
-                                (replace("thu", otherwise_filtered), "variable 'thu' goes through other filters"),
-                                (replace("thu", huge), "variable 'thu' has 536870912 values"),
+                                (replace("thu", otherwise_filtered), "variable 'thu' has filters other than"),
+                                (replace("thu", huge), "variable 'thu' has 536870912 values: at most"),
                                 (too_great, "above 1e"),
                                 (attribute("tvu", "units", "feet"), "'tvu' is in 'feet'"),
                                 (attribute("fetch", "interpolation", "cubic"), "'cubic'"),
@@ -216,7 +216,7 @@ class TableFile(unittest.TestCase):
 
 
 def seal(path):
-    """Seals a file that was changed, as tables/FORMAT.md says."""
+    """Renews the seal of a changed file, as specified in tables/FORMAT.md."""
     file = bytearray(path.read_bytes())
     file[16:24] = len(file).to_bytes(8, "little")
     file[24:56] = hashlib.sha256(file[:24] + file[56:]).digest()

@@ -1,12 +1,11 @@
-"""Per-pulse uncertainty of airborne lidar bathymetry: what the sea surface does to each pulse of a survey.
+"""Per-pulse uncertainty of airborne lidar bathymetry: the contribution of the sea surface to THU and TVU.
 
     import albtpu
     with albtpu.connect("localhost:50051") as service:          # or albtpu.open_table("survey.h5")
         answer = service.query(wind_speed=5, incidence=theta, footprint=0.5, depth=d)
     answer.thu, answer.tvu, answer.outcome, answer.units, answer.table.digest
 
-`help(albtpu.UncertaintySource.query)` has all that can be asked, `help(albtpu.Uncertainties)` what is
-answered.
+`help(albtpu.UncertaintySource.query)` documents the arguments of a query, `help(albtpu.Uncertainties)` its answer.
 """
 
 from importlib import import_module
@@ -29,7 +28,7 @@ __all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "open_table"]
 
-# Loaded when they are used: files want no gRPC, services no HDF5.
+# Imported on first use: table files do not need gRPC, and services do not need HDF5.
 _LATER = {"Service": ".service", "connect": ".service",
           "TableFile": ".table_file", "open_table": ".table_file"}
 

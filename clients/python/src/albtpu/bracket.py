@@ -1,4 +1,4 @@
-"""Where coordinates lie between the nodes of an axis. The twin of Axis::Locate in tables/axis.h."""
+"""Locates coordinates between the nodes of an axis. The twin of Axis::Locate in tables/axis.h."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ Doubles = NDArray[np.float64]
 
 
 class Brackets(NamedTuple):
-    """Arrays of one element for all pulses, or one for each."""
+    """Arrays with one element per pulse, or a single element for all pulses."""
 
-    valid: NDArray[np.bool_]  # Finite; a fetch may be +infinity.
-    inside: NDArray[np.bool_]  # The axis reaches it.
-    lower: NDArray[np.intp]  # The node below; on an axis of one node 0.
-    fraction: Doubles  # Of the way to the next node in the axis' scale, 0 to 1; anything where not inside.
+    valid: NDArray[np.bool_]  # The coordinate is finite; a fetch may also be +infinity.
+    inside: NDArray[np.bool_]  # The coordinate is in the domain of the axis.
+    lower: NDArray[np.intp]  # Index of the node below; 0 on an axis of one node.
+    fraction: Doubles  # Of the distance to the next node, on the scale of the axis, 0 to 1; undefined where not inside.
 
 
 def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
-    """Both ends of an axis belong to it, and nothing beyond.
+    """The domain of an axis includes its first and last node.
 
-    But azimuths are folded into 0 to 90 degrees, fetches above the last node are held at it, and an axis of
-    one fetch answers at any fetch above zero.
+    Azimuths are folded into 0 to 90 degrees. Fetches above the last node are set to it, and an axis with a
+    single fetch covers any fetch above zero.
     """
     nodes = axis.nodes.astype(np.float64)
     valid = np.isfinite(coordinate)

@@ -1,4 +1,4 @@
-"""How a server is reached: plain text or TLS, names with several addresses, reconnection."""
+"""The connection to a server: plain text or TLS, names with several addresses, reconnection."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import grpc
 from .errors import ArgumentError
 
 _OPTIONS = (
-    # All addresses of a name are used in turn; one address is one.
+    # Calls go to all addresses of a name in turn.
     ("grpc.service_config", json.dumps({"loadBalancingConfig": [{"round_robin": {}}]})),
     ("grpc.initial_reconnect_backoff_ms", 100),
     ("grpc.max_reconnect_backoff_ms", 2000),
-    ("grpc.min_reconnect_backoff_ms", 5000),  # How long one try to connect may take; else 20 s.
-    # A machine or network that has gone does not say so: a sign of life is asked for, and awaited so long.
+    ("grpc.min_reconnect_backoff_ms", 5000),  # Time limit of one connection attempt; gRPC's default is 20 s.
+    # A machine or network that fails does not close its connections. Keepalive pings, and their timeout, detect that.
     ("grpc.keepalive_time_ms", 20_000),
     ("grpc.keepalive_timeout_ms", 10_000),
 )
@@ -29,18 +29,17 @@ _TARGET = re.compile(r"(?:[a-z]+:.*)?\S+:\w+|unix:\S+")
 
 def open_channel(target: str, *, tls: bool, ca: File | None, cert: File | None, key: File | None,
                  token: str | None) -> grpc.Channel:
-    """A channel, not connected yet. Raises ArgumentError, for files too that cannot be read."""
+    """A channel, not yet connected. Raises ArgumentError, also for files that cannot be read."""
     if not isinstance(target, str) or not _TARGET.fullmatch(target):
         raise ArgumentError(f"the server is {target!r}: it should be HOST:PORT, dns:///HOST:PORT or "
                             "unix:PATH")
     options = list(_OPTIONS)
-    if _LOOPBACK.fullmatch(target):  # A proxy in the environment does not know our loopback.
+    if _LOOPBACK.fullmatch(target):  # A proxy from the environment cannot reach our loopback.
         options.append(("grpc.enable_http_proxy", 0))
     if not (tls or ca or cert or key or token):
         return grpc.insecure_channel(target, options)
     if (cert is None) != (key is None):
-        raise ArgumentError("a certificate needs its key and a key its certificate: give both 'cert' and "
-                            "'key'")
+        raise ArgumentError("a certificate needs its key and a key its certificate: give both 'cert' and 'key'")
     credentials = grpc.ssl_channel_credentials(*(_read(name, path) for name, path in
                                                  (("ca", ca), ("key", key), ("cert", cert))))
     if token is not None:

@@ -1,4 +1,4 @@
-"""From 2 sigma, which tables hold, to 95 %, which S-44 compares with. The twin of tables/coverage.h."""
+"""Conversion from 2 sigma, as in tables, to 95 %, as in S-44. The twin of tables/coverage.h."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
 
-FACTOR_95 = 1.959963984540054 / 2  # 97.5 % quantile of the standard normal distribution, over 2.
+FACTOR_95 = 1.959963984540054 / 2  # 97.5 % quantile of the standard normal distribution, divided by 2.
 
 
 def radius_over_thu(along: Doubles, cross: Doubles) -> Doubles:
-    """The 95 % radius of a centred normal distribution over its THU of 2 sigma.
+    """The 95 % radius of a centred bivariate normal distribution, divided by its THU at 2 sigma.
 
-    Its axes are in the ratio of the refraction `along` and `cross` wind, their correlation neglected. From
-    0.980 (one dimension) to 0.865 (isotropic), correct to 1e-6.
+    The standard deviations along its axes are in the ratio of the refraction `along` and `cross` wind; their
+    correlation is neglected. The result is between 0.865 (isotropic) and 0.980 (one dimension), correct to 1e-6.
     """
     larger = np.maximum(along, cross)
     ratio = np.divide(np.minimum(along, cross), larger, out=np.zeros_like(larger), where=larger > 0)
@@ -25,11 +25,11 @@ def radius_over_thu(along: Doubles, cross: Doubles) -> Doubles:
 
 @lru_cache(maxsize=None)
 def _factors() -> tuple[Doubles, Doubles]:
-    """The factor at equal steps of the axis ratio; lines between them err by less than 1e-7.
+    """The factor at equal steps of the axis ratio. Linear interpolation between them errs by less than 1e-7.
 
-    A point with standard deviations 1 and `ratio` lies farther out than `radius` with the probability that is
-    the mean over t of exp(-radius^2 / (2 w)), w = cos^2 t + ratio^2 sin^2 t; Newton's method from 2 finds the
-    radius that leaves 5 % outside.
+    For standard deviations 1 and `ratio`, the probability that a point lies farther out than `radius` is the
+    mean over t of exp(-radius^2 / (2 w)), where w = cos^2 t + ratio^2 sin^2 t. Newton's method, started at 2,
+    finds the radius at which that probability is 5 %.
     """
     ratio = np.linspace(0, 1, 1025)
     t = (np.arange(64) + 0.5) * np.pi / 128

@@ -1,4 +1,4 @@
-"""What a server says about single fields of a request that it refused as a whole."""
+"""The details that a server adds to an error: which fields of the request are wrong."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from google.protobuf.message import DecodeError
 
 _KEY = "grpc-status-details-bin"
 _BAD_REQUEST = "type.googleapis.com/google.rpc.BadRequest"
-# The parts of google/rpc/*.proto and google/protobuf/any.proto that are read here: field names by number.
-# In a pool of their own, since a program may have Google's, and one pool takes one file of a name.
+# The parts of google/rpc/*.proto and google/protobuf/any.proto that are read here: field names in the order of
+# their numbers. They are in a descriptor pool of their own: a program may have loaded Google's own files, and a
+# pool accepts only one definition of a name.
 _MESSAGES = {"Any": ("type_url", "*value"), "FieldViolation": ("field", "description"),
              "Status": (None, "message", "Any"), "BadRequest": ("FieldViolation",)}
 
 
 def added_by_details(error: grpc.RpcError) -> str:
-    """What the details of an error add to its text: `; FIELD: DESCRIPTION` for each field that is wrong."""
+    """`; FIELD: DESCRIPTION` for each wrong field that the text of `error` does not mention yet."""
     text = error.details() or ""
     return "".join(f"; {field}: {what}" for field, what in _violations(error) if what not in text)
 
@@ -32,7 +33,7 @@ def _violations(error: grpc.RpcError) -> Iterator[tuple[str, str]]:
                 if detail.type_url == _BAD_REQUEST:
                     for violation in _CLASSES["BadRequest"].FromString(detail.value).FieldViolation:
                         yield violation.field, violation.description
-        except DecodeError:  # Whatever it is, it adds nothing.
+        except DecodeError:  # Ignored: the text of the error stands alone.
             return
 
 

@@ -1,22 +1,22 @@
-"""What can go wrong with a query as a whole. What is wrong with one pulse is its outcome, and no error."""
+"""Errors that concern a query as a whole. A problem with a single pulse is its outcome, not an error."""
 
 
 class Error(Exception):
-    """Any failure of this package. Its text says what was wrong, where, and what would be right."""
+    """Any failure of this package. Its text says what is wrong, where, and what is expected."""
 
 
 class ArgumentError(Error, ValueError):
-    """Arguments that are no query: an unknown name, an array of text, shapes that do not broadcast."""
+    """Invalid arguments of a query: an unknown name, an array of text, shapes that do not broadcast."""
 
 
 class TableFileError(Error, ValueError):
-    """A file is not there, is not a table, is damaged, or breaks a rule of the format."""
+    """A file is missing, is not a table, is damaged, or violates the format."""
 
 
 class ServiceError(Error):
-    """The server refused, or answered what it should not.
+    """The server refused the query, or its answer is invalid.
 
-    `code` is the name of the gRPC status, "RESOURCE_EXHAUSTED" for example; empty if there was none.
+    `code` is the name of the gRPC status, for example "RESOURCE_EXHAUSTED", or empty if there was none.
     """
 
     def __init__(self, message: str, code: str = "") -> None:
@@ -25,12 +25,12 @@ class ServiceError(Error):
 
 
 class TableNotFoundError(ServiceError, LookupError):
-    """The server has no table of that name, or none was named and it has no default."""
+    """The server has no table of that name, or no name was given and it has no default table."""
 
 
 class UnreachableError(ServiceError, ConnectionError):
-    """The server could not be reached, went away or fell silent, and did not come back in the time given."""
+    """The server could not be reached or stopped answering, and did not recover within the time allowed."""
 
 
 class TableChangedError(ServiceError):
-    """The table was replaced by one of other content while it was asked; no answer mixes the two."""
+    """The server replaced the table by a different one during the query. No answer mixes two tables."""

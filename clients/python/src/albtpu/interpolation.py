@@ -1,4 +1,4 @@
-"""Multilinear interpolation in a table, each axis in its own scale. The twin of tables/query/interpolation.h."""
+"""Multilinear interpolation of a table, each axis on its own scale. The twin of tables/query/interpolation.h."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ Columns = Mapping[str, NDArray[np.float32]]
 
 
 class PulseNumbers(NamedTuple):
-    """Outcomes, and numbers at 2 sigma that stand where the outcome is INTERPOLATED."""
+    """Outcomes, and numbers at 2 sigma, which are valid only where the outcome is INTERPOLATED."""
 
     outcomes: NDArray[np.uint8]
     outcome_axes: NDArray[np.uint8]
-    values: dict[str, Doubles]  # Rounded to single precision, as a service has them.
+    values: dict[str, Doubles]  # Rounded to single precision, as in a service.
     standard_errors: dict[str, Doubles]
-    radius_over_thu: Doubles  # The 95 % radius of the horizontal error over the THU.
+    radius_over_thu: Doubles  # The 95 % radius of the horizontal error, divided by the THU.
 
 
 class Interpolator:
-    """A table as seen by pulses that have `constant` coordinates, columns of one element, in common.
+    """Interpolates a table for pulses that share the `constant` coordinates, columns of one element.
 
-    What they have in common is interpolated once, here; the table that is left is smaller. `values` and
-    `standard_errors` are the names of those that are wanted and that the table has.
+    The constructor interpolates once along the constant axes, which leaves a smaller table. `values` and
+    `standard_errors` name the quantities to interpolate; the table must have them.
     """
 
     def __init__(self, content: TableContent, values: Sequence[str], standard_errors: Sequence[str],
@@ -52,7 +52,7 @@ class Interpolator:
                 self._grids.append((list(variables), _Grid(stacked, axes, self._constant)))
 
     def __call__(self, columns: Columns, count: int) -> PulseNumbers:
-        """The uncertainty of `count` pulses; `columns` has all axes that are not constant."""
+        """The uncertainty of `count` pulses. `columns` must contain all axes that are not constant."""
         located = self._locate({axis: column for axis, column in columns.items()
                                 if axis not in self._constant})
         outcomes, outcome_axes = _outcomes(located | self._constant, count)
@@ -75,10 +75,10 @@ class Interpolator:
 
 
 def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
-    """The answer without azimuth, from those at 0 and 90 degrees.
+    """The numbers for pulses without azimuth, from those at 0 and 90 degrees.
 
-    Each value is the larger in magnitude, with its standard error. If not both have numbers neither has the
-    answer: invalid before out of domain, then the first axis.
+    Each value is the larger in magnitude, with its standard error. A pulse without a number at either azimuth
+    has none: INVALID takes precedence over OUT_OF_DOMAIN, then the first axis.
     """
     worse = (crosswind.outcomes > downwind.outcomes) | (
         (crosswind.outcomes == downwind.outcomes) & (crosswind.outcome_axes < downwind.outcome_axes))
@@ -102,7 +102,7 @@ def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
 
 
 class _Grid:
-    """Variables over the same axes, interpolated together; along constant axes once and for all."""
+    """Variables over the same axes, interpolated together; along constant axes only once."""
 
     def __init__(self, variables: NDArray[Any], axes: Sequence[str],
                  constant: dict[str, Brackets]) -> None:
@@ -121,7 +121,7 @@ class _Grid:
         self._values = grid.reshape(-1, grid.shape[-1])
 
     def at(self, located: dict[str, Brackets], count: int) -> Doubles:
-        """The variables of `count` pulses, (count, variables)."""
+        """The variables of `count` pulses, an array of shape (count, variables)."""
         total = np.zeros((count, self._values.shape[1]))
         for corner in product(*((0, 1) if size > 1 else (0,) for size in self._sizes)):
             index, weight = np.zeros(count, np.intp), np.ones(count)
@@ -133,7 +133,7 @@ class _Grid:
 
 
 def _outcomes(located: dict[str, Brackets], count: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    """The outcome of each pulse and the first axis that made it: invalid on any before out of domain."""
+    """Each pulse's outcome and the first axis that caused it. INVALID takes precedence over OUT_OF_DOMAIN."""
     outcomes, outcome_axes = np.full(count, INTERPOLATED, np.uint8), np.zeros(count, np.uint8)
     for number, axis in reversed(list(enumerate(AXES, 1))):
         outside = np.broadcast_to(~located[axis].inside, count)

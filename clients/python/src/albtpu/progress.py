@@ -1,4 +1,4 @@
-"""How far a large query is, for people who wait."""
+"""Progress of a large query, shown to the user."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Callable
 
-Progress = Callable[[int], object]  # Takes the number of pulses that were answered since the last call.
+Progress = Callable[[int], object]  # Takes the number of pulses answered since the last call.
 
 _SECONDS_BETWEEN_LINES = 1.0
 
 
 @contextmanager
 def show_progress(total: int) -> Iterator[Progress]:
-    """Shows progress to `total` pulses on standard error, by tqdm or in plain lines; 0 shows nothing."""
+    """Shows progress towards `total` pulses on standard error, with tqdm or as plain lines; 0 shows nothing."""
     if total == 0:
         yield lambda count: None
         return
@@ -29,7 +29,7 @@ def show_progress(total: int) -> Iterator[Progress]:
 
 
 class _Lines:
-    """A line a second: how much is done, how fast, how long it will take."""
+    """One line per second: pulses done, rate and time left."""
 
     def __init__(self, total: int) -> None:
         self._total, self._done = total, 0
@@ -42,5 +42,5 @@ class _Lines:
             return
         self._last = now
         rate = self._done / max(now - self._begin, 1e-9)
-        print(f"albtpu: {self._done} of {self._total} pulses, {rate / 1e6:.2f} million a second, "
+        print(f"albtpu: {self._done} of {self._total} pulses, {rate / 1e6:.2f} million per second, "
               f"{(self._total - self._done) / rate:.0f} s left", file=sys.stderr)

@@ -1,26 +1,26 @@
-"""What is asked: pulses in columns of one shape, and what is wanted of them."""
+"""A query: pulses as columns of one shape, and the options."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import ArgumentError
+from .names import check_name
 from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS
 
 
 @dataclass(frozen=True)
 class Query:
-    """A query that can be asked: names are known, columns are numbers and have one shape."""
+    """A valid query: all names are known, and the columns are numeric and have one shape."""
 
     shape: tuple[int, ...]
-    pulses: Mapping[str, NDArray[Any]]  # As given, all of `shape`; no `fetch` or `azimuth` where left out.
-    columns: Mapping[str, NDArray[Any]]  # The same flat, or of one element: one number for all pulses.
+    pulses: Mapping[str, NDArray[Any]]  # As given, broadcast to `shape`; without `fetch` or `azimuth` if omitted.
+    columns: Mapping[str, NDArray[Any]]  # The same, flat, or with one element if it holds for all pulses.
     quantities: tuple[str, ...]
     coverage: str
     standard_errors: bool
@@ -34,9 +34,10 @@ class Query:
         return int(np.prod(self.shape, dtype=np.int64))
 
     def batch(self, begin: int, end: int) -> dict[str, NDArray[np.float32]]:
-        """The pulses from `begin` to `end` in single precision; one element where all of them are equal.
+        """The pulses from `begin` to `end` in single precision; one element per column if all are equal.
 
-        A number beyond single precision becomes infinite: the pulse is invalid, or its sea fully developed.
+        A number too large for single precision becomes infinite: the pulse is INVALID, or, if it is the
+        fetch, the sea is fully developed.
         """
         return {axis: _single(column if column.size == 1 else column[begin:end])
                 for axis, column in self.columns.items()}
@@ -53,17 +54,17 @@ def _single(column: NDArray[Any]) -> NDArray[np.float32]:
 def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[str] | None, coverage: str,
                standard_errors: bool, s44_order: str | None, best_s44_order: bool,
                table: str | None) -> Query:
-    """Checks what a user asks; raises ArgumentError."""
+    """Checks the arguments of a query. Raises ArgumentError."""
     arrays = {axis: _read_column(axis, values) for axis, values in pulses.items()
               if values is not None or axis not in ("fetch", "azimuth")}
     shape = _common_shape(arrays)
-    # In single precision a copy for the sake of the shape takes least.
+    # reshape(-1) copies a broadcast array, which takes the least memory in single precision.
     flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
             else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()}
     check_table(table)
-    _check_name("coverage", coverage, COVERAGES)
+    check_name("coverage", coverage, COVERAGES)
     if s44_order is not None:
-        _check_name("s44_order", s44_order, S44_ORDERS[1:])
+        check_name("s44_order", s44_order, S44_ORDERS[1:])
     return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
                  columns=flat, quantities=_read_quantities(quantities), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
@@ -71,27 +72,19 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
 
 
 def check_table(name: str | None) -> None:
-    """Raises ArgumentError for what is no name of a table."""
+    """Raises ArgumentError unless `name` is text or None."""
     if not isinstance(name, (str, type(None))):
-        raise ArgumentError(f"table is {name!r}: it should be a name, or left out")
-
-
-def refuse_unknown(names: Iterable[str], known: Iterable[str]) -> None:
-    """Raises ArgumentError for `names` that are no arguments, and names the likeliest of `known`."""
-    for name in names:
-        close = get_close_matches(name, known := list(known), n=1, cutoff=0.5)
-        hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(known)}"
-        raise ArgumentError(f"a query has no '{name}': {hint}")
+        raise ArgumentError(f"table is {name!r}: it should be a name, or omitted")
 
 
 def _read_column(axis: str, values: ArrayLike | None) -> NDArray[Any]:
     try:
         array = np.asanyarray(values)
     except ValueError as error:
-        raise ArgumentError(f"{axis} is no array: {error}") from error
+        raise ArgumentError(f"{axis} is not an array: {error}") from error
     if array.dtype.kind not in "iuf":
         raise ArgumentError(f"{axis} is of type {array.dtype}: it should be numbers, in {AXES[axis].units}")
-    if isinstance(array, np.ma.MaskedArray):  # What is masked is not known: such a pulse is invalid.
+    if isinstance(array, np.ma.MaskedArray):  # A pulse with a masked coordinate is INVALID.
         return np.where(np.ma.getmaskarray(array), np.nan, np.ma.getdata(array))
     return np.asarray(array)
 
@@ -101,7 +94,7 @@ def _common_shape(arrays: Mapping[str, NDArray[Any]]) -> tuple[int, ...]:
         return np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:
         shapes = ", ".join(f"{axis} {array.shape}" for axis, array in arrays.items() if array.ndim > 0)
-        raise ArgumentError(f"these shapes do not broadcast to one: {shapes}") from None
+        raise ArgumentError(f"the shapes do not broadcast: {shapes}") from None
 
 
 def _read_quantities(names: Iterable[str] | None) -> tuple[str, ...]:
@@ -112,12 +105,7 @@ def _read_quantities(names: Iterable[str] | None) -> tuple[str, ...]:
     except TypeError:
         raise ArgumentError(f"quantities is {names!r}: it should be names of quantities") from None
     for name in wanted:
-        _check_name("quantities", name, QUANTITIES)
+        check_name("quantities", name, QUANTITIES)
     if not wanted:
-        raise ArgumentError("quantities is empty: name at least one, or leave it out for all")
+        raise ArgumentError("quantities is empty: name at least one, or omit it for all")
     return tuple(name for name in QUANTITIES if name in wanted)
-
-
-def _check_name(argument: str, name: object, known: Iterable[str]) -> None:
-    if name not in (known := list(known)):
-        raise ArgumentError(f"{argument} is {name!r}: it should be {' or '.join(map(repr, known))}")

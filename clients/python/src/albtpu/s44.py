@@ -9,7 +9,7 @@ from .schema import S44_ORDERS
 
 Doubles = NDArray[np.float64]
 
-# THU `c + e depth`, TVU `sqrt(a^2 + (b depth)^2)`, in m: c, e, a, b.
+# The coefficients c, e, a, b of the limits THU = c + e depth and TVU = sqrt(a^2 + (b depth)^2), in m.
 _LIMITS = {
     "exclusive": (1, 0, 0.15, 0.0075),
     "special": (2, 0, 0.25, 0.0075),
@@ -20,14 +20,14 @@ _LIMITS = {
 
 
 def limits(order: str, depth: Doubles) -> tuple[Doubles, Doubles]:
-    """The greatest THU and TVU that `order` allows at `depth` in m, in m."""
+    """The greatest THU and TVU, in m, that `order` allows at `depth` in m."""
     c, e, a, b = _LIMITS[order]
-    with np.errstate(invalid="ignore"):  # Pulses of infinite depth have no order either.
+    with np.errstate(invalid="ignore"):  # At infinite depth no order is met.
         return c + e * depth, np.hypot(a, b * depth)
 
 
 def best_orders(thu: Doubles, tvu: Doubles, depth: Doubles) -> NDArray[np.uint8]:
-    """The number of the strictest order whose limits exceed `thu` and `tvu`; 0 if none does, or for NaN."""
+    """The number of the strictest order whose limits exceed `thu` and `tvu`; 0 if none does, or if they are NaN."""
     best = np.zeros(thu.shape, np.uint8)
     for number, order in reversed(list(enumerate(S44_ORDERS[1:], 1))):
         thu_limit, tvu_limit = limits(order, depth)
@@ -36,6 +36,6 @@ def best_orders(thu: Doubles, tvu: Doubles, depth: Doubles) -> NDArray[np.uint8]
 
 
 def remaining(limit: Doubles, ours: Doubles) -> Doubles:
-    """What `ours` leaves of `limit` for all other independent sources; NaN if nothing."""
+    """The part of `limit` that `ours` leaves for all other, independent sources; NaN if it leaves nothing."""
     with np.errstate(invalid="ignore"):
         return np.sqrt(np.where(ours <= limit, (limit - ours) * (limit + ours), np.nan))

@@ -1,17 +1,17 @@
-"""Names, units and numbers of axes, quantities, outcomes and S-44 orders: those of tables and of the wire."""
+"""Names, units and numbers of axes, quantities, outcomes and S-44 orders, as in tables and on the wire."""
 
 from typing import NamedTuple
 
 
 class Description(NamedTuple):
-    """An axis or a quantity for people: CF units and a line of text."""
+    """CF units and a one-line description of an axis or a quantity."""
 
     units: str
     long_name: str
 
 
-# The axes of a table, in the order of its dimensions, slowest first. The number of an axis on the wire is its
-# position here, from 1.
+# The axes of a table in the order of its dimensions, slowest first. On the wire, an axis is its position here,
+# counted from 1.
 AXES: dict[str, Description] = {
     "wind_speed": Description("m s-1", "wind speed at 10 m above the sea"),
     "fetch": Description("m", "fetch; at the last node and beyond, the sea is fully developed"),
@@ -21,7 +21,7 @@ AXES: dict[str, Description] = {
     "depth": Description("m", "depth below the located surface"),
 }
 
-# What the sea surface does to a pulse. The number of a quantity on the wire is its position here, from 1.
+# The effects of the sea surface on a pulse. On the wire, a quantity is its position here, counted from 1.
 QUANTITIES: dict[str, Description] = {
     "refraction_along_wind": Description("degree", "uncertainty of the direction in water, along the wind"),
     "refraction_cross_wind": Description("degree", "uncertainty of the direction in water, across the wind"),
@@ -31,13 +31,13 @@ QUANTITIES: dict[str, Description] = {
         "m", "horizontal bias, positive if reported too far along the azimuth of the beam"),
     "bias_vertical": Description("m", "vertical bias, positive if reported too shallow"),
 }
-REFRACTIONS = ("refraction_along_wind", "refraction_cross_wind")  # All axes but depth.
-BIASES = ("bias_along_beam", "bias_vertical")  # Means of the error, at any coverage; may be negative.
-STANDARD_ERROR = "_standard_error"  # Ends the name of the standard error of a quantity.
+REFRACTIONS = ("refraction_along_wind", "refraction_cross_wind")  # These do not depend on depth.
+BIASES = ("bias_along_beam", "bias_vertical")  # Mean errors, the same at any coverage; may be negative.
+STANDARD_ERROR = "_standard_error"  # Suffix of the name of a quantity's standard error.
 
-# By their numbers.
+# Indexed by their numbers on the wire.
 OUTCOMES = ("UNSPECIFIED", "INTERPOLATED", "OUT_OF_DOMAIN", "INVALID")
 INTERPOLATED, OUT_OF_DOMAIN, INVALID = 1, 2, 3
 COVERAGES = {"2sigma": 1, "p95": 2}
-# IHO S-44 edition 6.1.0, from the strictest; 0 is none.
+# IHO S-44 edition 6.1.0, strictest first; 0 means none.
 S44_ORDERS = ("", "exclusive", "special", "1a", "1b", "2")

@@ -19,22 +19,22 @@ from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
-_SCALES = ("", "linear", "log")  # By their numbers.
+_SCALES = ("", "linear", "log")  # Indexed by their numbers on the wire.
 
 
 def connect(target: str, *, tls: bool = False, ca: File | None = None, cert: File | None = None,
             key: File | None = None, token: str | None = None, timeout: float = 60.0,
             patience: float = 10.0) -> Service:
-    """A service of tables (`albtpu-serve`), at "HOST:PORT", "dns:///NAME:PORT" or "unix:PATH".
+    """Connects to a service (`albtpu-serve`) at "HOST:PORT", "dns:///NAME:PORT" or "unix:PATH".
 
-    tls:       talk TLS, also meant by each of the following; else plain text.
-    ca:        PEM file of the authorities to trust. Left out: those of gRPC.
-    cert, key: PEM files of the certificate to show, and of its key.
-    token:     sent with every call, as `authorization: Bearer TOKEN`.
-    timeout:   s, how long one answer may take.
-    patience:  s, how long a server that is not there is tried again, with growing pauses.
+    tls:       use TLS instead of plain text; each of the next four arguments implies it.
+    ca:        PEM file of the certificate authorities to trust; by default, gRPC's own list.
+    cert, key: PEM files of the client's certificate and of its private key.
+    token:     sent with every call as `authorization: Bearer TOKEN`.
+    timeout:   time limit of one answer, in s.
+    patience:  how long to retry while the server is unavailable, in s; the pauses grow.
 
-    Nothing is sent before the first question. Raises ArgumentError for a target or file that is not right.
+    Nothing is sent before the first query. Raises ArgumentError for an invalid target or file.
 
         with albtpu.connect("localhost:50051") as service:
             answer = service.query(wind_speed=5, incidence=theta, footprint=0.5, depth=d)
@@ -44,21 +44,21 @@ def connect(target: str, *, tls: bool = False, ca: File | None = None, cert: Fil
 
 
 class Service(UncertaintySource):
-    """A service, at the other end of a channel. May be used from several threads."""
+    """A service at the other end of a channel. Several threads may use it at a time."""
 
     def __init__(self, target: str, channel: grpc.Channel, timeout: float, patience: float) -> None:
         self._target, self._channel, self._timeout, self._patience = target, channel, timeout, patience
         self._open_stub: UncertaintyServiceStub | None = UncertaintyServiceStub(channel)
 
     def tables(self) -> list[TableSummary]:
-        """All tables of the server, by name, versions of one name from the newest."""
+        """All tables of the server, sorted by name; of one name, the newest version first."""
         listed = self._ask(self._stub.ListTables, wire.ListTablesRequest())
         return [TableSummary(TableReference.of(table.reference), table.title,
                              is_default=table.reference.name == listed.default_table)
                 for table in listed.tables]
 
     def table(self, name: str | None = None) -> Table:
-        """Raises TableNotFoundError, which lists the names there are."""
+        """As in UncertaintySource. Raises TableNotFoundError, which lists the existing names."""
         check_table(name)
         table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
         return Table(

@@ -1,17 +1,17 @@
-"""The one question, whoever answers it: a service or a table file."""
+"""The query interface that services and table files share."""
 
 from __future__ import annotations
 
-import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from types import TracebackType
-from typing import NoReturn, TypeVar
+from typing import TypeVar
 
 from numpy.typing import ArrayLike
 
+from .names import refuse_unknown_keywords
 from .progress import Progress, show_progress
-from .query import Query, read_query, refuse_unknown
+from .query import Query, read_query
 from .tables import Table, TableReference
 from .uncertainties import AnswerColumns, Uncertainties
 
@@ -19,36 +19,37 @@ Self = TypeVar("Self", bound="UncertaintySource")
 
 
 class UncertaintySource(ABC):
-    """Answers queries. A context manager that closes it."""
+    """Answers queries. As a context manager, it is closed at the end of the block."""
 
+    @refuse_unknown_keywords
     def query(self, *, wind_speed: ArrayLike, incidence: ArrayLike, footprint: ArrayLike, depth: ArrayLike,
               fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None, table: str | None = None,
               coverage: str = "2sigma", quantities: Iterable[str] | None = None,
               standard_errors: bool = False, s44_order: str | None = None, best_s44_order: bool = False,
-              progress: bool = False, **unknown: NoReturn) -> Uncertainties:
-        """The uncertainty of pulses that the sea surface causes.
+              progress: bool = False) -> Uncertainties:
+        """The uncertainty of each pulse that the sea surface causes.
 
-        Pulses are numbers or arrays, of integers or floats, that broadcast to one shape; the answer has that
-        shape. They are taken in single precision, as the nodes of tables are. What is masked, NaN or
-        infinite makes its pulse INVALID and raises nothing; so does what no table reaches: OUT_OF_DOMAIN.
+        Coordinates are numbers or arrays, of integers or floats, that broadcast to one shape; the answer has
+        that shape. They are rounded to single precision, like the nodes of tables. A bad pulse raises nothing:
+        a masked, NaN or infinite coordinate makes it INVALID, one outside the table OUT_OF_DOMAIN.
 
         wind_speed:  m/s at 10 m above the sea.
-        incidence:   degrees, angle of the beam in air from the vertical.
+        incidence:   degrees, angle between the beam in air and the vertical.
         footprint:   m, diameter of the beam at the mean water surface, across the beam.
         depth:       m below the located water surface.
-        fetch:       m over which the wind has blown. Left out or infinite: a fully developed sea.
-        azimuth:     degrees, horizontal direction of the beam from downwind. Left out: each value is the
+        fetch:       m, distance over which the wind has blown. Omitted or infinite: a fully developed sea.
+        azimuth:     degrees, horizontal direction of the beam from downwind. Omitted: each value is the
                      larger in magnitude of those at 0 and 90 degrees.
-        table:       which table of a service, NAME or NAME/VERSION. Left out: its default.
-        coverage:    "2sigma", or "p95" for 95 %; THU then is the radius that holds 95 %.
-        quantities:  which of albtpu.QUANTITIES to answer. Left out: all.
-        standard_errors: also the Monte Carlo standard error of each quantity.
-        s44_order:   "exclusive", "special", "1a", "1b" or "2": also what the sea surface leaves of its
-                     limits.
-        best_s44_order: also the strictest order of S-44 that the sea surface alone leaves open.
-        progress:    a bar on standard error (with tqdm if it is installed), for large queries.
+        table:       the table of a service, NAME or NAME/VERSION. Omitted: its default table.
+        coverage:    "2sigma", or "p95" for 95 %; THU is then the radius that contains 95 %.
+        quantities:  names from albtpu.QUANTITIES. Omitted: all of them.
+        standard_errors: also return the Monte Carlo standard error of each quantity.
+        s44_order:   "exclusive", "special", "1a", "1b" or "2": also return the part of its limits that the sea
+                     surface leaves for other sources.
+        best_s44_order: also return the strictest S-44 order that the sea surface alone does not exceed.
+        progress:    show a progress bar on standard error, with tqdm if it is installed.
 
-        Raises ArgumentError for arguments that are no query; from a service also the kinds of ServiceError.
+        Raises ArgumentError for invalid arguments; a service also raises subclasses of ServiceError.
 
         >>> import albtpu
         >>> answer = albtpu.open_table("survey.h5").query(
@@ -58,8 +59,6 @@ class UncertaintySource(ABC):
         >>> list(answer.outcome)
         ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth']
         """
-        known = inspect.signature(self.query).parameters
-        refuse_unknown(unknown, [name for name in known if name != "unknown"])
         query = read_query(
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth,
                  footprint=footprint, depth=depth),
@@ -72,10 +71,10 @@ class UncertaintySource(ABC):
 
     @abstractmethod
     def table(self, name: str | None = None) -> Table:
-        """Axes, quantities and provenance of a table; without a name, of the one that answers by default."""
+        """Axes, quantities and provenance of a table; without a name, of the default table."""
 
     def close(self) -> None:
-        """Gives back what it holds; it cannot be asked any more."""
+        """Releases its resources. It accepts no further queries."""
 
     def __enter__(self: Self) -> Self:
         return self
@@ -86,4 +85,4 @@ class UncertaintySource(ABC):
 
     @abstractmethod
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
-        """Fills all of `columns`; returns the table that answered."""
+        """Fills all of `columns` and returns the table that answered."""

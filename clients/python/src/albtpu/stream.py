@@ -1,4 +1,4 @@
-"""A large query in one stream: several batches under way, answers written into their place as they come."""
+"""Sends a large query as one stream with several batches in flight, and writes each answer into its place."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
-_BATCH = 32768  # Pulses: a message takes twice as many, and then waits longer for both sides.
-_UNDER_WAY = 8  # Batches that are sent and not answered.
+_BATCH = 32768  # Pulses. A message may hold twice as many, but then client and server wait longer for each other.
+_IN_FLIGHT = 8  # Batches that are sent and not yet answered.
 
 
 class ColumnStream:
-    """Asks a server all of a query.
+    """Sends all pulses of a query to a server.
 
-    A server that goes away is asked again from the first batch that it left unanswered; `timeout` is how many
-    seconds an answer may take.
+    After a failure it continues with the first batch that is still unanswered. `timeout` is the time limit of
+    one answer, in s.
     """
 
     def __init__(self, target: str, stub: UncertaintyServiceStub, query: Query, columns: AnswerColumns,
@@ -40,7 +40,7 @@ class ColumnStream:
         self._table: TableReference | None = None
 
     def run(self, retries: Retries) -> TableReference:
-        """Returns the table that answered all pulses, at least one; raises ServiceError."""
+        """Returns the table that answered. The query must have at least one pulse. Raises ServiceError."""
         while self._answered < self._query.size:
             before = self._answered
             try:
@@ -71,7 +71,7 @@ class ColumnStream:
             call.cancel()
 
     def _take(self, answer: Any, length: int) -> None:
-        """Writes the answer to the next batch, whose columns had `length` elements, into its place."""
+        """Writes the answer to the next batch into its place. The columns of the batch had `length` elements."""
         table = TableReference.of(answer.table)
         self._table = self._table or table
         if table.digest != self._table.digest:
@@ -88,7 +88,7 @@ class ColumnStream:
         self._progress(end - begin)
 
     def _pairs(self, answer: Any) -> Iterator[tuple[NDArray[Any], bytes]]:
-        """Where each column of an answer goes."""
+        """Each column of the result with its bytes in `answer`."""
         columns = self._columns
         yield columns.outcomes, answer.outcomes
         yield columns.outcome_axes, answer.outcome_axes
@@ -107,21 +107,21 @@ class ColumnStream:
 
 
 class _Sender:
-    """What gRPC sends, in a thread of its own: never more than _UNDER_WAY batches ahead of the answers.
+    """Yields the batches to gRPC, in gRPC's own thread, at most _IN_FLIGHT ahead of the answers.
 
-    It ends the call when it waits longer than `timeout` seconds for one.
+    It cancels the call when an answer takes longer than `timeout` s.
     """
 
     def __init__(self, query: Query, begin: int, timeout: float) -> None:
         self._query, self._begin, self._timeout = query, begin, timeout
         self._stopped = False
-        self.free = threading.Semaphore(_UNDER_WAY)  # The reader releases one for each answer.
-        self.lengths: deque[int] = deque()  # Of the columns in the batches under way.
+        self.free = threading.Semaphore(_IN_FLIGHT)  # The reader releases it once per answer.
+        self.lengths: deque[int] = deque()  # Lengths of the columns of the batches in flight.
         self.call: Any = None
         self.timed_out = False
 
     def requests(self) -> Iterator[Any]:
-        """Yields the batches, and then waits until they are answered."""
+        """Yields the batches, then waits until all are answered."""
         numbers = list(QUANTITIES)
         options = dict(
             table=self._query.table, coverage=COVERAGES[self._query.coverage],
@@ -135,14 +135,14 @@ class _Sender:
             self.lengths.append(max(column.size for column in columns.values()))
             pulses = {axis: column.tobytes() for axis, column in columns.items()}
             yield wire.StreamColumnsRequest(query=dict(options=options, pulses=pulses, quantities=quantities))
-        for _ in range(_UNDER_WAY):
+        for _ in range(_IN_FLIGHT):
             if not self._wait():
                 return
 
     def stop(self) -> None:
-        """Lets the thread of gRPC go, wherever it waits."""
+        """Lets gRPC's thread finish, wherever it is waiting."""
         self._stopped = True
-        self.free.release(2 * _UNDER_WAY)
+        self.free.release(2 * _IN_FLIGHT)
 
     def _wait(self) -> bool:
         if self.free.acquire(timeout=self._timeout):

@@ -1,4 +1,4 @@
-"""A query's way through a table: interpolation, coverage, S-44."""
+"""Answers a query from a table: interpolation, coverage, S-44."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class TableAnswers:
         azimuths: list[dict[str, NDArray[np.float32]]] = [{}]
         if "azimuth" not in columns:
             azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in (0, 90)]
-        with np.errstate(all="ignore"):  # Of a constant out of domain nothing will be used.
+        with np.errstate(all="ignore"):  # Values for a constant out of domain are never used.
             constant = {axis: column.astype(np.float32) for axis, column in columns.items() if column.size == 1}
             self._interpolators = [Interpolator(content, values, errors, constant | azimuth)
                                    for azimuth in azimuths]
@@ -40,7 +40,7 @@ class TableAnswers:
         """Writes the answers for the pulses from `begin` to `end`."""
         block, count = slice(begin, end), end - begin
         pulses = self._query.batch(begin, end)
-        with np.errstate(all="ignore"):  # What is computed for pulses out of domain is dropped.
+        with np.errstate(all="ignore"):  # Values for pulses out of domain are discarded below.
             two_sigma = [interpolate(pulses, count) for interpolate in self._interpolators]
             numbers = two_sigma[0] if len(two_sigma) == 1 else larger_of(*two_sigma)
             columns.outcomes[block], columns.outcome_axes[block] = numbers.outcomes, numbers.outcome_axes

@@ -14,11 +14,11 @@ from .table_reader import read_table
 from .tables import Table, TableReference
 from .uncertainties import AnswerColumns
 
-_BLOCK = 16384  # Pulses whose intermediate results stay in the cache.
+_BLOCK = 16384  # Pulses. The intermediate results of one block fit in the processor's cache.
 
 
 def open_table(path: str | os.PathLike[str]) -> TableFile:
-    """Opens a table file, all of which is read and checked against its seal.
+    """Reads a table file into memory and checks its seal.
 
     Raises TableFileError, which says what is wrong with the file.
 
@@ -36,10 +36,10 @@ def open_table(path: str | os.PathLike[str]) -> TableFile:
 
 
 class TableFile(UncertaintySource):
-    """A table in memory. It answers as a service does: the same outcomes, numbers within 1e-5.
+    """A table in memory. Outcomes are those of a service, values agree within 1e-5.
 
-    Multilinear interpolation in double precision, some hundred thousand pulses a second; more where few axes
-    vary. For millions a second ask a service.
+    Interpolates in double precision, some hundred thousand pulses per second, more if few axes vary. A service
+    answers millions per second.
     """
 
     def __init__(self, path: pathlib.Path) -> None:
@@ -60,4 +60,4 @@ class TableFile(UncertaintySource):
 
     def _check_name(self, name: str | None) -> None:
         if name not in (None, reference := self._content.table.reference.name):
-            raise ArgumentError(f"a table file is one table, '{reference}': leave '{name}' out")
+            raise ArgumentError(f"the file contains only the table '{reference}': omit table='{name}'")

@@ -1,7 +1,7 @@
-"""From the bytes of a table file to axes and values, held to the rules of tables/FORMAT.md.
+"""Reads axes and values from the bytes of a table file and checks the rules of tables/FORMAT.md.
 
-But for two that C++ sees to as well: the content digest is taken as the file has it, and chunks are inflated
-by HDF5 as they are. What the seal covers, nobody has changed by accident.
+Unlike the C++ reader, it does not recompute the content digest and does not check the chunks before HDF5 inflates
+them. The seal excludes accidental changes to either.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ _RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_diges
 
 
 class TableContent(NamedTuple):
-    """All of a table."""
+    """A table with its values."""
 
     table: Table
-    values: dict[str, Floats]  # By quantity, in the order of the axes (without depth for refraction).
-    standard_errors: dict[str, Floats]  # Those that are known.
+    values: dict[str, Floats]  # By quantity; dimensions in the order of the axes, without depth for refraction.
+    standard_errors: dict[str, Floats]  # By quantity; only those that the table has.
 
 
 def read_table(name: str, file: bytes) -> TableContent:
-    """Reads the table in `file`; raises TableFileError, with a text that follows the name of the file."""
+    """Reads the table in `file`. Raises TableFileError, whose text is to follow the name of the file."""
     check_seal(file)
     try:
-        with h5py.File(io.BytesIO(file)) as opened:  # The very bytes that were checked, not the file again.
+        with h5py.File(io.BytesIO(file)) as opened:  # The same bytes whose seal was checked.
             return _read_content(name, opened)
     except (OSError, KeyError) as error:
         raise TableFileError(f"is sealed, but cannot be read as HDF5: {error}") from error
@@ -59,7 +59,7 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
             standard_errors[quantity] = _read_values(file, errors, quantity, axes)
         quantities[quantity] = Quantity(units, long_name, scale, quantity in standard_errors)
     reference = TableReference(name, _text(file, "id"), _text(file, "version"), _text(file, "content_digest"))
-    attributes = {key: _plain(value) for key, value in sorted(file.attrs.items()) if key not in _RESERVED}
+    attributes = {key: plain_attribute(value) for key, value in sorted(file.attrs.items()) if key not in _RESERVED}
     table = Table(reference, _text(file, "title"), axes, quantities, _text(file, "campaign"), attributes)
     return TableContent(table, values, standard_errors)
 
@@ -90,7 +90,7 @@ def _read_values(file: h5py.File, name: str, quantity: str, axes: dict[str, Axis
 
 
 def _holds(file: h5py.File, name: str) -> bool:
-    """Does not look behind links, as `in` does: they may lead out of the file."""
+    """Unlike `in`, does not follow links, which may lead to other files."""
     return bool(file.id.links.exists(name.encode()))
 
 
@@ -101,14 +101,14 @@ def _floats(file: h5py.File, kind: str, name: str, units: str) -> Floats:
         raise TableFileError(f"{kind} '{name}' is a link: it should be a dataset of this file")
     dataset = file.get(name)
     if not isinstance(dataset, h5py.Dataset) or dataset.dtype != np.dtype("<f4"):
-        raise TableFileError(f"{kind} '{name}' is no dataset of float32")
+        raise TableFileError(f"{kind} '{name}' is not a dataset of float32")
     creation = dataset.id.get_create_plist()
     if creation.get_external_count() or creation.get_layout() == h5py.h5d.VIRTUAL:
         raise TableFileError(f"{kind} '{name}' has its values in other files: they should be in this one")
     if not _FILTERS.issuperset(creation.get_filter(i)[0] for i in range(creation.get_nfilters())):
-        raise TableFileError(f"{kind} '{name}' goes through other filters than shuffle and deflate")
+        raise TableFileError(f"{kind} '{name}' has filters other than shuffle and deflate")
     if dataset.size > _MOST_VALUES:
-        raise TableFileError(f"{kind} '{name}' has {dataset.size} values: {_MOST_VALUES} at most are right")
+        raise TableFileError(f"{kind} '{name}' has {dataset.size} values: at most {_MOST_VALUES} are allowed")
     if (found := _text(dataset, "units")) != units:
         raise TableFileError(f"{kind} '{name}' is in '{found}': it should be in '{units}'")
     values: Floats = dataset[()]
@@ -127,13 +127,13 @@ def _scale(dataset: h5py.Dataset, kind: str, name: str, values: Floats) -> str:
 def _text(of: h5py.HLObject, attribute: str) -> str:
     if attribute not in of.attrs:
         raise TableFileError(f"attribute '{attribute}' of '{of.name}' is missing")
-    value = _plain(of.attrs[attribute])
+    value = plain_attribute(of.attrs[attribute])
     if not isinstance(value, str):
         raise TableFileError(f"attribute '{attribute}' of '{of.name}' is a number: it should be text")
     return value
 
 
-def _plain(value: Any) -> AttributeValue:
+def plain_attribute(value: Any) -> AttributeValue:
     if isinstance(value, h5py.Empty):
         return ""
     if isinstance(value, bytes):

@@ -1,4 +1,4 @@
-"""What tables say about themselves: which one it is, its axes, what it holds, where it comes from."""
+"""Descriptions of tables: identity, axes, quantities, provenance."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ AttributeValue = Union[str, int, float, list[float]]
 
 
 class TableReference(NamedTuple):
-    """Names one table among all."""
+    """Identifies a table."""
 
-    name: str  # What to ask a server for to get it: "survey", "survey/2". Of a file, its name without ".h5".
-    id: str  # What it is, by its maker.
-    version: str  # Which making of it, by its maker.
-    digest: str  # SHA-256 of the content, 64 hexadecimal digits: tables of one digest answer alike.
+    name: str  # Its name on the server: "survey", "survey/2". Of a file, the file name without ".h5".
+    id: str  # Identifier that its maker gave it.
+    version: str  # Version that its maker gave it.
+    digest: str  # SHA-256 of the content, 64 hexadecimal digits. Tables with the same digest give the same answers.
 
     @classmethod
     def of(cls, message: Any) -> TableReference:
@@ -26,20 +26,20 @@ class TableReference(NamedTuple):
 
 
 class TableSummary(NamedTuple):
-    """A table in a list."""
+    """An entry in the list of a server's tables."""
 
     reference: TableReference
     title: str
-    is_default: bool  # It answers queries that name no table.
+    is_default: bool  # Whether it answers queries that name no table.
 
 
 class Axis(NamedTuple):
     """An axis of a table."""
 
-    nodes: NDArray[np.float32]  # Increasing, in `units`; the first and the last belong to the domain.
+    nodes: NDArray[np.float32]  # Increasing, in `units`. The domain includes the first and the last.
     units: str
     long_name: str
-    scale: str  # How values are interpolated along it: "linear" or "log".
+    scale: str  # Scale of interpolation along the axis: "linear" or "log".
 
 
 class Quantity(NamedTuple):
@@ -57,7 +57,7 @@ class Table:
 
     reference: TableReference
     title: str
-    axes: dict[str, Axis]  # All six, slowest first.
-    quantities: dict[str, Quantity]  # Those that it holds.
-    campaign: str  # The TOML text that made it; empty for tables of published numbers.
-    attributes: dict[str, AttributeValue]  # All else that it says about itself.
+    axes: dict[str, Axis]  # All six, slowest dimension first.
+    quantities: dict[str, Quantity]  # Those that the table has.
+    campaign: str  # The campaign file (TOML) that it was made from; empty for tables of published numbers.
+    attributes: dict[str, AttributeValue]  # All other attributes of the file.

@@ -1,4 +1,4 @@
-"""What is answered: named arrays with units, and an outcome for every pulse."""
+"""The answer to a query: named arrays with units, and an outcome for every pulse."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Numbers = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class AnswerColumns:
-    """The memory of an answer, flat: an element a pulse. None, or not there, where not asked for."""
+    """The flat arrays of an answer, one element per pulse. What the query does not request is None or absent."""
 
     outcomes: Numbers
     outcome_axes: Numbers
@@ -36,7 +36,7 @@ class AnswerColumns:
 
     @classmethod
     def for_query(cls, query: Query) -> AnswerColumns:
-        """Memory that an answer to `query` is still to be written into."""
+        """Uninitialized arrays for the answer to `query`."""
         size = query.size
 
         def floats() -> Floats:
@@ -51,22 +51,22 @@ class AnswerColumns:
 
 
 class Uncertainties:
-    """The answer to a query. All arrays have the shape of the query; NaN where there is no number.
+    """The answer to a query. All arrays have the shape of the query; NaN where a pulse has no number.
 
     thu, tvu, refraction_along_wind, refraction_cross_wind, bias_along_beam, bias_vertical: arrays of float32,
-    in `units`; asking for one that the query did not want is an AttributeError.
+    in `units`. Those that the query did not request raise AttributeError.
 
-    table:            which table answered: name, id, version, digest.
-    coverage:         "2sigma" or "p95", of all but the biases and S-44.
+    table:            the table that answered: name, id, version, digest.
+    coverage:         "2sigma" or "p95", of all quantities except the biases and S-44.
     azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
-    pulses:           what was asked, by axis, as arrays of that shape.
+    pulses:           the coordinates of the query by axis, as arrays of its shape.
     values:           the quantities by name.
-    standard_errors:  their Monte Carlo standard errors by name; empty if not asked for.
-    outcomes:         numbers 1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
-    outcome_axes:     the axis that made it, by its position in albtpu.AXES from 1; 0 if interpolated.
-    best_s44_orders:  1 exclusive, 2 special, 3 1a, 4 1b, 5 2, 0 none (uint8); None if not asked for.
-    remaining_thu, remaining_tvu: what the sea surface leaves of the limits of the S-44 order for all other
-                      sources, m at 95 %, NaN if nothing; None if not asked for.
+    standard_errors:  their Monte Carlo standard errors by name; empty if not requested.
+    outcomes:         1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
+    outcome_axes:     the axis that caused it, its position in albtpu.AXES from 1; 0 if interpolated.
+    best_s44_orders:  1 exclusive, 2 special, 3 1a, 4 1b, 5 2, 0 none (uint8); None if not requested.
+    remaining_thu, remaining_tvu: the part of the S-44 order's limits that the sea surface leaves for all other
+                      sources, in m at 95 %, NaN if nothing remains; None if not requested.
     """
 
     refraction_along_wind: Floats
@@ -116,31 +116,31 @@ class Uncertainties:
 
     @property
     def interpolated(self) -> NDArray[np.bool_]:
-        """Where the numbers stand."""
+        """Whether each pulse has numbers."""
         return self.outcomes == INTERPOLATED
 
     def outcome_counts(self) -> dict[str, int]:
-        """How many pulses had each outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth": 1}."""
+        """The number of pulses by outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth": 1}."""
         at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0)).reshape(-1)
-        pairs = self.outcomes.reshape(-1) * np.uint16(8) + at_fault  # Fewer than 8 axes.
+        pairs = self.outcomes.reshape(-1) * np.uint16(8) + at_fault  # There are fewer than 8 axes.
         words = [OUTCOMES[OUT_OF_DOMAIN] + f":{axis}" for axis in AXES]
         return {words[pair % 8 - 1] if pair % 8 else OUTCOMES[pair // 8]: int(count)
                 for pair, count in enumerate(np.bincount(pairs)) if count}
 
     @property
     def best_s44_order(self) -> NDArray[np.object_] | None:
-        """Names: "exclusive", "special", "1a", "1b", "2", "" for none; None if not asked for."""
+        """Names: "exclusive", "special", "1a", "1b", "2", or "" for none; None if not requested."""
         if self.best_s44_orders is None:
             return None
         return np.asarray(np.array(S44_ORDERS, object)[self.best_s44_orders], object)
 
     @property
     def units(self) -> dict[str, str]:
-        """Units of what `to_dict` has, by name: "m" or "degree", of outcomes and orders ""."""
+        """Units of the arrays of `to_dict`, by name: "m" or "degree", or "" for outcomes and orders."""
         return {name: _units(name) for name in self.to_dict()}
 
     def to_dict(self) -> dict[str, NDArray[Any]]:
-        """All arrays by name: quantities, `thu_standard_error` and its like, outcomes, S-44."""
+        """All arrays by name: quantities, standard errors such as `thu_standard_error`, outcomes, S-44."""
         arrays: dict[str, NDArray[Any]] = dict(self.values)
         arrays.update((name + STANDARD_ERROR, errors) for name, errors in self.standard_errors.items())
         arrays.update(outcomes=self.outcomes, outcome_axes=self.outcome_axes)
@@ -149,10 +149,10 @@ class Uncertainties:
         return arrays | {name: array for name, array in s44.items() if array is not None}
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
-        """The same as an xarray.Dataset with CF attributes, the pulses as coordinates, needs xarray.
+        """The answer as an xarray.Dataset with CF attributes and the pulses as coordinates. Needs xarray.
 
-        `dims` names the dimensions; left out, one dimension is "pulse", several are "dim_0", "dim_1", ...
-        An axis that gives its name to a dimension is its index, and must vary along it alone.
+        `dims` names the dimensions; by default, a single one is "pulse", several are "dim_0", "dim_1", ...
+        A dimension that has the name of an axis is indexed by it, and the axis must vary along it alone.
         """
         import xarray
 
@@ -160,7 +160,7 @@ class Uncertainties:
         if dims is None:
             dims = ("pulse",) if len(shape) == 1 else tuple(f"dim_{i}" for i in range(len(shape)))
         if len(dims) != len(shape):
-            raise ArgumentError(f"{len(dims)} dimensions are named: the answer has {len(shape)}")
+            raise ArgumentError(f"dims has {len(dims)} names: the answer has {len(shape)} dimensions")
         coordinates = {axis: _coordinate(axis, array, dims) for axis, array in self.pulses.items()}
         variables = {name: (dims, array, self._attributes(name)) for name, array in self.to_dict().items()}
         return xarray.Dataset(variables, coordinates, {
@@ -188,11 +188,11 @@ class Uncertainties:
 
 
 def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[Any, ...]:
-    """The pulses' `axis` over those dimensions along which it was not repeated to fit the others."""
+    """The coordinate `axis` over the dimensions along which it is not merely broadcast."""
     varies = [stride != 0 or array.size == 0 for stride in array.strides]
     over = tuple(dim for dim, along in zip(dims, varies) if along)
     if axis in dims and over != (axis,):
-        raise ArgumentError(f"{axis} varies along {', '.join(over) or 'nothing'}: it is no index of a "
+        raise ArgumentError(f"{axis} varies along {', '.join(over) or 'no dimension'}: it cannot index the "
                             f"dimension '{axis}'")
     index: tuple[Any, ...] = tuple(slice(None) if along else 0 for along in varies)
     return over, array[index], AXES[axis]._asdict()
