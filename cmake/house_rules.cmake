@@ -1,5 +1,5 @@
-# Compiles `target` for ALBTPU_SANITIZE. All targets need this, those of generated code too: if two files define the same
-# inline function, the linker keeps either one.
+# Compiles `target` for ALBTPU_SANITIZE. All targets need this, those of generated code too: if two files define the
+# same inline function, the linker keeps either one.
 function(albtpu_sanitize target)
   if(NOT ALBTPU_SANITIZE)
     return()

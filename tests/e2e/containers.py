@@ -1,4 +1,4 @@
-"""Containers for a test: the engine's commands, and servers that are gone when the test ends."""
+"""Containers for a test: the engine's commands, and servers that are removed when the test ends."""
 
 import json
 import os
@@ -8,19 +8,19 @@ import sys
 import time
 import unittest
 
-PATIENCE = 600  # Seconds that a loaded machine may need.
+PATIENCE = 600  # s; a loaded machine may be slow.
 ENGINE = sys.argv[1]
 IS_PODMAN = pathlib.Path(ENGINE).name == "podman"
-TAG = os.environ.get("ALBTPU_TAG", "latest")  # Of the images, as docker/build.sh reads it.
+TAG = os.environ.get("ALBTPU_TAG", "latest")  # Tag of the images; docker/build.sh reads the same variable.
 SERVE, QUERY, GENERATE = (f"albtpu-{name}:{TAG}" for name in ("serve", "query", "generate"))
 
-# As docs/operations.md says. Podman alone would leave /tmp for writing.
+# As docs/operations.md recommends. By default, podman leaves /tmp writable.
 RESTRICTED = ("--read-only", *(("--read-only-tmpfs=false",) if IS_PODMAN else ()), "--cap-drop", "all",
               "--security-opt", "no-new-privileges")
 
 
 def run(*command, check=True, **options):
-    """Returns what it said on standard output."""
+    """Returns the standard output of the command."""
     result = subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=PATIENCE,
                             stdin=subprocess.DEVNULL, **options)
     if check and result.returncode != 0:
@@ -40,7 +40,7 @@ def wait_for(condition, what):
     end = time.monotonic() + PATIENCE
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError(f"waited in vain for {what}")
+            raise AssertionError(f"timed out waiting for {what}")
         time.sleep(0.2)
 
 
@@ -59,7 +59,7 @@ class Container:
         return inspect("container", self.name)["State"]["ExitCode"]
 
     def stop(self):
-        """By the image's signal, and when that is in vain for a minute, by SIGKILL."""
+        """Sends the image's stop signal, and SIGKILL after one minute."""
         engine("stop", "--time", "60", self.name)
 
     def remove(self):
@@ -67,7 +67,7 @@ class Container:
 
 
 class Server(Container):
-    """albtpu-serve, its ports published on free ones of this machine."""
+    """albtpu-serve, with its ports published on free ports of this machine."""
 
     def __init__(self, *arguments, flags=()):
         super().__init__(SERVE, *arguments,
@@ -82,15 +82,15 @@ class Server(Container):
         return engine("port", self.name, port).split()[0]
 
     def is_healthy(self):
-        """By the image's HEALTHCHECK."""
-        if IS_PODMAN:  # Asks by itself only where there is systemd.
+        """The result of the image's HEALTHCHECK."""
+        if IS_PODMAN:  # Podman runs it periodically only under systemd.
             return subprocess.run([ENGINE, "healthcheck", "run", self.name], capture_output=True,
                                   timeout=PATIENCE).returncode == 0
         wait_for(lambda: inspect("container", self.name)["State"]["Health"]["Status"] != "starting", "its health")
         return inspect("container", self.name)["State"]["Health"]["Status"] == "healthy"
 
     def memory_peak(self):
-        """Bytes, by the control group; None where it does not tell."""
+        """Peak memory of the control group in bytes, or None if the kernel does not report it."""
         pid = inspect("container", self.name)["State"]["Pid"]
         for line in pathlib.Path(f"/proc/{pid}/cgroup").read_text().splitlines():
             _, controllers, path = line.split(":", 2)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The images: builds them with podman or docker on a base made of Debian packages, for which no registry need be
-# reached, and runs them as docs/operations.md says.
+# Builds the images with podman or docker and tests them as docs/operations.md describes. Their base is made of Debian
+# packages, so that no registry is needed.
 #
-# Usage: containers.sh      after the programs are built in build/release
+# Usage: containers.sh      the programs must have been built in build/release
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source ./packages.sh
@@ -16,7 +16,7 @@ skip() {
   exit 0
 }
 
-# Of a machine whose first process is not systemd podman asks too much.
+# Without systemd, podman needs lower limits, and another cgroup manager and runtime.
 fit_podman() {
   [[ ! -d /run/systemd/system ]] || return 0
   cat >"$scratch/containers.conf" <<'EOF'
@@ -30,25 +30,25 @@ EOF
 }
 
 install_packages containers
-engine=$(command -v podman || command -v docker) || skip "no podman and no docker: apt-get install podman is right"
+engine=$(command -v podman || command -v docker) || skip "podman or docker is missing; apt-get install podman"
 [[ $engine != */podman ]] || fit_podman
 reason=$("$engine" info 2>&1 >/dev/null) || skip "$engine does not work here: ${reason##*$'\n'}"
 
 if ! "$engine" image inspect "$base" >/dev/null 2>&1; then
-  echo "== Making a base of Debian packages"
+  echo "== Making a base image from Debian packages"
   mmdebstrap --quiet --variant=minbase bookworm "$scratch/base.tar"
   "$engine" import "$scratch/base.tar" "$base" >/dev/null
 fi
-reason=$("$engine" run --rm "$base" true 2>&1) || skip "$engine runs no container here: ${reason##*$'\n'}"
+reason=$("$engine" run --rm "$base" true 2>&1) || skip "$engine cannot run containers here: ${reason##*$'\n'}"
 
-export ALBTPU_TAG=test  # Beside the images that this machine may run.
+export ALBTPU_TAG=test  # Leaves other images of this machine alone.
 echo "== Building the images"
 ENGINE=$engine docker/build.sh --build-arg "BASE=$base" >"$scratch/build.log" 2>&1 || {
   tail -n 50 "$scratch/build.log"
-  echo "failed: containers: the images cannot be built" >&2
+  echo "failed: containers: the images could not be built" >&2
   exit 1
 }
-echo "== Running them"
+echo "== Running the images"
 export PYTHONPATH=clients/python/src
 status=0
 /usr/bin/python3 -B tests/e2e/containers_test.py "$engine" "$base" build/release . || status=1

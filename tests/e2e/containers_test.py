@@ -1,4 +1,4 @@
-"""The images do what they are for, with no more rights than that takes.
+"""The images work, with no more privileges than they need.
 
 Usage: containers_test.py ENGINE BASE_IMAGE BUILD_FOLDER SOURCE_FOLDER [TEST]
 """
@@ -25,7 +25,7 @@ from authority import Authority
 from containers import GENERATE, PATIENCE, QUERY, RESTRICTED, SERVE, ContainerTest, engine, inspect, run, wait_for
 
 BASE, BUILD, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve(), pathlib.Path(sys.argv[4]).resolve()
-GENERATOR, CLIENT = BUILD / "bin/albtpu-generate", BUILD / "bin/albtpu-query"  # Outside.
+GENERATOR, CLIENT = BUILD / "bin/albtpu-generate", BUILD / "bin/albtpu-query"  # Built outside of the images.
 CAMPAIGN = SOURCE / "tests/generator/six_seas.toml"
 IMAGES = (SERVE, QUERY, GENERATE)
 PULSE = dict(wind_speed=7, incidence=12, footprint=0.5, depth=8)
@@ -34,7 +34,7 @@ MOST_BYTES_ABOVE_BASE = 150_000_000
 
 
 def query(*arguments):
-    """A query of one pulse by the program that was built beside the images."""
+    """A query of one pulse by the program outside of the images."""
     return json.loads(run(CLIENT, "pulse", "--json", *PULSE_FLAGS, *arguments))
 
 
@@ -42,7 +42,7 @@ class Images(unittest.TestCase):
     def shell(self, image, script):
         return engine("run", "--rm", *RESTRICTED, "--entrypoint", "sh", image, "-c", script)
 
-    def test_say_version_and_commit(self):
+    def test_state_version_and_commit(self):
         commit = run("git", "-C", SOURCE, "describe", "--always", "--dirty", "--abbrev=12").strip()
         for image in IMAGES:
             labels, name = inspect("image", image)["Config"]["Labels"], image.partition(":")[0]
@@ -51,20 +51,20 @@ class Images(unittest.TestCase):
             self.assertEqual(labels["org.opencontainers.image.title"], name)
             self.assertEqual(engine("run", "--rm", image, "--version"), f"{name} {version} ({commit})\n")
 
-    def test_run_as_a_user_without_rights(self):
+    def test_run_as_an_unprivileged_user(self):
         for name in IMAGES:
             user, capabilities = self.shell(name, "id -u; grep CapEff /proc/self/status").split("\n")[:2]
             self.assertGreaterEqual(int(user), 1000)
             self.assertEqual(int(capabilities.split()[1], 16), 0)
             self.assertEqual(inspect("image", name)["Config"]["User"], f"{user}:{user}")
 
-    def test_hold_no_program_that_gives_rights(self):
+    def test_contain_no_setuid_or_setgid_programs(self):
         for name in IMAGES:
             found = engine("run", "--rm", "--user", "root", "--entrypoint", "find", name,
                            "/", "-xdev", "-type", "f", "-perm", "/6000")
             self.assertEqual(found, "", name)
 
-    def test_hold_no_tools_no_sources_no_history_and_no_keys(self):
+    def test_contain_no_tools_sources_history_or_keys(self):
         tools = "for tool in g++ gcc cc ld make ninja cmake git ccache protoc python3; do command -v $tool; done; true"
         files = ("*_history", "*.key", ".git", "*.cc", "CMakeLists.txt")
         names = " -o ".join(f"-name '{file}'" for file in files)
@@ -74,19 +74,19 @@ class Images(unittest.TestCase):
             found = self.shell(name, f"find / -xdev \\( {names} \\) -print 2>/dev/null; {keys}; true")
             self.assertEqual(found, "", name)
 
-    def test_are_little_above_the_base(self):
+    def test_are_at_most_150_mb_larger_than_the_base(self):
         base = inspect("image", BASE)["Size"]
         sizes = {name: inspect("image", name)["Size"] - base for name in IMAGES}
-        print(", ".join(f"{name}: {size / 1e6:.0f} MB above the base" for name, size in sizes.items()))
+        print(", ".join(f"{name}: {size / 1e6:.0f} MB more than the base" for name, size in sizes.items()))
         self.assertLessEqual(sizes[SERVE], MOST_BYTES_ABOVE_BASE)
         self.assertLessEqual(sizes[QUERY], MOST_BYTES_ABOVE_BASE)
 
-    def test_end_by_sigterm(self):
+    def test_stop_with_sigterm(self):
         self.assertEqual(inspect("image", SERVE)["Config"]["StopSignal"], "SIGTERM")
 
 
 class Service(ContainerTest):
-    def test_answers_through_a_published_port_what_its_table_says(self):
+    def test_answers_through_a_published_port_from_its_table(self):
         server = self.serve()
         self.assertEqual(query("--server", server.address()), query("--table", SOURCE / "tables/shipped/survey.h5"))
 
@@ -96,7 +96,7 @@ class Service(ContainerTest):
                       *PULSE_FLAGS, "--server", "127.0.0.1:50051")
         self.assertEqual(json.loads(text), query("--server", server.address()))
 
-    def test_is_healthy_and_tells_its_metrics(self):
+    def test_is_healthy_and_publishes_metrics(self):
         server = self.serve()
         self.assertTrue(server.is_healthy())
         query("--server", server.address())
@@ -115,7 +115,7 @@ class Service(ContainerTest):
         engine("kill", "--signal", "HUP", server.name)
         wait_for(lambda: "survey (default)" in run(CLIENT, "tables", "--server", server.address()), "the new table")
 
-    def test_talks_tls(self):
+    def test_uses_tls(self):
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
         authority = Authority(folder, "authority")
@@ -123,7 +123,7 @@ class Service(ContainerTest):
         folder.chmod(0o755)
         authority.folder.chmod(0o755)
         key.chmod(0o644)
-        # As Kubernetes asks in overlays/public: by the name of the certificate, trusting it alone.
+        # Like the probes of overlays/public: uses the name in the certificate, and trusts only that certificate.
         server = self.serve("--listen", "0.0.0.0:50051", "--tls-cert", "/tls/server.pem",
                             "--tls-key", "/tls/server.key",
                             flags=("--volume", f"{authority.folder}:/tls:ro", "--add-host", "albtpu.example:127.0.0.1",
@@ -132,16 +132,16 @@ class Service(ContainerTest):
         answer = query("--server", server.address(), "--tls-ca", authority.certificate)
         self.assertEqual(answer["outcome"], "INTERPOLATED")
 
-    def test_keeps_to_its_memory(self):
+    def test_stays_within_its_memory_limit(self):
         server = self.serve(flags=("--memory", "256m", "--memory-swap", "256m"))
         with albtpu.connect(server.address()) as service:
             for _ in range(5):
                 answer = service.query(wind_speed=7, incidence=12, footprint=0.5, depth=np.linspace(0, 60, 1_000_000))
                 self.assertTrue((answer.outcomes == 1).all())
-        print(f"albtpu-serve: {(server.memory_peak() or 0) / 1e6:.0f} MB at most under 5 million pulses")
+        print(f"albtpu-serve: {(server.memory_peak() or 0) / 1e6:.0f} MB at most during 5 million pulses")
         self.assertTrue(server.running())
 
-    def test_lets_calls_end_when_it_is_stopped(self):
+    def test_lets_calls_finish_when_it_is_stopped(self):
         server = self.serve()
         pulse = {name: np.float32(value).tobytes() for name, value in PULSE.items()}
         requests = queue.SimpleQueue()
@@ -162,7 +162,7 @@ class Service(ContainerTest):
 
 
 class FolderTest(ContainerTest):
-    """A folder for which a container has no rights but those of any user."""
+    """A folder that belongs to another user than that of the containers, but is writable for all."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -172,21 +172,21 @@ class FolderTest(ContainerTest):
 
 
 class Stopped(FolderTest):
-    def test_a_client_ends_at_once_and_leaves_nothing(self):
+    def test_a_client_ends_at_once_and_leaves_no_output(self):
         source = self.folder / "in.csv"
         os.mkfifo(source, 0o666)
         source.chmod(0o666)
         client = self.start(QUERY, "csv", "in.csv", "out.csv", "--table", "/tables/survey.h5",
                             flags=("--volume", f"{self.folder}:/data"))
 
-        def is_read():
+        def is_being_read():
             try:
                 self.addCleanup(os.close, os.open(source, os.O_WRONLY | os.O_NONBLOCK))
-            except OSError:  # By nobody yet.
+            except OSError:  # No process has opened it for reading yet.
                 return False
             return True
 
-        wait_for(is_read, "the client")
+        wait_for(is_being_read, "the client")
         client.stop()
         self.assertEqual(client.exit_code(), 128 + signal.SIGTERM, client.log())
         self.assertEqual(list(self.folder.iterdir()), [source])
@@ -210,14 +210,14 @@ class Generator(FolderTest):
         engine("run", "--rm", *RESTRICTED, "--volume", f"{self.folder}:/data", "--env", "SOURCE_DATE_EPOCH=1700000000",
                *command)
 
-    def test_makes_by_two_ranks_the_table_of_the_program_outside(self):
+    def test_makes_the_same_table_with_two_ranks_as_outside(self):
         run(GENERATOR, "table", "--campaign", self.folder / "small.toml", "--output", self.folder / "outside.h5",
             env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
         self.generate("--tmpfs", "/tmp", "--entrypoint", "mpirun", GENERATE, "--oversubscribe", "-n", "2",
                       "albtpu-generate", "table", "--campaign", "small.toml", "--output", "inside.h5", "--threads", "1")
         self.assertTrue((self.folder / "inside.h5").read_bytes() == (self.folder / "outside.h5").read_bytes())
 
-    def test_makes_by_shards_and_a_merge_the_table_of_one_run(self):
+    def test_makes_the_same_table_with_shards_and_a_merge_as_in_one_run(self):
         self.generate(GENERATE, "table", "--campaign", "small.toml", "--output", "whole.h5")
         for shard in range(2):
             self.generate(GENERATE, "table", "--campaign", "small.toml", "--work", "units",

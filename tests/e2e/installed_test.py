@@ -1,4 +1,4 @@
-"""What `cmake --install` puts under a prefix runs from there, and finds its tables there.
+"""The programs that `cmake --install` puts under a prefix run from there and find their tables there.
 
 Usage: installed_test.py CMAKE BUILD_FOLDER
 """
@@ -18,7 +18,7 @@ from serving import Server
 CMAKE, BUILD = sys.argv[1:3]
 PROGRAMS = ("albtpu-generate", "albtpu-serve", "albtpu-query")
 PULSE = ("--wind-speed", "6", "--incidence", "12.5", "--azimuth", "0", "--footprint", "0.7", "--depth", "5")
-# Nothing of the shell that started the test may help the programs find their files.
+# The environment of the test must not help the programs to find their files.
 CLEAN = {name: value for name, value in os.environ.items()
          if name not in ("LD_LIBRARY_PATH", "ALBTPU_TABLES")}
 
@@ -37,11 +37,11 @@ class Installation(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout
 
-    def test_programs_say_their_version(self):
+    def test_programs_print_their_version(self):
         for name in PROGRAMS:
             self.assertRegex(self.run_program(name, "--version"), rf"^{name} \d+\.\d+\.\d+ ")
 
-    def test_programs_remember_no_build_folder(self):
+    def test_programs_do_not_refer_to_the_build_folder(self):
         for name in PROGRAMS:
             dynamic = subprocess.run(["readelf", "-d", self.prefix / "bin" / name], check=True,
                                      capture_output=True, text=True).stdout
@@ -52,15 +52,15 @@ class Installation(unittest.TestCase):
         self.assertEqual(pulse["outcome"], "INTERPOLATED")
         self.assertGreater(pulse["thu"], 0)
 
-    def test_published_numbers_answer_by_name_and_stand_behind_computed_ones(self):
+    def test_published_numbers_answer_by_name_and_are_not_the_default(self):
         published = ("--table-name", "birkebak2018_measured", "--wind-speed", "5.25", "--incidence", "20",
                      "--azimuth", "0", "--footprint", "0.25", "--depth", "10", "--json")
         pulse = json.loads(self.run_program("albtpu-query", "pulse", *published))
         self.assertEqual(pulse["outcome"], "INTERPOLATED")
-        self.assertAlmostEqual(pulse["refraction_along_wind"], 4.58, places=5)  # Table 4
-        self.assertAlmostEqual(pulse["thu"], 1.05, delta=0.01)  # Table 5
+        self.assertAlmostEqual(pulse["refraction_along_wind"], 4.58, places=5)  # Table 4 of the paper
+        self.assertAlmostEqual(pulse["thu"], 1.05, delta=0.01)  # Table 5 of the paper
         self.assertAlmostEqual(pulse["tvu"], 0.27, delta=0.01)
-        self.assertIsNone(pulse["bias_vertical"])  # the paper gives none
+        self.assertIsNone(pulse["bias_vertical"])  # The paper gives none.
         unnamed = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
         self.assertNotIn("birkebak2018", unnamed["table"])
 
@@ -78,12 +78,12 @@ class Installation(unittest.TestCase):
         for campaign in campaigns:
             self.assertTrue(self.run_program("albtpu-generate", "plan", "--campaign", campaign))
 
-    def test_licence_documents_and_protos_come_along(self):
+    def test_licence_documents_and_protos_are_installed(self):
         for name in ("doc/albtpu/LICENSE", "doc/albtpu/README.md", "doc/albtpu/docs/beam_and_sea.svg",
                      "doc/albtpu/tables/FORMAT.md", "albtpu/proto/albtpu/v1/uncertainty_service.proto"):
             self.assertTrue((self.prefix / "share" / name).is_file(), name)
 
-    def test_documents_find_what_they_link_to(self):
+    def test_documents_link_only_to_installed_files(self):
         documents = self.prefix / "share/doc/albtpu"
         for page in documents.rglob("*.md"):
             for link in re.findall(r"\]\(([\w./-]+)\)", page.read_text()):

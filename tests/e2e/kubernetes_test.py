@@ -1,6 +1,6 @@
-"""docker/kubernetes: what kubectl renders hangs together and keeps to what a careful cluster asks for.
+"""The manifests of docker/kubernetes, as rendered by kubectl, are consistent and meet strict security rules.
 
-No cluster is asked: names, ports, selectors, shards and rights are compared with each other.
+This needs no cluster: names, ports, selectors, shards and privileges are compared with each other.
 
 Usage: kubernetes_test.py KUBERNETES_FOLDER VERSION
 """
@@ -17,9 +17,10 @@ import yaml
 FOLDER, VERSION = pathlib.Path(sys.argv[1]), sys.argv[2]
 OPERATIONS = FOLDER.parent.parent / "docs/operations.md"
 ROOTS = ("base", "overlays/volume", "overlays/volume/fill", "overlays/public", "campaign/shards", "campaign/merge")
-ASKED_FOR = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign"}  # To be made before, as the comments there say.
+MADE_BY_THE_USER = {"albtpu-tls", "albtpu-tokens", "albtpu-campaign"}  # Beforehand, as the comments there say.
 
-VOLUMES = {"campaign/merge": "campaign/shards", "overlays/volume/fill": "overlays/volume"}  # Whose they mount.
+# Where the volume that a root mounts is defined.
+VOLUMES = {"campaign/merge": "campaign/shards", "overlays/volume/fill": "overlays/volume"}
 
 
 def render(root):
@@ -27,7 +28,7 @@ def render(root):
     return list(yaml.safe_load_all(rendered.stdout))
 
 
-@unittest.skipUnless(shutil.which("kubectl"), "no kubectl: apt-get install kubernetes-client is right")
+@unittest.skipUnless(shutil.which("kubectl"), "kubectl is missing; apt-get install kubernetes-client")
 class Rendered(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -47,13 +48,13 @@ class Rendered(unittest.TestCase):
                     if each["kind"] == "Service" and each["metadata"]["name"] == name)["spec"]
 
     def containers(self):
-        """Each with its pod, and where it is from."""
+        """Each container with its root and its pod."""
         for root, workload in self.of_kind("Deployment", "Job", "Pod"):
             pod = workload["spec"] if workload["kind"] == "Pod" else workload["spec"]["template"]["spec"]
             for container in pod["containers"]:
                 yield root, pod, container
 
-    def test_pods_have_no_rights(self):
+    def test_pods_have_no_privileges(self):
         for _, pod, container in self.containers():
             self.assertTrue(pod["securityContext"]["runAsNonRoot"])
             self.assertGreaterEqual(pod["securityContext"]["runAsUser"], 1000)
@@ -62,19 +63,19 @@ class Rendered(unittest.TestCase):
             self.assertEqual(container["securityContext"], {
                 "allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True, "capabilities": {"drop": ["ALL"]}})
 
-    def test_pods_say_what_they_need(self):
+    def test_pods_declare_their_resources(self):
         for _, _, container in self.containers():
             self.assertIn("cpu", container["resources"]["requests"])
             self.assertIn("memory", container["resources"]["requests"])
             self.assertIn("memory", container["resources"]["limits"])
 
-    def test_images_are_of_this_version(self):
+    def test_images_have_the_current_version(self):
         for _, _, container in self.containers():
             self.assertEqual(container["image"].partition(":")[2], VERSION)
 
-    def test_all_that_is_referred_to_is_there_or_asked_for(self):
+    def test_referenced_objects_are_defined_or_made_by_the_user(self):
         for root, pod, container in self.containers():
-            there = ASKED_FOR | set().union(*(self.named(root, kind) for kind in
+            there = MADE_BY_THE_USER | set().union(*(self.named(root, kind) for kind in
                                               ("ConfigMap", "PersistentVolumeClaim", "Secret")))
             if root in VOLUMES:
                 there |= self.named(VOLUMES[root], "PersistentVolumeClaim")
@@ -97,7 +98,7 @@ class Rendered(unittest.TestCase):
             self.assertEqual(selector.get("matchLabels", selector), deployment["selector"]["matchLabels"])
             self.assertEqual(deployment["template"]["metadata"]["labels"], deployment["selector"]["matchLabels"])
 
-    def test_ports_are_those_of_the_servers(self):
+    def test_ports_of_services_are_those_of_the_servers(self):
         for root, each in self.of_kind("Service"):
             container = self.deployment(root)["template"]["spec"]["containers"][0]
             ports = {port["name"]: port["containerPort"] for port in container["ports"]}
@@ -107,19 +108,19 @@ class Rendered(unittest.TestCase):
                 address = container["args"][container["args"].index(flag) + 1]
                 self.assertEqual(address, f"0.0.0.0:{ports[name]}")
 
-    def test_clients_balance_by_the_addresses_of_a_name(self):
+    def test_clients_can_balance_over_the_addresses_of_a_name(self):
         spec = self.service("albtpu-serve")
         self.assertEqual(spec["clusterIP"], "None")
         self.assertFalse(spec.get("publishNotReadyAddresses", False))
 
-    def test_prometheus_is_told_of_servers_that_are_not_ready(self):
+    def test_prometheus_finds_servers_that_are_not_ready(self):
         scraped = re.search(r"names: \[([a-z-]+)\.NAMESPACE\.svc.*port: (\d+)", OPERATIONS.read_text())
         spec = self.service(scraped[1])
         self.assertEqual(spec["clusterIP"], "None")
         self.assertTrue(spec["publishNotReadyAddresses"])
         self.assertEqual([port["port"] for port in spec["ports"]], [int(scraped[2])])
 
-    def test_servers_are_asked_for_their_health(self):
+    def test_probes_query_the_health_of_the_servers(self):
         for _, _, container in self.containers():
             if container["name"] == "serve":
                 secured = "--tls-cert" in container["args"]
@@ -128,7 +129,7 @@ class Rendered(unittest.TestCase):
                     self.assertEqual(by_tls in container[probe], secured)
                     self.assertEqual("grpc" in container[probe], not secured)
 
-    def test_shards_are_as_many_as_are_completed(self):
+    def test_the_number_of_shards_is_the_number_of_completions(self):
         for root, job in self.of_kind("Job"):
             if root == "campaign/shards":
                 self.assertEqual(job["spec"]["completionMode"], "Indexed")

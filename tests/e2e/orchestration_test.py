@@ -1,4 +1,4 @@
-"""The images run together as docker/compose.yaml and docker/kubernetes say, with podman or docker.
+"""Runs the images with podman or docker as docker/compose.yaml and docker/kubernetes describe.
 
 Usage: orchestration_test.py ENGINE BASE_IMAGE SOURCE_FOLDER [TEST]
 """
@@ -19,8 +19,8 @@ from containers import ENGINE, IS_PODMAN, PATIENCE, QUERY, RESTRICTED, TAG, engi
 
 BASE, SOURCE = sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
 COMPOSE = ["podman-compose"] if IS_PODMAN else [ENGINE, "compose"]
-PROJECT = f"albtpu-test-{os.getpid()}"  # None that this machine runs.
-PROMETHEUS = "albtpu-test-prometheus"  # Debian's, where no registry is reached.
+PROJECT = f"albtpu-test-{os.getpid()}"  # Differs from any project in use on this machine.
+PROMETHEUS = "albtpu-test-prometheus"  # From Debian's package, which needs no registry.
 PROMETHEUS_IMAGE = f"""FROM {BASE}
 RUN apt-get -qq update && apt-get -qq install --yes --no-install-recommends prometheus >/dev/null
 RUN mkdir /prometheus && chown 65534:65534 /prometheus
@@ -40,7 +40,7 @@ def fetch(url):
         return json.load(page)
 
 
-@unittest.skipUnless(shutil.which(COMPOSE[0]), "no podman-compose: apt-get install podman-compose is right")
+@unittest.skipUnless(shutil.which(COMPOSE[0]), "podman-compose is missing; apt-get install podman-compose")
 class Compose(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -59,10 +59,10 @@ class Compose(unittest.TestCase):
         return run(*COMPOSE, "--project-name", PROJECT, "--file", SOURCE / "docker/compose.yaml", *command,
                    env=cls.environment)
 
-    def test_the_job_gets_its_answer(self):
+    def test_the_job_gets_an_answer(self):
         wait_for(lambda: "INTERPOLATED" in self.compose("logs", "query"), "the job")
 
-    def test_prometheus_watches_the_server(self):
+    def test_prometheus_monitors_the_server(self):
         def healthy():
             try:
                 targets = fetch(self.prometheus + "/api/v1/targets")["data"]["activeTargets"]
@@ -75,15 +75,15 @@ class Compose(unittest.TestCase):
         self.assertIn("AlbtpuDown", [rule["name"] for group in groups for rule in group["rules"]])
 
 
-@unittest.skipUnless(IS_PODMAN, "kube play is podman's")
-@unittest.skipUnless(shutil.which("kubectl"), "no kubectl: apt-get install kubernetes-client is right")
+@unittest.skipUnless(IS_PODMAN, "only podman has kube play")
+@unittest.skipUnless(shutil.which("kubectl"), "kubectl is missing; apt-get install kubernetes-client")
 class KubePlay(unittest.TestCase):
     def setUp(self):
         rendered = run("kubectl", "kustomize", SOURCE / "docker/kubernetes/overlays/volume")
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.manifest = pathlib.Path(folder.name, "albtpu.yaml")
-        # What has a meaning on one machine; the claim is a volume that is there, with one table.
+        # Only the objects that work on a single machine. A volume with one table stands for the claim.
         kinds = ("kind: ConfigMap", "kind: Deployment")
         played = [part for part in rendered.split("\n---\n") if any(kind in part for kind in kinds)]
         self.assertEqual(len(played), len(kinds))
@@ -99,15 +99,15 @@ class KubePlay(unittest.TestCase):
         engine("kube", "play", self.manifest)
         pod = engine("pod", "ps", "--format", "{{.Name}}", "--filter", "name=albtpu-serve").split()[0]
 
-        def ask(*arguments):
+        def query(*arguments):
             result = subprocess.run([ENGINE, "run", "--rm", *RESTRICTED, "--pod", pod, QUERY, *arguments,
                                      "--server", "127.0.0.1:50051"], capture_output=True, text=True, timeout=PATIENCE)
             return result.stdout
 
-        wait_for(lambda: ask("health") == "SERVING\n" or "error" in engine("pod", "logs", pod), "the pod")
-        self.assertTrue(ask("tables").startswith("survey (default)\n"))
-        self.assertEqual(ask("tables").count("digest"), 1)  # Not those of the image.
-        self.assertIn("INTERPOLATED", ask("pulse", "--wind-speed", "7", "--incidence", "12", "--footprint", "0.5",
+        wait_for(lambda: query("health") == "SERVING\n" or "error" in engine("pod", "logs", pod), "the pod")
+        self.assertTrue(query("tables").startswith("survey (default)\n"))
+        self.assertEqual(query("tables").count("digest"), 1)  # Only the table of the volume, not those of the image.
+        self.assertIn("INTERPOLATED", query("pulse", "--wind-speed", "7", "--incidence", "12", "--footprint", "0.5",
                                           "--depth", "8"))
 
 

@@ -1,4 +1,4 @@
-"""A Slurm of one's own for a test: one node, this machine, no other users, gone afterwards."""
+"""A private Slurm cluster for a test: one node, which is this machine, stopped after the test."""
 
 import getpass
 import os
@@ -8,7 +8,7 @@ import socket
 import subprocess
 import time
 
-PATIENCE = 600  # Seconds that a loaded machine may need.
+PATIENCE = 600  # s; a loaded machine may be slow.
 MISSING = [name for name in ("slurmctld", "slurmd", "sbatch") if not shutil.which(name)]
 
 CONFIGURATION = """ClusterName=test
@@ -44,7 +44,7 @@ def free_ports(count):
 
 
 class CannotStart(Exception):
-    """Says why."""
+    """Slurm cannot start; the text says why."""
 
 
 class Slurm:
@@ -84,7 +84,7 @@ class Slurm:
             time.sleep(0.2)
 
     def wait_for_jobs(self):
-        """Returns how the jobs ended, by their names."""
+        """Returns the final states of the jobs by name."""
         self.wait_for(lambda: not self.run("squeue", "--noheader"))
         jobs = self.run("scontrol", "show", "job", "--oneliner").splitlines()
         fields = [dict(part.split("=", 1) for part in job.split() if "=" in part) for job in jobs]

@@ -1,4 +1,4 @@
-"""`albtpu-generate validate --quick`: the report that comes out, as a reader gets it.
+"""The report of `albtpu-generate validate --quick`.
 
 Usage: validate_test.py ALBTPU_GENERATE
 """
@@ -22,7 +22,7 @@ def validate(*arguments):
 
 
 class Page(html.parser.HTMLParser):
-    """What the page refers to, and whether its elements are closed in order."""
+    """Collects the references of the page, and checks that its elements are nested correctly."""
 
     VOID = {"meta", "img", "br", "link"}
 
@@ -64,7 +64,7 @@ class Report(unittest.TestCase):
         with open(self.folder / "summary.csv", newline="") as file:
             return list(csv.DictReader(file))
 
-    def test_is_one_page_that_needs_nothing_else(self):
+    def test_is_a_single_page_without_external_references(self):
         self.assertEqual(self.page.open, [])
         self.assertEqual(self.page.foreign, [])
         self.assertLessEqual(self.page.anchors, self.page.ids)
@@ -74,7 +74,7 @@ class Report(unittest.TestCase):
         counts = {verdict: str(verdicts.count(verdict)) for verdict in ("agrees", "differs", "reported")}
         self.assertEqual(dict(line.split() for line in self.made.stdout.splitlines()), counts)
 
-    def test_says_of_every_comparison_what_it_rests_on(self):
+    def test_states_the_basis_of_every_comparison(self):
         for line in self.summary():
             self.assertTrue(line["basis"], line)
             self.assertTrue(line["ours"], line)
@@ -91,19 +91,19 @@ class Report(unittest.TestCase):
             self.assertGreater(len(rows), 1, table.name)
             self.assertEqual({len(row) for row in rows}, {len(rows[0])}, table.name)
 
-    def test_has_its_figures_inside(self):
+    def test_contains_its_figures(self):
         if importlib.util.find_spec("matplotlib") is None:
             self.assertIn("Figures are missing", self.text)
-            self.skipTest("python3-matplotlib is not installed: the report says so")
+            self.skipTest("matplotlib is missing; apt-get install python3-matplotlib")
         self.assertNotIn("is missing", self.text)
         self.assertEqual(len(self.page.images), len(list(self.folder.glob("*.svg"))))
         for image in self.page.images:
             self.assertGreater(len(image["alt"]), 20)
 
-    def test_fits_a_phone_and_a_desk(self):
+    def test_fits_the_screens_of_a_phone_and_a_desktop(self):
         browser = shutil.which("chromium")
         if browser is None:
-            self.skipTest("no chromium to look at the page with")
+            self.skipTest("chromium is missing; apt-get install chromium")
         for width in (390, 1280):
             frame = self.folder / "frame.html"
             frame.write_text(
@@ -117,14 +117,14 @@ class Report(unittest.TestCase):
             scroll, client = map(int, re.search(r"widths (\d+) (\d+)", seen).groups())
             self.assertLessEqual(scroll, client, f"wider than {width} pixels")
 
-    def test_is_not_replaced_unless_told(self):
+    def test_is_replaced_only_with_overwrite(self):
         before = (self.folder / "report.html").stat().st_mtime_ns
         again = validate("--quick", "--output", self.folder)
         self.assertEqual(again.returncode, 1)
         self.assertIn("is not empty; --overwrite replaces", again.stderr)
         self.assertEqual((self.folder / "report.html").stat().st_mtime_ns, before)
 
-    def test_is_not_begun_where_it_cannot_be_written(self):
+    def test_is_not_started_if_it_cannot_be_written(self):
         for output, code in ((self.folder / "none" / "deeper", 1), (self.folder / "summary.csv", 1)):
             run = validate("--output", output)
             self.assertEqual(run.returncode, code, run.stderr)
