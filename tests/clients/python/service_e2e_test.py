@@ -136,19 +136,19 @@ class Service(unittest.TestCase):
         table = pathlib.Path(folder, "synthetic.h5")
         subprocess.run([SYNTHETIC_TABLE, table], check=True)
         servers = [Server(SERVE, "--tables", folder)]
-        take, taken = ColumnStream._take, []
+        store, stored = ColumnStream._store, []
 
-        def take_and_replace(stream, *answer):
-            take(stream, *answer)
-            taken.append(answer)
-            if len(taken) == 2:
+        def store_and_replace(stream, *answer):
+            store(stream, *answer)
+            stored.append(answer)
+            if len(stored) == 2:
                 servers[0].stop(signal.SIGKILL)
                 subprocess.run([SYNTHETIC_TABLE, table, *flags], check=True)
                 servers.append(Server(SERVE, "--tables", folder, listen=servers[0].address))
 
         try:
             with albtpu.connect(servers[0].address, patience=60) as client:
-                with mock.patch.object(ColumnStream, "_take", take_and_replace):
+                with mock.patch.object(ColumnStream, "_store", store_and_replace):
                     return client.query(**LINE)
         finally:
             for server in servers:

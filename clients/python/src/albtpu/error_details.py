@@ -18,7 +18,7 @@ _MESSAGES = {"Any": ("type_url", "*value"), "FieldViolation": ("field", "descrip
              "Status": (None, "message", "Any"), "BadRequest": ("FieldViolation",)}
 
 
-def added_by_details(error: grpc.RpcError) -> str:
+def field_violations(error: grpc.RpcError) -> str:
     """`; FIELD: DESCRIPTION` for each wrong field that the text of `error` does not mention yet."""
     text = error.details() or ""
     return "".join(f"; {field}: {what}" for field, what in _violations(error) if what not in text)

@@ -82,10 +82,11 @@ def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
     """
     worse = (crosswind.outcomes > downwind.outcomes) | (
         (crosswind.outcomes == downwind.outcomes) & (crosswind.outcome_axes < downwind.outcome_axes))
-    takes = {name: np.abs(crosswind.values[name]) > np.abs(value) for name, value in downwind.values.items()}
+    crosswind_is_larger = {name: np.abs(crosswind.values[name]) > np.abs(value)
+                           for name, value in downwind.values.items()}
 
     def chosen(ours: dict[str, Doubles], theirs: dict[str, Doubles]) -> dict[str, Doubles]:
-        return {name: np.where(takes[name], theirs[name], ours[name]) for name in ours}
+        return {name: np.where(crosswind_is_larger[name], theirs[name], ours[name]) for name in ours}
 
     radius = downwind.radius_over_thu
     if "thu" in downwind.values:

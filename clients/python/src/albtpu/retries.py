@@ -6,7 +6,7 @@ import time
 
 import grpc
 
-from .error_details import added_by_details
+from .error_details import field_violations
 from .errors import ServiceError, TableNotFoundError, UnreachableError
 
 # The server is shutting down, restarting or at a limit; it may answer again in a moment.
@@ -43,9 +43,9 @@ def _watch(state: grpc.ChannelConnectivity) -> None:
     pass
 
 
-def explained(target: str, error: grpc.RpcError) -> ServiceError:
+def service_error(target: str, error: grpc.RpcError) -> ServiceError:
     """The exception of this package for a failed call."""
-    code, text = error.code(), f"server {target}: {error.details()}{added_by_details(error)}"
+    code, text = error.code(), f"server {target}: {error.details()}{field_violations(error)}"
     if code == grpc.StatusCode.UNAVAILABLE:
         hint = "start albtpu-serve there, check HOST:PORT, or check that both sides use TLS, or neither (ca=)"
         return UnreachableError(f"{text}: {hint}", code.name)

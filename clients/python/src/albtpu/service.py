@@ -11,7 +11,7 @@ from .channel import File, open_channel
 from .errors import ArgumentError
 from .progress import Progress
 from .query import Query, check_table
-from .retries import Retries, explained
+from .retries import Retries, service_error
 from .source import UncertaintySource
 from .stream import ColumnStream
 from .tables import AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
@@ -52,7 +52,7 @@ class Service(UncertaintySource):
 
     def tables(self) -> list[TableSummary]:
         """All tables of the server, sorted by name; of one name, the newest version first."""
-        listed = self._ask(self._stub.ListTables, wire.ListTablesRequest())
+        listed = self._call(self._stub.ListTables, wire.ListTablesRequest())
         return [TableSummary(TableReference.of(table.reference), table.title,
                              is_default=table.reference.name == listed.default_table)
                 for table in listed.tables]
@@ -60,7 +60,7 @@ class Service(UncertaintySource):
     def table(self, name: str | None = None) -> Table:
         """As in UncertaintySource. Raises TableNotFoundError, which lists the existing names."""
         check_table(name)
-        table = self._ask(self._stub.GetTable, wire.GetTableRequest(table=name)).table
+        table = self._call(self._stub.GetTable, wire.GetTableRequest(table=name)).table
         return Table(
             TableReference.of(table.reference), table.title,
             {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
@@ -85,14 +85,14 @@ class Service(UncertaintySource):
         stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
         return stream.run(Retries(self._channel, self._patience))
 
-    def _ask(self, method: Any, request: Any) -> Any:
+    def _call(self, method: Any, request: Any) -> Any:
         retries = Retries(self._channel, self._patience)
         while True:
             try:
                 return method(request, timeout=self._timeout)
             except grpc.RpcError as error:
                 if not retries.wait_after(error):
-                    raise explained(self._target, error) from error
+                    raise service_error(self._target, error) from error
 
 
 def _attribute(value: Any) -> AttributeValue:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .errors import ServiceError, TableChangedError, UnreachableError
 from .progress import Progress
 from .query import Query
-from .retries import Retries, explained
+from .retries import Retries, service_error
 from .schema import COVERAGES, QUANTITIES, S44_ORDERS
 from .tables import TableReference
 from .uncertainties import AnswerColumns
@@ -49,7 +49,7 @@ class ColumnStream:
                 if self._answered > before:
                     retries.succeeded()
                 if not retries.wait_after(error):
-                    raise explained(self._target, error) from error
+                    raise service_error(self._target, error) from error
         assert self._table is not None
         return self._table
 
@@ -58,10 +58,10 @@ class ColumnStream:
         call = sender.call = self._stub.StreamColumns(sender.requests())
         try:
             for response in call:
-                self._take(response.answer, sender.lengths.popleft() if sender.lengths else 0)
+                self._store(response.answer, sender.lengths.popleft() if sender.lengths else 0)
                 sender.free.release()
             if self._answered < self._query.size:
-                raise self._wrong(f"it ended the stream after {self._answered} of {self._query.size} pulses")
+                raise self._protocol_error(f"it ended the stream after {self._answered} of {self._query.size} pulses")
         except grpc.RpcError as error:
             if sender.timed_out:
                 raise UnreachableError(f"server {self._target}: no answer in {self._timeout:g} s") from error
@@ -70,24 +70,24 @@ class ColumnStream:
             sender.stop()
             call.cancel()
 
-    def _take(self, answer: Any, length: int) -> None:
+    def _store(self, answer: Any, length: int) -> None:
         """Writes the answer to the next batch into its place. The columns of the batch had `length` elements."""
         table = TableReference.of(answer.table)
         self._table = self._table or table
         if table.digest != self._table.digest:
             raise TableChangedError(
                 f"server {self._target}: table {table.name} changed from digest {self._table.digest} to "
-                f"{table.digest} after {self._answered} of {self._query.size} pulses: ask again")
+                f"{table.digest} after {self._answered} of {self._query.size} pulses: repeat the query")
         begin, end = self._answered, min(self._answered + _BATCH, self._query.size)
-        for column, content in self._pairs(answer):
+        for column, content in self._columns_and_bytes(answer):
             numbers = np.frombuffer(content, column.dtype.newbyteorder("<")) if content else column[:0]
             if numbers.size != length:
-                raise self._wrong(f"it answered {length} pulses with a column of {len(content)} bytes")
+                raise self._protocol_error(f"it answered {length} pulses with a column of {len(content)} bytes")
             column[begin:end] = numbers
         self._answered = end
         self._progress(end - begin)
 
-    def _pairs(self, answer: Any) -> Iterator[tuple[NDArray[Any], bytes]]:
+    def _columns_and_bytes(self, answer: Any) -> Iterator[tuple[NDArray[Any], bytes]]:
         """Each column of the result with its bytes in `answer`."""
         columns = self._columns
         yield columns.outcomes, answer.outcomes
@@ -102,8 +102,8 @@ class ColumnStream:
             yield columns.remaining_thu, answer.s44.remaining_thu
             yield columns.remaining_tvu, answer.s44.remaining_tvu
 
-    def _wrong(self, what: str) -> ServiceError:
-        return ServiceError(f"server {self._target}: {what}: is it an albtpu-serve of this version?")
+    def _protocol_error(self, what: str) -> ServiceError:
+        return ServiceError(f"server {self._target}: {what}: it may be an albtpu-serve of another version")
 
 
 class _Sender:

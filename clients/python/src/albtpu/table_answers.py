@@ -44,25 +44,25 @@ class TableAnswers:
             two_sigma = [interpolate(pulses, count) for interpolate in self._interpolators]
             numbers = two_sigma[0] if len(two_sigma) == 1 else larger_of(*two_sigma)
             columns.outcomes[block], columns.outcome_axes[block] = numbers.outcomes, numbers.outcome_axes
-            none = numbers.outcomes != INTERPOLATED
+            without_number = numbers.outcomes != INTERPOLATED
             for target, source in ((columns.values, numbers.values),
                                    (columns.standard_errors, numbers.standard_errors)):
                 for name, column in target.items():
                     column[block] = source[name] * self._factor(name, numbers) if name in source else np.nan
-                    column[block][none] = np.nan
+                    column[block][without_number] = np.nan
             if self._s44:
-                self._fill_s44(columns, block, numbers, none, pulses["depth"].astype(np.float64))
+                self._fill_s44(columns, block, numbers, without_number, pulses["depth"].astype(np.float64))
 
     def _factor(self, name: str, numbers: PulseNumbers) -> Doubles | float:
         if self._query.coverage == "2sigma" or name in BIASES:
             return 1.0
         return numbers.radius_over_thu if name == "thu" else FACTOR_95
 
-    def _fill_s44(self, columns: AnswerColumns, block: slice, numbers: PulseNumbers, none: NDArray[np.bool_],
+    def _fill_s44(self, columns: AnswerColumns, block: slice, numbers: PulseNumbers, without_number: NDArray[np.bool_],
                   depth: Doubles) -> None:
         thu = (numbers.values["thu"] * numbers.radius_over_thu).astype(np.float32).astype(np.float64)
         tvu = (numbers.values["tvu"] * FACTOR_95).astype(np.float32).astype(np.float64)
-        thu[none] = tvu[none] = np.nan
+        thu[without_number] = tvu[without_number] = np.nan
         if columns.best_s44_orders is not None:
             columns.best_s44_orders[block] = best_orders(thu, tvu, depth)
         if columns.remaining_thu is not None and columns.remaining_tvu is not None:

@@ -49,13 +49,13 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
     axes = {axis: _read_axis(file, axis) for axis in AXES}
     values, standard_errors, quantities = {}, {}, {}
     for quantity, (units, long_name) in QUANTITIES.items():
-        if not _holds(file, quantity):
+        if not _has(file, quantity):
             if quantity in BIASES:
                 continue
             raise TableFileError(f"variable '{quantity}' is missing")
         values[quantity] = _read_values(file, quantity, quantity, axes)
         scale = _scale(file[quantity], "variable", quantity, values[quantity])
-        if _holds(file, errors := quantity + STANDARD_ERROR):
+        if _has(file, errors := quantity + STANDARD_ERROR):
             standard_errors[quantity] = _read_values(file, errors, quantity, axes)
         quantities[quantity] = Quantity(units, long_name, scale, quantity in standard_errors)
     reference = TableReference(name, _text(file, "id"), _text(file, "version"), _text(file, "content_digest"))
@@ -89,13 +89,13 @@ def _read_values(file: h5py.File, name: str, quantity: str, axes: dict[str, Axis
     return values
 
 
-def _holds(file: h5py.File, name: str) -> bool:
+def _has(file: h5py.File, name: str) -> bool:
     """Unlike `in`, does not follow links, which may lead to other files."""
     return bool(file.id.links.exists(name.encode()))
 
 
 def _floats(file: h5py.File, kind: str, name: str, units: str) -> Floats:
-    if not _holds(file, name):
+    if not _has(file, name):
         raise TableFileError(f"{kind} '{name}' is missing")
     if file.id.links.get_info(name.encode()).type != h5py.h5l.TYPE_HARD:
         raise TableFileError(f"{kind} '{name}' is a link: it should be a dataset of this file")
