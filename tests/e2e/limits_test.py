@@ -14,7 +14,7 @@ import unittest
 
 import grpc
 
-from albtpu.retries import explained
+from albtpu.retries import service_error
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 from secured import SecurityTest
@@ -103,7 +103,7 @@ class Errors(SecurityTest):
                 with self.assertRaises(grpc.RpcError) as failure:
                     call()
                 self.assertEqual(failure.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
-                text = str(explained("there", failure.exception))
+                text = str(service_error("there", failure.exception))
                 self.assertIn("column 'incidence' has 2 numbers, column 'depth' has 3", text)
                 self.assertIn(f"; {path}footprint: column 'footprint' is empty", text)
 

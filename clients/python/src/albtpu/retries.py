@@ -47,7 +47,7 @@ def service_error(target: str, error: grpc.RpcError) -> ServiceError:
     """The exception of this package for a failed call."""
     code, text = error.code(), f"server {target}: {error.details()}{field_violations(error)}"
     if code == grpc.StatusCode.UNAVAILABLE:
-        hint = "start albtpu-serve there, check HOST:PORT, or check that both sides use TLS, or neither (ca=)"
+        hint = "start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (ca=)"
         return UnreachableError(f"{text}: {hint}", code.name)
     if code == grpc.StatusCode.UNAUTHENTICATED:
         return ServiceError(f"{text} (token=)", code.name)
