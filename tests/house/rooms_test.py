@@ -27,7 +27,8 @@ class Includes(unittest.TestCase):
             self.assertIsNotNone(here, f"{path} lies in no room of rooms.toml")
             if there is None or there == here:
                 continue
-            self.assertIn(there, LAW.uses[here], f"{path} includes {header}: rooms.toml does not let {here} use {there}")
+            self.assertIn(there, LAW.uses[here],
+                          f"{path} includes {header}: rooms.toml does not let {here} use {there}")
             seen += 1
         self.assertGreater(seen, 100)
 
