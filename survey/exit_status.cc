@@ -5,8 +5,12 @@
 #include <string>
 
 #include "absl/strings/cord.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+#include "service/client/server_error.h"
 #include "service/printable_text.h"
-#include "survey/error_details.h"
 
 namespace albtpu::client {
 namespace {
@@ -23,6 +27,22 @@ absl::Status UsageError(std::string_view message) {
 
 bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsagePayload).has_value(); }
 
+std::string MessageWithDetails(const absl::Status& status) {
+  std::string message(status.message());
+  const auto payload = status.GetPayload(absl::string_view(kErrorDetails.data(), kErrorDetails.size()));
+  google::rpc::Status details;
+  if (!payload.has_value() || !details.ParseFromString(std::string(*payload))) return message;
+  for (const google::protobuf::Any& detail : details.details()) {
+    google::rpc::BadRequest request;
+    if (!detail.UnpackTo(&request)) continue;
+    for (const auto& violation : request.field_violations()) {
+      if (absl::StrContains(message, violation.description())) continue;
+      absl::StrAppend(&message, "; ", violation.field(), ": ", violation.description());
+    }
+  }
+  return message;
+}
+
 int Report(const absl::Status& status) {
   if (status.ok()) return 0;
   Note(MessageWithDetails(status));
@@ -31,7 +51,7 @@ int Report(const absl::Status& status) {
 
 absl::Status FlushAnswers() {
   if (std::cout.flush()) return absl::OkStatus();
-  return absl::DataLossError("standard output: cannot be written: send it where there is room");
+  return absl::DataLossError("standard output: cannot be written; redirect it to a disk with free space");
 }
 
 void Note(std::string_view message, const std::string& below) {

@@ -1,4 +1,5 @@
-// From a status to what the shell sees: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.
+// What the program tells the shell: one message on standard error, and the exit code: 0 when every pulse got an
+// outcome, 2 for bad usage, 1 for any other failure.
 #pragma once
 
 #include <string>
@@ -8,21 +9,32 @@
 
 namespace albtpu::client {
 
+// A message for the user reads
+//     PROBLEM (WHY); SUGGESTION
+// on one line and in plain English: what is wrong, and with which file, line, column, flag or server; in
+// parentheses the detail that explains it; after the semicolon what to do about it. Leave out what would say
+// nothing. The file or flag comes first, before a colon:
+//     in.csv line 4, column 'depth': 'deep' is not a number; write a number in m, such as 12.5
+
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-// An InvalidArgument that the caller of the program made with its flags, not a file or a server.
+// An InvalidArgument whose cause is the command line, rather than a file or a server.
 absl::Status UsageError(std::string_view message);
 bool IsUsageError(const absl::Status& status);
 
-// Prints `albtpu-query: message` on standard error unless the status is OK; returns the exit code.
+// The message of `status`, followed by `; FIELD: DESCRIPTION` for each field violation (google.rpc.BadRequest)
+// in the details of a server's error that the message does not mention yet.
+std::string MessageWithDetails(const absl::Status& status);
+
+// Prints the message of a failure to standard error and returns the exit code; an OK status prints nothing.
 int Report(const absl::Status& status);
 
-// Flushes standard output; fails when what was printed did not get through (a full disk, say).
+// Flushes standard output. Fails when the output could not be written, for example on a full disk.
 absl::Status FlushAnswers();
 
-// `albtpu-query: message` on standard error, on one line, for some of it may be a server's; then `below`,
-// which is ours, as it is.
+// Prints `albtpu-query: MESSAGE` to standard error, followed by `below`. The message may quote a server or a file
+// name, so it is made printable and put on one line; `below` is our own text and is printed unchanged.
 void Note(std::string_view message, const std::string& below = "");
 
 }  // namespace albtpu::client

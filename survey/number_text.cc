@@ -12,7 +12,7 @@ namespace albtpu::client {
 
 namespace {
 
-// Abseil reads hexadecimal too, which nobody means in a file of coordinates.
+// Abseil also reads hexadecimal numbers; in a file of coordinates one is a mistake.
 bool IsHexadecimal(std::string_view text) { return text.find_first_of("xX") != std::string_view::npos; }
 
 bool HasDigit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }

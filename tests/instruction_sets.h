@@ -1,4 +1,4 @@
-// Runs every test of a fixture on each instruction set that this machine has and the kernels were compiled for.
+// Runs every test of a fixture on each instruction set that this machine supports and the kernels were compiled for.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ class OnInstructionSet : public ::testing::TestWithParam<std::int64_t> {
   OnInstructionSet() { Choose(GetParam()); }
   ~OnInstructionSet() override { Choose(0); }
 
-  // From here on; 0 is the usual one.
+  // Takes effect immediately; 0 selects the default.
   static void Choose(std::int64_t target) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());

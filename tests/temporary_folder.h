@@ -1,4 +1,4 @@
-// A folder of a test's own, removed with all that is in it.
+// A temporary folder for a test, removed with its contents when the test ends.
 #pragma once
 
 #include <stdlib.h>
@@ -33,7 +33,7 @@ class TemporaryFolder {
     return path_ / name;
   }
 
-  // Names in the folder, hidden ones too.
+  // Entries of the folder, including hidden ones.
   std::size_t file_count() const {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));

@@ -20,14 +20,14 @@ using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedInputStream;
 using Response = v1::QueryColumnsResponse;
 
-constexpr int kTop = 0;  // In place of the number of a field: the response itself.
+constexpr int kTop = 0;  // Stands for the response itself where a field number is expected.
 
-// A column of the message: where it stands, and where it is wanted.
+// A column of the message: its position there, and its destination.
 struct Column {
-  int message;  // The field of the response that holds it, or kTop.
+  int message;  // The field of the response that contains it, or kTop.
   int field;
   std::size_t element_size;
-  void* wanted;  // Null: not.
+  void* destination;  // Null if the column is not requested.
   std::string name;
   bool found = false;
 };
@@ -39,12 +39,12 @@ std::vector<Column> Columns(const Query& query, const AnswerColumns& answers) {
     return in->FindFieldByNumber(field)->name();
   };
   std::vector<Column> columns;
-  const auto add = [&](int message, int field, auto* wanted) {
-    columns.push_back({message, field, sizeof *wanted, wanted, name(message, field)});
+  const auto add = [&](int message, int field, auto* destination) {
+    columns.push_back({message, field, sizeof *destination, destination, name(message, field)});
   };
   add(kTop, Response::kOutcomesFieldNumber, answers.outcomes);
   add(kTop, Response::kOutcomeAxesFieldNumber, answers.outcome_axes);
-  for (int i = 0; i < static_cast<int>(kQuantityCount); ++i) {  // Fields are numbered as quantities, from 1.
+  for (int i = 0; i < static_cast<int>(kQuantityCount); ++i) {  // Field i + 1 is quantity i.
     add(Response::kSeaSurfaceFieldNumber, i + 1, answers.values[i]);
     add(Response::kSeaSurfaceStandardErrorFieldNumber, i + 1, answers.standard_errors[i]);
   }
@@ -66,7 +66,7 @@ class Reader {
   Reader(CodedInputStream& input, std::size_t pulse_count, std::vector<Column> columns)
       : input_(input), pulse_count_(pulse_count), columns_(std::move(columns)) {}
 
-  // Up to the end of the input, or of the part of it that is looked at.
+  // Reads to the end of the input, or of the limit pushed on it.
   absl::StatusOr<Response> Read() {
     google::protobuf::io::StringOutputStream rest(&rest_);
     {
@@ -74,7 +74,7 @@ class Reader {
       if (absl::Status status = ReadFields(kTop, writer); !status.ok()) return status;
     }
     for (const Column& column : columns_) {
-      if (column.wanted != nullptr && !column.found) return WrongLength(column, 0);
+      if (column.destination != nullptr && !column.found) return WrongLength(column, 0);
     }
     Response response;
     if (!response.ParseFromString(rest_)) return Unreadable();
@@ -83,13 +83,13 @@ class Reader {
 
  private:
   static absl::Status Unreadable() {
-    return absl::InternalError("answered bytes that do not parse as a message");
+    return absl::InternalError("answered bytes that are not a valid message");
   }
 
   absl::Status WrongLength(const Column& column, std::size_t size) const {
     return absl::InternalError(absl::StrCat("answered ", size, " bytes of ", column.name, " for ",
-                                            pulse_count_, " pulses: ", column.element_size,
-                                            " for each are right"));
+                                            pulse_count_, " pulses; expected ", column.element_size,
+                                            " for each"));
   }
 
   absl::Status ReadFields(int message, google::protobuf::io::CodedOutputStream& rest) {
@@ -124,10 +124,10 @@ class Reader {
 
   absl::Status ReadColumn(Column& column, std::size_t size) {
     const int length = static_cast<int>(size);
-    if (column.wanted == nullptr) return input_.Skip(length) ? absl::OkStatus() : Unreadable();
+    if (column.destination == nullptr) return input_.Skip(length) ? absl::OkStatus() : Unreadable();
     if (size != pulse_count_ * column.element_size) return WrongLength(column, size);
     column.found = true;
-    return input_.ReadRaw(column.wanted, length) ? absl::OkStatus() : Unreadable();
+    return input_.ReadRaw(column.destination, length) ? absl::OkStatus() : Unreadable();
   }
 
   CodedInputStream& input_;
@@ -139,7 +139,7 @@ class Reader {
 absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const char* name, int first,
                           int last) {
   if (column == nullptr) return absl::OkStatus();
-  std::uint8_t least = 255, most = 0;  // Without an early end, for the compiler to take many at a time.
+  std::uint8_t least = 255, most = 0;  // The loop has no early exit, so that the compiler vectorizes it.
   for (std::size_t i = 0; i < count; ++i) {
     least = std::min(least, column[i]);
     most = std::max(most, column[i]);
@@ -148,7 +148,7 @@ absl::Status CheckNumbers(const std::uint8_t* column, std::size_t count, const c
   if (count == 0 || (known(least) && known(most))) return absl::OkStatus();
   const std::uint8_t* unknown = std::find_if_not(column, column + count, known);
   return absl::InternalError(
-      absl::StrCat("answered ", *unknown, " among the ", name, ", which this program does not know"));
+      absl::StrCat("answered ", *unknown, " among the ", name, ", a number that this program does not know"));
 }
 
 void FillWithNaN(float* column, std::size_t count) {
@@ -162,14 +162,14 @@ absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, s
   const v1::Coverage coverage = query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
   absl::Status status;
   if (head->coverage() != coverage) {
-    status = absl::InternalError(
-        absl::StrCat("answered coverage ", head->coverage(), ": ", coverage, " was asked for"));
+    status =
+        absl::InternalError(absl::StrCat("answered coverage ", head->coverage(), "; expected ", coverage));
   }
   status.Update(CheckNumbers(answers.outcomes, pulse_count, "outcomes", 1, v1::Outcome_MAX));
   status.Update(CheckNumbers(answers.outcome_axes, pulse_count, "outcome axes", 0, v1::Axis_MAX));
   status.Update(CheckNumbers(answers.best_s44_orders, pulse_count, "best orders", 0, v1::S44Order_MAX));
   if (!status.ok()) return status;
-  if (!query.s44_order.has_value()) {  // Nothing remains of no order.
+  if (!query.s44_order.has_value()) {  // Without an order there is no remaining budget.
     FillWithNaN(answers.remaining_thu, pulse_count);
     FillWithNaN(answers.remaining_tvu, pulse_count);
   }

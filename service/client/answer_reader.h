@@ -1,4 +1,4 @@
-// Answers as they come, read straight into the columns of the caller.
+// Reads answers from the bytes of a message directly into the columns of the caller.
 #pragma once
 
 #include <google/protobuf/io/coded_stream.h>
@@ -14,14 +14,14 @@
 
 namespace albtpu::client {
 
-// Reads a QueryColumnsResponse to `query` about `pulse_count` pulses: the columns of `answers` that are not
-// null, in place; returned is all else. Internal when the answer breaks its own rules: another coverage than
-// that of the query, a column of another length, a number that is no outcome, axis or order.
+// Reads a QueryColumnsResponse to `query` about `pulse_count` pulses. Fills the columns of `answers` that are not
+// null and returns all other fields. Internal when the answer violates the protocol: its coverage is not that of the
+// query, a column has the wrong length, or a number is not a known outcome, axis or order.
 absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadAnswer(grpc::ByteBuffer& bytes, const Query& query,
                                                             std::size_t pulse_count,
                                                             const AnswerColumns& answers);
 
-// The same of a StreamColumnsResponse.
+// The same for a StreamColumnsResponse.
 absl::StatusOr<albtpu::v1::QueryColumnsResponse> ReadStreamedAnswer(grpc::ByteBuffer& bytes,
                                                                     const Query& query,
                                                                     std::size_t pulse_count,

@@ -3,27 +3,72 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include "absl/status/status.h"
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "service/client/channel_credentials.h"
-#include "service/client/grpc_error.h"
+#include "service/text_file.h"
 
 namespace albtpu::client {
 namespace {
 
-// A server whose machine or network has gone says nothing: it is asked for a sign of life after so long a
-// silence, and given up without one. The server allows it every 10 s. This also bounds how long the system
-// tries to send: else a call that is given up ends only then, after a quarter of an hour.
+// A server whose machine or network has failed stays silent. After this much silence the client pings it, and gives
+// it up if it does not respond within the timeout. The server allows a ping every 10 s. The timeout also bounds how
+// long the system keeps trying to send; without it, a call that has been given up would end only after a quarter of
+// an hour.
 constexpr int kKeepaliveTimeMs = 20'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 
-// Else gRPC waits a second and more before it looks again whether a server has come back.
+// By default gRPC waits a second and more before it tries to reconnect to a server.
 constexpr int kFirstReconnectMs = 100;
 constexpr int kLongestReconnectMs = 1000;
 
-// How long one try to reach a machine that says nothing may take; else 20 s.
+// Time limit of one attempt to connect to a machine that does not respond; the default is 20 s.
 constexpr int kConnectMs = 5000;
 
+// The ends of the first lines, before the hyphens, of PEM files of each kind.
+constexpr char kCertificate[] = "CERTIFICATE", kPrivateKey[] = "PRIVATE KEY";
+
+// Empty if there is no path.
+absl::StatusOr<std::string> ReadPem(const std::string& flag, const std::string& path,
+                                    const std::string& kind) {
+  if (path.empty()) return "";
+  absl::StatusOr<std::string> pem = ReadTextFile(flag, path);
+  if (!pem.ok() || absl::StrContains(*pem, kind + "-----")) return pem;
+  return absl::InvalidArgumentError(
+      absl::StrCat(flag, ": ", path, " has no ", kind, "; give a PEM file that has one"));
+}
+
+absl::StatusOr<std::string> ReadToken(const std::string& path) {
+  absl::StatusOr<std::string> text = ReadTextFile("--token-file", path);
+  if (!text.ok()) return text;
+  const absl::string_view token = absl::StripAsciiWhitespace(*text);
+  const bool is_one = !token.empty() && token.find_first_of(" \t\r\n") == absl::string_view::npos;
+  if (is_one) return std::string(token);
+  return absl::InvalidArgumentError(absl::StrCat("--token-file: ", path, " has ",
+                                                 token.empty() ? "no" : "more than one",
+                                                 " token; give a file with one token and nothing else"));
+}
+
 }  // namespace
+
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeCredentials(const Credentials& credentials) {
+  if (!credentials.HasTls()) return grpc::InsecureChannelCredentials();
+  if (credentials.certificate.empty() != credentials.key.empty()) {
+    return absl::InvalidArgumentError("--tls-cert and --tls-key: one is missing; give both or neither");
+  }
+  absl::StatusOr<std::string> ca = ReadPem("--tls-ca", credentials.ca, kCertificate);
+  if (!ca.ok()) return ca.status();
+  absl::StatusOr<std::string> key = ReadPem("--tls-key", credentials.key, kPrivateKey);
+  if (!key.ok()) return key.status();
+  absl::StatusOr<std::string> certificate = ReadPem("--tls-cert", credentials.certificate, kCertificate);
+  if (!certificate.ok()) return certificate.status();
+  const auto tls = grpc::SslCredentials({*std::move(ca), *std::move(key), *std::move(certificate)});
+  if (credentials.token.empty()) return tls;
+  absl::StatusOr<std::string> token = ReadToken(credentials.token);
+  if (!token.ok()) return token.status();
+  return grpc::CompositeChannelCredentials(tls, grpc::AccessTokenCredentials(*token));
+}
 
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& address,
                                                            const Credentials& credentials) {
@@ -31,26 +76,13 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& ad
   if (!channel_credentials.ok()) return channel_credentials.status();
   grpc::ChannelArguments arguments;
   arguments.SetLoadBalancingPolicyName("round_robin");
-  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);  // We ask again ourselves; of gRPC's no policy says so.
+  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);  // ServerSource retries; gRPC would only by a service config.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveTimeMs);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kConnectMs);
   return grpc::CreateCustomChannel(address, *channel_credentials, arguments);
-}
-
-absl::Status FromServer(const std::string& address, const absl::Status& status) {
-  if (status.ok()) return status;
-  std::string message = absl::StrCat("server ", address, ": ", status.message());
-  if (absl::IsUnavailable(status)) {
-    absl::StrAppend(
-        &message,
-        ": start albtpu-serve there, name the HOST:PORT where it listens, or see that it speaks TLS "
-        "if you do (--tls-ca)");
-  }
-  if (absl::IsUnauthenticated(status)) absl::StrAppend(&message, " (--token-file)");
-  return WithMessage(status, message);
 }
 
 }  // namespace albtpu::client

@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/client/answer_reader.h"
-#include "service/client/grpc_error.h"
+#include "service/client/server_error.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
@@ -18,10 +18,10 @@ using std::chrono::system_clock;
 
 constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/StreamColumns";
 
-// Messages sent ahead of the answers: one that is received, one that is answered, one on each way.
-constexpr std::size_t kAhead = 4;
+// Messages sent ahead of the answers: one being received, one being answered, and one under way in each direction.
+constexpr std::size_t kMessagesAhead = 4;
 
-// From one answer to the next.
+// Time limit from one answer to the next.
 constexpr std::chrono::seconds kDeadline{60};
 
 PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
@@ -33,7 +33,7 @@ PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t co
   return slice;
 }
 
-AnswerColumns From(AnswerColumns answers, std::size_t begin) {
+AnswerColumns Offset(AnswerColumns answers, std::size_t begin) {
   const auto advance = [begin](auto*& column) {
     if (column != nullptr) column += begin;
   };
@@ -47,14 +47,14 @@ AnswerColumns From(AnswerColumns answers, std::size_t begin) {
   return answers;
 }
 
-// The call is driven by the thread that made it: gRPC says through a queue what has happened, and one thing
-// of each kind is under way at most.
+// The thread that makes the call also drives it: gRPC reports events through a queue, and at most one operation of each
+// kind is pending.
 class Call {
  public:
   Call(grpc::GenericStub& stub, const ColumnTask& task, std::size_t begin)
       : task_(task), sent_(begin), answered_(begin) {
-    wanted_.mutable_options()->set_table(task.table);
-    ToWire(task.query, task.answers, wanted_);
+    request_without_pulses_.mutable_options()->set_table(task.table);
+    ToWire(task.query, task.answers, request_without_pulses_);
     stream_ = stub.PrepareCall(&context_, kMethod, &events_);
     stream_->StartCall(Tag(kStarted));
   }
@@ -80,7 +80,7 @@ class Call {
     }
     if (!failure_.ok()) return failure_;
     if (!status_.ok()) return FromGrpc(status_);
-    if (answered_ < task_.pulses.size) return absl::UnavailableError("it ended the call early");
+    if (answered_ < task_.pulses.size) return absl::UnavailableError("the server ended the call early");
     return absl::OkStatus();
   }
 
@@ -99,12 +99,12 @@ class Call {
         return Write();
       case kWritten:
         writing_ = false;
-        return ok ? Write() : void();  // The read fails as well, and ends the call.
+        return ok ? Write() : void();  // The pending read fails, too, and ends the call.
       case kClosed:
         return;
       case kRead:
         if (!ok) return Finish();
-        if (absl::Status status = failure_.ok() ? Take() : absl::OkStatus(); !status.ok()) Fail(status);
+        if (absl::Status status = failure_.ok() ? TakeAnswer() : absl::OkStatus(); !status.ok()) Fail(status);
         stream_->Read(&response_, Tag(kRead));
         return Write();
       case kFinished:
@@ -113,17 +113,17 @@ class Call {
     }
   }
 
-  // Sends the next message if it is time, or that there is none.
+  // Sends the next message if it is due, or announces that there are no more.
   void Write() {
     if (writing_ || closed_ || !failure_.ok()) return;
     if (sent_ == task_.pulses.size) {
       closed_ = true;
       return stream_->WritesDone(Tag(kClosed));
     }
-    if (sent_ >= answered_ + kAhead * kMostPulses) return;
+    if (sent_ >= answered_ + kMessagesAhead * kMostPulses) return;
     const std::size_t count = std::min(kMostPulses, task_.pulses.size - sent_);
     ColumnMessage request;
-    request.Add(wanted_);
+    request.Add(request_without_pulses_);
     AddPulses(Slice(task_.pulses, sent_, count), request);
     request.Nest(albtpu::v1::StreamColumnsRequest::kQueryFieldNumber, 0);
     sent_ += count;
@@ -131,22 +131,23 @@ class Call {
     stream_->Write(request.Finish(), Tag(kWritten));
   }
 
-  absl::Status Take() {
-    if (answered_ == sent_) return absl::InternalError("answered more than it was asked");
+  // Reads an answer into its place among the answers.
+  absl::Status TakeAnswer() {
+    if (answered_ == sent_) return absl::InternalError("answered more pulses than were queried");
     const std::size_t count = std::min(kMostPulses, task_.pulses.size - answered_);
-    const auto answer = ReadStreamedAnswer(response_, task_.query, count, From(task_.answers, answered_));
+    const auto answer = ReadStreamedAnswer(response_, task_.query, count, Offset(task_.answers, answered_));
     response_.Clear();
     if (!answer.ok()) return answer.status();
     if (answer->table().digest() != task_.digest) {
       return absl::AbortedError(absl::StrCat("table ", task_.table, " changed from digest ", task_.digest,
                                              " to ", answer->table().digest(),
-                                             " while it was asked: start again"));
+                                             " during the query; run again"));
     }
     answered_ += count;
     return absl::OkStatus();
   }
 
-  // Ends the call from this side; the first reason counts.
+  // Cancels the call. The first reason is the one reported.
   void Fail(absl::Status reason) {
     failure_.Update(reason);
     context_.TryCancel();
@@ -161,7 +162,7 @@ class Call {
 
   grpc::ClientContext context_;
   grpc::CompletionQueue events_;
-  albtpu::v1::QueryColumnsRequest wanted_;  // Without pulses.
+  albtpu::v1::QueryColumnsRequest request_without_pulses_;
   grpc::ByteBuffer response_;
   grpc::Status status_;
   std::unique_ptr<grpc::GenericClientAsyncReaderWriter> stream_;
@@ -169,7 +170,7 @@ class Call {
 
 }  // namespace
 
-absl::Status Exchange(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {
+absl::Status QueryByStream(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {
   Call call(stub, task, begin);
   const absl::Status status = call.Run();
   begin = call.answered();

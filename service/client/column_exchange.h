@@ -1,4 +1,4 @@
-// One call of `StreamColumns`, from the caller's side.
+// One call of `StreamColumns`, seen from the client.
 #pragma once
 
 #include <grpcpp/generic/generic_stub.h>
@@ -12,25 +12,25 @@
 
 namespace albtpu::client {
 
-// The most pulses of a message, by uncertainty_service.proto.
+// The largest number of pulses in a message (uncertainty_service.proto).
 inline constexpr std::size_t kMostPulses = 65536;
 
-// What is asked and where answers go. Any number of pulses; messages take them kMostPulses at a time.
+// A query about any number of pulses, and the memory for its answers. Messages take kMostPulses pulses at a time.
 struct ColumnTask {
-  const std::string& table;   // By name.
-  const std::string& digest;  // Of the only content that may answer.
+  const std::string& table;   // Its name.
+  const std::string& digest;  // The digest that every answer must come from.
   const Query& query;
   const PulseColumns& pulses;
   const AnswerColumns& answers;
 };
 
-// Asks for the pulses from `begin` on, a few messages ahead of the answers, until all are answered or
-// something fails. `begin` is moved behind the last pulse that was answered: whoever asks again goes on
-// there. Statuses are those of the server, and
-// * DEADLINE_EXCEEDED: no answer for a minute, which a healthy server needs a thousandth of;
+// Queries the pulses from index `begin` on, a few messages ahead of the answers, until all are answered or something
+// fails. Sets `begin` to the index after the last pulse answered, from which another call can continue. Returns the
+// status of the server, or
+// * DEADLINE_EXCEEDED: no answer for a minute; a healthy server needs a thousandth of that;
 // * UNAVAILABLE: the server ended the call early;
-// * ABORTED: the table has another content than `digest`;
-// * INTERNAL: an answer breaks its own rules.
-absl::Status Exchange(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin);
+// * ABORTED: the content of the table no longer has `digest`;
+// * INTERNAL: an answer violates the protocol.
+absl::Status QueryByStream(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin);
 
 }  // namespace albtpu::client

@@ -1,4 +1,4 @@
-// Answers from a table in this process.
+// A source that queries a table in this process.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace albtpu::client {
 
 class LocalSource : public UncertaintySource {
  public:
-  // `name` is what --table-name calls the table; empty when a file was named.
+  // `name` is the value of --table-name that selects the table; empty for a table file given by its path.
   LocalSource(std::string name, const UncertaintyTable& table);
 
   const TableSummary& table() const override { return summary_; }

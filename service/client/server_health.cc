@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "service/client/channel.h"
-#include "service/client/grpc_error.h"
+#include "service/client/server_error.h"
 
 namespace albtpu::client {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using grpc::health::v1::Health;
 using grpc::health::v1::HealthCheckResponse;
 
-// Who watches over servers gives them no longer.
+// Monitoring systems do not wait longer for a health check.
 constexpr std::chrono::seconds kDeadline{4};
 
 }  // namespace
@@ -27,11 +27,11 @@ absl::Status CheckHealth(const std::string& address, const Credentials& credenti
   context.set_deadline(std::chrono::system_clock::now() + kDeadline);
   HealthCheckResponse response;
   const absl::Status status = FromGrpc(Health::NewStub(*channel)->Check(&context, {}, &response));
-  if (!status.ok()) return FromServer(address, status);
+  if (!status.ok()) return WithServerAddress(status, address);
   if (response.status() == HealthCheckResponse::SERVING) return absl::OkStatus();
   return absl::FailedPreconditionError(
       absl::StrCat("server ", address, ": ", HealthCheckResponse::ServingStatus_Name(response.status()),
-                   ": it is about to stop"));
+                   " (it is about to stop); use another server, or start it again"));
 }
 
 }  // namespace albtpu::client

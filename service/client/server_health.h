@@ -1,4 +1,4 @@
-// Whether a server is well.
+// Checks whether a server is healthy.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace albtpu::client {
 
-// Asks grpc.health.v1 once. OK if the server as a whole serves; else what is wrong, after some seconds at most.
+// Calls grpc.health.v1 once. OK if the server as a whole is serving; otherwise the problem, within a few seconds.
 absl::Status CheckHealth(const std::string& address, const Credentials& credentials = {});
 
 }  // namespace albtpu::client

@@ -12,7 +12,7 @@
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/client/channel.h"
 #include "service/client/column_exchange.h"
-#include "service/client/grpc_error.h"
+#include "service/client/server_error.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {
@@ -20,22 +20,22 @@ namespace {
 
 using albtpu::v1::UncertaintyService;
 
-// For what a healthy server answers at once.
+// Time limit of calls that a healthy server answers immediately.
 constexpr std::chrono::seconds kDeadline{60};
 
-// Who names a server that is not there learns it within a second.
-constexpr int kMostRetriesOfTheFirst = 3;
+// Connecting to an absent server fails within one second.
+constexpr int kMostOpeningRetries = 3;
 
 void SetDeadline(grpc::ClientContext& context) {
   context.set_deadline(std::chrono::system_clock::now() + kDeadline);
 }
 
-// Whether the server may answer if asked again: it has gone, or is at its limit.
-bool MayPass(const absl::Status& status) {
+// Whether a retry may succeed: the server is unavailable or at its limit.
+bool IsTransient(const absl::Status& status) {
   return absl::IsUnavailable(status) || absl::IsResourceExhausted(status);
 }
 
-// The channel sees that its server is back only while somebody waits for it.
+// The channel notices that its server is back only while someone waits for it to connect.
 void Pause(grpc::Channel& channel, std::chrono::milliseconds pause) {
   const auto until = std::chrono::system_clock::now() + pause;
   channel.GetState(true);
@@ -43,14 +43,15 @@ void Pause(grpc::Channel& channel, std::chrono::milliseconds pause) {
   std::this_thread::sleep_until(until);
 }
 
-// A call before the first pulse. One of several servers may just have gone: then another answers.
-template <typename Ask>
-absl::Status AskOnce(grpc::Channel& channel, const Patience& patience, Ask ask) {
+// Makes a call that precedes the first pulse, with a few retries: if one of several servers has just stopped, another
+// one answers. `call(grpc::ClientContext&)` returns a grpc::Status.
+template <typename Call>
+absl::Status CallWithRetries(grpc::Channel& channel, const Patience& patience, Call call) {
   for (int retries = 0;; ++retries) {
     grpc::ClientContext context;
     SetDeadline(context);
-    const absl::Status status = FromGrpc(ask(context));
-    if (!MayPass(status) || retries == std::min(patience.retries, kMostRetriesOfTheFirst)) return status;
+    const absl::Status status = FromGrpc(call(context));
+    if (!IsTransient(status) || retries == std::min(patience.retries, kMostOpeningRetries)) return status;
     Pause(channel, patience.first_pause * (1 << retries));
   }
 }
@@ -62,10 +63,10 @@ absl::StatusOr<TableSummary> GetTable(const std::string& address,
   albtpu::v1::GetTableRequest request;
   request.set_table(table);
   albtpu::v1::GetTableResponse response;
-  const absl::Status status = AskOnce(*channel, patience, [&](grpc::ClientContext& context) {
+  const absl::Status status = CallWithRetries(*channel, patience, [&](grpc::ClientContext& context) {
     return stub->GetTable(&context, request, &response);
   });
-  if (!status.ok()) return FromServer(address, status);
+  if (!status.ok()) return WithServerAddress(status, address);
   return FromWire(response.table());
 }
 
@@ -98,14 +99,14 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& pulses
   int retries = 0;
   while (answered < pulses.size) {
     const std::size_t before = answered;
-    const absl::Status status = Exchange(stub_, task, answered);
+    const absl::Status status = QueryByStream(stub_, task, answered);
     if (status.ok()) break;
     if (answered > before) retries = 0;
-    if (!MayPass(status)) return FromServer(address_, status);
+    if (!IsTransient(status)) return WithServerAddress(status, address_);
     if (retries == patience_.retries) {
-      return FromServer(address_, WithMessage(status, absl::StrCat(status.message(), " (asked again ",
-                                                                   retries, " times, after ", answered,
-                                                                   " of ", pulses.size, " pulses)")));
+      const std::string message = absl::StrCat(status.message(), " (retried ", retries, " times after ",
+                                               answered, " of ", pulses.size, " pulses)");
+      return WithServerAddress(WithMessage(status, message), address_);
     }
     Pause(*channel_, patience_.first_pause * (1 << retries++));
   }
@@ -131,9 +132,9 @@ absl::StatusOr<std::vector<TableSummary>> ListServerTables(const std::string& ad
   if (!channel.ok()) return channel.status();
   const auto stub = UncertaintyService::NewStub(*channel);
   albtpu::v1::ListTablesResponse response;
-  const absl::Status status = AskOnce(
+  const absl::Status status = CallWithRetries(
       **channel, {}, [&](grpc::ClientContext& context) { return stub->ListTables(&context, {}, &response); });
-  if (!status.ok()) return FromServer(address, status);
+  if (!status.ok()) return WithServerAddress(status, address);
   std::vector<TableSummary> tables;
   for (const auto& listed : response.tables()) {
     absl::StatusOr<TableSummary> table = GetTable(address, *channel, {}, listed.reference().name());

@@ -1,4 +1,4 @@
-// Where answers come from: a table file in this process, or a server. Both give the same numbers, bit by bit.
+// Where answers come from: a table in this process, or a server. Both give the same numbers, bit for bit.
 #pragma once
 
 #include <array>
@@ -12,34 +12,34 @@
 
 namespace albtpu::client {
 
-// The reach of an axis, in its own units.
+// The range of an axis, in its own unit.
 struct AxisRange {
   double first = 0;
   double last = 0;
   std::size_t nodes = 0;
 };
 
-// A table as it presents itself: what stamps answers, and what `albtpu-query tables` prints.
+// The identity and the axes of a table, as `albtpu-query tables` prints them.
 struct TableSummary {
-  std::string name;  // What to ask for: the value of --table-name. Empty for a file.
+  std::string name;  // The value of --table-name that selects it; empty for a file.
   std::string id, version, title;
   std::string digest;  // 64 hexadecimal digits
   std::array<AxisRange, kAxisCount> axes;
   std::map<std::string, std::string> attributes;  // Further provenance, as text.
-  bool is_default = false;                        // Answers when no table is named.
+  bool is_default = false;                        // Used when no table is named.
 };
 
 class UncertaintySource {
  public:
   virtual ~UncertaintySource() = default;
 
-  // The one table that all answers come from, fixed when the source was opened.
+  // The table that all answers come from. It is fixed when the source is opened.
   virtual const TableSummary& table() const = 0;
 
-  // Answers all pulses, of any number, none too, into the columns of `answers` that are not null. Any number
-  // of threads may ask at a time. Fails only as a whole, and then the columns may hold anything: columns of
-  // pulses have lengths that they may not have (InvalidArgument), the server cannot be reached (Unavailable),
-  // or gave its table another content (Aborted).
+  // Queries the table for all pulses, zero or more, and fills the columns of `answers` that are not null. Any number of
+  // threads may call this at the same time. Either all pulses are answered, or the call fails and the contents of the
+  // columns are unspecified: the columns of the pulses have invalid lengths (InvalidArgument), the server cannot be
+  // reached (Unavailable), or the content of its table has changed (Aborted).
   virtual absl::Status Answer(const Query& query, const PulseColumns& pulses,
                               const AnswerColumns& answers) = 0;
 };

@@ -20,7 +20,7 @@ v1::Coverage ToWire(Coverage coverage) {
   return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
 }
 
-// Axes count from 1 on the wire, where 0 is none.
+// On the wire, axes are numbered from 1, and 0 means none.
 std::optional<AxisId> AxisOf(int number) {
   if (number < 1 || number > static_cast<int>(kAxisCount)) return std::nullopt;
   return kAxes[number - 1];
@@ -44,16 +44,16 @@ std::string Text(const v1::AttributeValue& value) {
 
 }  // namespace
 
-void ToWire(const Query& query, const AnswerColumns& wanted, v1::QueryColumnsRequest& request) {
+void ToWire(const Query& query, const AnswerColumns& requested, v1::QueryColumnsRequest& request) {
   v1::QueryOptions& options = *request.mutable_options();
   options.set_coverage(ToWire(query.coverage));
-  options.set_best_s44_order(wanted.best_s44_orders != nullptr);
+  options.set_best_s44_order(requested.best_s44_orders != nullptr);
   if (query.s44_order.has_value()) {
     options.set_s44_order(static_cast<v1::S44Order>(static_cast<int>(*query.s44_order) + 1));
   }
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
-    if (wanted.standard_errors[i] != nullptr) options.set_standard_errors(true);
-    if (wanted.values[i] == nullptr && wanted.standard_errors[i] == nullptr) continue;
+    if (requested.standard_errors[i] != nullptr) options.set_standard_errors(true);
+    if (requested.values[i] == nullptr && requested.standard_errors[i] == nullptr) continue;
     request.add_quantities(static_cast<v1::Quantity>(i + 1));
   }
 }
@@ -64,11 +64,11 @@ void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
                                                    Fields::kIncidenceFieldNumber, Fields::kAzimuthFieldNumber,
                                                    Fields::kFootprintFieldNumber, Fields::kDepthFieldNumber};
   const auto is_long = [](std::span<const float> column) { return column.size() > 1; };
-  const bool all_alike = std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long);
+  const bool all_constant = std::none_of(pulses.axis.begin(), pulses.axis.end(), is_long);
   const std::size_t mark = request.Mark();
   for (AxisId axis : kAxes) {
     const std::span<const float> column = pulses[axis];
-    const std::size_t repeats = all_alike && axis == AxisId::kDepth ? pulses.size : 1;
+    const std::size_t repeats = all_constant && axis == AxisId::kDepth ? pulses.size : 1;
     if (column.empty()) continue;
     char* bytes = request.AddColumn(kFields[Index(axis)], repeats * column.size_bytes());
     for (std::size_t i = 0; i < repeats; ++i) {

@@ -1,4 +1,4 @@
-// What is asked, as messages; and tables, from messages. Answers: answer_reader.h.
+// Writes queries as messages, and reads descriptions of tables from messages. answer_reader.h reads answers.
 #pragma once
 
 #include "albtpu/v1/uncertainty_service.pb.h"
@@ -7,11 +7,11 @@
 
 namespace albtpu::client {
 
-// What the columns of the answers that are not null ask for.
-void ToWire(const Query& query, const AnswerColumns& wanted, albtpu::v1::QueryColumnsRequest& request);
+// Sets the options and quantities of a request: those that fill the columns of `requested` that are not null.
+void ToWire(const Query& query, const AnswerColumns& requested, albtpu::v1::QueryColumnsRequest& request);
 
-// Adds the field `pulses` of a QueryColumnsRequest. A message tells the number of its pulses by its longest
-// column: where all columns are one number for all, the depth is written for each.
+// Adds the field `pulses` of a QueryColumnsRequest. The longest column of a message determines its number of pulses, so
+// if every column has one number for all pulses, the depth is written once for each pulse.
 void AddPulses(const PulseColumns& pulses, ColumnMessage& request);
 
 TableSummary FromWire(const albtpu::v1::Table& table);

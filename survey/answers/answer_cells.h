@@ -1,5 +1,5 @@
-// The cells of an answer: which there are, in which order, and what stands in them. CSV files and `pulse
-// --json` have the same.
+// The cells of an answer: which columns there are, their order and their contents. CSV files and `pulse --json`
+// share them.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "survey/answers/answer_style.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/outcome_counts.h"
 
@@ -17,12 +16,12 @@ namespace albtpu::client {
 //   refraction_along_wind, refraction_cross_wind  degree
 //   thu, tvu, bias_along_beam, bias_vertical      m
 //   outcome                                       "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID"
-//   with standard errors:  <each of the six>_standard_error, in its unit
+//   with standard errors:  <each of the six>_standard_error, in the same unit
 //   with an S-44 order:
-//     s44_best_order                              the strictest order that the surface alone leaves open;
-//                                                 nothing if none
-//     s44_remaining_thu, s44_remaining_tvu        m at 95 %, what the order's limit leaves for all other
-//                                                 sources; nothing if the surface alone exceeds it
+//     s44_best_order                              the strictest order that the sea surface alone leaves open;
+//                                                 empty if there is none
+//     s44_remaining_thu, s44_remaining_tvu        m at 95 %: what the order's limit leaves for all other error
+//                                                 sources; empty if the sea surface alone exceeds it
 class AnswerCells {
  public:
   explicit AnswerCells(AnswerStyle style);
@@ -30,7 +29,7 @@ class AnswerCells {
   const std::vector<std::string>& names() const { return names_; }
   AnswerSelection selection() const;
 
-  // Calls, for each column in order, `number(float)`, `text(std::string_view)` or `nothing()`.
+  // Calls `number(float)`, `text(std::string_view)` or `nothing()` for each column in order.
   template <typename NumberCell, typename TextCell, typename EmptyCell>
   void Visit(const AnswerBatch& answers, std::size_t i, NumberCell number, TextCell text,
              EmptyCell nothing) const {

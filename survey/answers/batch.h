@@ -1,16 +1,35 @@
-// Memory for a batch of pulses and for their answers, reused from batch to batch.
+// A query about a batch of pulses: how its answers are stated, the pulses, and memory for the answers. The memory
+// is reused from batch to batch.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "tables/coverage.h"
+#include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
+#include "tables/s44.h"
 
 namespace albtpu::client {
 
-// Of each axis a number for each pulse, one for all, or none (PulseColumns).
+// How answers are stated: the flags that all commands share.
+struct AnswerStyle {
+  Coverage coverage = Coverage::kTwoSigma;
+  std::optional<S44Order> s44_order;  // Also states what this order leaves for all other error sources.
+  bool standard_errors = false;       // Also states the standard errors.
+
+  Query query() const { return {.coverage = coverage, .s44_order = s44_order}; }
+};
+
+// "2 sigma" or "95 %".
+constexpr const char* CoverageText(Coverage coverage) {
+  return coverage == Coverage::kTwoSigma ? "2 sigma" : "95 %";
+}
+
+// Each axis has one number per pulse, one number for all pulses, or none (PulseColumns).
 struct PulseBatch {
   std::size_t size = 0;
   std::array<std::vector<float>, kAxisCount> axis;
@@ -19,7 +38,7 @@ struct PulseBatch {
   PulseColumns columns() const;
 };
 
-// Which answers are wanted beside the outcomes.
+// Which columns are queried; the outcomes always are.
 struct AnswerSelection {
   std::array<bool, kQuantityCount> quantities = {};
   bool standard_errors = false;  // Of those quantities.
@@ -27,14 +46,14 @@ struct AnswerSelection {
   bool s44_remaining = false;
 };
 
-// Answer i is element i of each column; those that are not selected are empty.
+// Element i of each column belongs to pulse i. Columns that are not selected are empty.
 struct AnswerBatch {
   std::vector<std::uint8_t> outcomes, outcome_axes;
   std::array<std::vector<float>, kQuantityCount> values, standard_errors;
   std::vector<std::uint8_t> best_s44_orders;
   std::vector<float> remaining_thu, remaining_tvu;
 
-  // Makes room for `count` answers; what was there before is lost.
+  // Makes room for `count` answers and discards the previous ones.
   AnswerColumns Resize(std::size_t count, const AnswerSelection& selection);
 
   bool interpolated(std::size_t i) const { return outcomes[i] == 1; }

@@ -8,7 +8,7 @@
 namespace albtpu::client {
 namespace {
 
-// "OUT_OF_DOMAIN:depth" of each axis.
+// "OUT_OF_DOMAIN:depth" and its like, by axis.
 std::array<std::string, kAxisCount> OutOfDomainNames() {
   std::array<std::string, kAxisCount> names;
   for (const AxisId axis : kAxes) {

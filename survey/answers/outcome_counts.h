@@ -1,4 +1,4 @@
-// How many pulses had which outcome.
+// How many pulses had each outcome.
 #pragma once
 
 #include <array>
@@ -11,23 +11,23 @@
 
 namespace albtpu::client {
 
-// "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID": the text of CSV files and of people, from the numbers of
-// AnswerColumns.
+// "INTERPOLATED", "OUT_OF_DOMAIN:depth" or "INVALID", as CSV files and messages state it. The arguments are the
+// numbers of AnswerColumns.
 std::string_view OutcomeName(std::uint8_t outcome, std::uint8_t axis);
 
 class OutcomeCounts {
  public:
-  // `azimuth_absent`: none of the pulses had one.
+  // `azimuth_absent` means that none of the pulses had an azimuth.
   void Add(const AnswerBatch& answers, bool azimuth_absent);
   void Merge(const OutcomeCounts& other);
 
   std::uint64_t total() const;
   std::uint64_t interpolated() const { return ByOutcome(0); }
 
-  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth", and how many had no azimuth, if any.
+  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth", and the number without azimuth, if any.
   std::string Text() const;
 
-  // {"INTERPOLATED": 56000, "OUT_OF_DOMAIN:depth": 382}, those there are.
+  // {"INTERPOLATED": 56000, "OUT_OF_DOMAIN:depth": 382}; other outcomes appear only if they occurred.
   nlohmann::ordered_json Json() const;
   std::uint64_t without_azimuth() const { return without_azimuth_; }
 
@@ -37,7 +37,7 @@ class OutcomeCounts {
 
   std::uint64_t ByOutcome(std::size_t outcome) const;
 
-  // By outcome and axis, in the numbers of AnswerColumns; outcomes from 0.
+  // By outcome and axis, numbered as in AnswerColumns, but with outcomes counted from 0.
   std::array<std::array<std::uint64_t, kAxesAndNone>, kOutcomes> counts_ = {};
   std::uint64_t without_azimuth_ = 0;
 };

@@ -39,13 +39,14 @@ void UncertaintySummary::Range::Merge(const Range& other) {
 ordered_json UncertaintySummary::Range::Json(std::uint64_t count, bool standard_errors) const {
   ordered_json json = {
       {"least", JsonNumber(least)}, {"mean", Mean(sum, count)}, {"greatest", JsonNumber(greatest)}};
-  // Null where the table holds none.
+  // Null where the table has no standard errors.
   if (standard_errors) json["mean_standard_error"] = Mean(standard_error_sum, count);
   return json;
 }
 
 std::uint64_t UncertaintySummary::Band::Within(S44Order order) const {
-  std::uint64_t within = 0;  // The limits of an order exceed those of all stricter ones.
+  // A pulse that leaves a stricter order open leaves this one open, too: its limits are wider.
+  std::uint64_t within = 0;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(order) + 1; ++i) within += best_orders[i];
   return within;
 }
@@ -68,7 +69,7 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
     const float depth = depths[depths.size() == 1 ? 0 : i];
     least_depth_ = std::min(least_depth_, depth);
     greatest_depth_ = std::max(greatest_depth_, depth);
-    std::size_t index = 0;  // Counted rather than searched: without branches.
+    std::size_t index = 0;  // Counting the ends below the depth needs no branches.
     for (const float end : kBandEnds) index += depth >= end;
     Band& band = bands_[index];
     ++band.count;

@@ -1,5 +1,5 @@
-// What was answered in a file, in one pass: outcomes, and uncertainty by depth beside S-44. For people as
-// text, for programs as JSON.
+// A summary of all answers in a file, accumulated in one pass: outcomes, and uncertainty by depth band compared with
+// the S-44 limits. It is printed as text and stored as JSON.
 #pragma once
 
 #include <array>
@@ -9,19 +9,18 @@
 #include <span>
 #include <string>
 
-#include "survey/answers/answer_style.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/outcome_counts.h"
 
 namespace albtpu::client {
 
-// Sums depend on how the pulses were divided into batches and on the order in which those were merged, in the
-// last bits.
+// The last bits of the sums depend on how the pulses were divided into batches and on the order in which the
+// batches were merged.
 class UncertaintySummary {
  public:
   explicit UncertaintySummary(AnswerStyle style) : style_(style) {}
 
-  // Adds to a selection what the summary is made of.
+  // Adds the columns that a summary needs to a selection.
   static void Select(AnswerSelection& selection);
 
   void Add(const PulseBatch& pulses, const AnswerBatch& answers);
@@ -29,15 +28,15 @@ class UncertaintySummary {
 
   const OutcomeCounts& outcomes() const { return outcomes_; }
 
-  // Several lines: outcomes, then a table of depth bands.
+  // Several lines: the outcomes, then a table of depth bands.
   std::string Text() const;
 
-  // `outcomes`, `depth`, `s44_best_order` (pulses by the strictest order that the sea surface alone leaves
-  // open) and `depth_bands` with `thu` and `tvu` in m.
+  // `outcomes`, `depth`, `s44_best_order` (number of pulses by the strictest order that the sea surface alone
+  // leaves open) and `depth_bands` with `thu` and `tvu` in m.
   nlohmann::ordered_json Json() const;
 
  private:
-  // Upper ends of the bands, m; the last band is open.
+  // Upper ends of the depth bands, m; the last band has no end.
   static constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
 
   struct Range {
@@ -51,10 +50,11 @@ class UncertaintySummary {
 
   struct Band {
     std::uint64_t count = 0;
-    std::array<std::uint64_t, kS44Orders.size() + 1> best_orders = {};  // 0: none.
+    // By the strictest open order; element 0 counts pulses for which none is open.
+    std::array<std::uint64_t, kS44Orders.size() + 1> best_orders = {};
     Range thu, tvu;
 
-    std::uint64_t Within(S44Order order) const;  // Those that leave this order open.
+    std::uint64_t Within(S44Order order) const;  // Pulses that leave this order open.
     void Merge(const Band& other);
   };
 
@@ -65,7 +65,7 @@ class UncertaintySummary {
   AnswerStyle style_;
   OutcomeCounts outcomes_;
   std::array<Band, kBandEnds.size() + 1> bands_ = {};
-  float least_depth_ = std::numeric_limits<float>::infinity();  // Of pulses with an uncertainty.
+  float least_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
   float greatest_depth_ = -std::numeric_limits<float>::infinity();
 };
 

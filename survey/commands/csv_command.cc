@@ -37,7 +37,7 @@ absl::Status RunCsv(const CsvOptions& options) {
   if (!jobs.ok()) return jobs.status();
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
   if (!source.ok()) return source.status();
-  const auto annotate = [&](const Job& job, Progress& progress) -> absl::StatusOr<AnnotatedFile> {
+  const auto annotate = [&](const Job& job, FileProgress& progress) -> absl::StatusOr<AnnotatedFile> {
     absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.shared.existing,
                                                    options.fixed, options.shared.style, **source, progress);
     if (!csv.ok()) return csv.status();

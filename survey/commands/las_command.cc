@@ -30,7 +30,7 @@ class LasFiles {
   LasFiles(const LasOptions& options, const LasAnnotation& annotation, UncertaintySource& source)
       : options_(options), annotation_(annotation), source_(source) {}
 
-  absl::StatusOr<AnnotatedFile> Annotate(const Job& job, Progress& progress) {
+  absl::StatusOr<AnnotatedFile> Annotate(const Job& job, FileProgress& progress) {
     absl::StatusOr<AnnotatedLas> annotated =
         AnnotateLas(job.input, job.output, options_.shared.existing, annotation_, source_, progress);
     if (!annotated.ok()) return annotated.status();
@@ -87,7 +87,7 @@ absl::Status RunLas(const LasOptions& options) {
        .parameters = Parameters(*annotation),
        .resume = options.files.resume,
        .existing = options.shared.existing,
-       .annotate = [&](const Job& job, Progress& progress) { return files.Annotate(job, progress); }},
+       .annotate = [&](const Job& job, FileProgress& progress) { return files.Annotate(job, progress); }},
       (*source)->table());
   // With --resume the files that were left out may have some.
   if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "survey/answers/answer_style.h"
+#include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
 #include "survey/csv/csv_pulses.h"
 #include "survey/files/file_jobs.h"

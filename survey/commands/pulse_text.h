@@ -5,7 +5,6 @@
 
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
-#include "survey/answers/answer_style.h"
 #include "survey/answers/batch.h"
 #include "survey/csv/csv_pulses.h"
 

@@ -13,18 +13,18 @@
 namespace albtpu::client {
 namespace {
 
-// Memory that is used again for block after block.
+// Memory that is reused from block to block.
 struct Chunk {
   explicit Chunk(AnswerStyle style) : summary(style) {}
 
-  // A record of the block, by sizes; blank ones have no pulse.
+  // The sizes of a record in the block. Blank records have no pulse.
   struct Row {
     std::uint32_t text_size, ending_size;
     bool blank, has_azimuth;
   };
 
-  CsvBlock block;         // In.
-  std::string annotated;  // Out.
+  CsvBlock block;         // Input.
+  std::string annotated;  // Output.
   std::uint64_t bytes_read = 0;
   std::uint64_t pulse_count = 0;
   UncertaintySummary summary;
@@ -52,8 +52,8 @@ class BlockWork {
   absl::Status operator()(Chunk& chunk) const {
     if (absl::Status status = Decode(chunk); !status.ok()) return status;
     chunk.summary = UncertaintySummary(style_);
-    absl::Status status = Ask(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.summary);
-    if (status.ok()) status = Ask(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.summary);
+    absl::Status status = QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.summary);
+    if (status.ok()) status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.summary);
     if (status.ok()) Encode(chunk);
     return status;
   }
@@ -82,7 +82,8 @@ class BlockWork {
     return absl::OkStatus();
   }
 
-  absl::Status Ask(const PulseBatch& pulses, AnswerBatch& answers, UncertaintySummary& summary) const {
+  absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers,
+                           UncertaintySummary& summary) const {
     const AnswerColumns columns = answers.Resize(pulses.size, selection_);
     if (pulses.size == 0) return absl::OkStatus();
     absl::Status status = source_.Answer(style_.query(), pulses.columns(), columns);
@@ -129,9 +130,9 @@ std::string AnnotatedHeader(const CsvRecord& header, const std::string& ending,
   return text + ending;
 }
 
-// All records behind the header, from `reader` into the file of `annotated`.
+// Copies all records after the header from `reader` to the file of `annotated`, with their answers.
 absl::Status AnnotateRecords(CsvReader& reader, const BlockWork& work, AnswerStyle style,
-                             Progress::File& progress, AnnotatedCsv& annotated) {
+                             FileProgress::File& progress, AnnotatedCsv& annotated) {
   std::uint64_t written_pulses = 0;
   return RunOrderedPipeline([&] { return Chunk(style); },
                             [&](Chunk& chunk) {
@@ -154,7 +155,7 @@ absl::Status AnnotateRecords(CsvReader& reader, const BlockWork& work, AnswerSty
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const FixedCoordinates& fixed, AnswerStyle style,
-                                         UncertaintySource& source, Progress& progress) {
+                                         UncertaintySource& source, FileProgress& progress) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   absl::StatusOr<CsvReader> reader = CsvReader::Open(input);
   if (!reader.ok()) return reader.status();
@@ -164,8 +165,8 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
   const absl::StatusOr<bool> has_header = CsvRecords(reader->name(), *header_block).Next(header);
   if (!has_header.ok()) return has_header.status();
   if (!*has_header || header.blank()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(input.string(), " line 1: is empty: a header that names the columns is right"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        input.string(), " line 1: is empty; begin the file with a header that names the columns"));
   }
   const std::vector<std::string> appended = AnswerCells(style).names();
   const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind(input.string(), header, fixed, appended);
@@ -175,7 +176,7 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
 
   AnnotatedCsv annotated{
       .input_bytes = reader->bytes_read(), .summary = UncertaintySummary(style), .file = *std::move(file)};
-  Progress::File file_progress(progress, input.filename().string());
+  FileProgress::File file_progress(progress, input.filename().string());
   const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);
   absl::Status status = annotated.file.Write(AnnotatedHeader(header, ending, appended));
   const BlockWork work(*reader, *columns, style, ending, source);

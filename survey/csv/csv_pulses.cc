@@ -28,15 +28,15 @@ absl::Status CheckUnique(const std::string& file, const std::vector<std::string>
   std::set<std::string> seen;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!names[i].empty() && !seen.insert(names[i]).second) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(file, " line 1, column ", i + 1, ": '", names[i], "' stands twice: rename one"));
+      return absl::InvalidArgumentError(absl::StrCat(file, " line 1, column ", i + 1, ": '", names[i],
+                                                     "' occurs twice; rename one of the columns"));
     }
   }
   for (const std::string& name : appended) {
     if (seen.count(name) > 0) {
       return absl::InvalidArgumentError(
           absl::StrCat(file, " line 1: column '", name,
-                       "' is there already and would be appended again: rename it, "
+                       "' exists already and would be appended again; rename it, "
                        "or start from the file without results"));
     }
   }
@@ -45,11 +45,11 @@ absl::Status CheckUnique(const std::string& file, const std::vector<std::string>
 
 absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names) {
   const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
-  return absl::InvalidArgumentError(
-      absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name), "': ",
-                   other_separator ? std::string("separate the columns by commas")
-                                   : absl::StrCat("add it, or give one value for all by ", FlagName(axis),
-                                                  " (columns found: ", absl::StrJoin(names, ", "), ")")));
+  return absl::InvalidArgumentError(absl::StrCat(
+      file, " line 1: no column '", std::string(Describe(axis).name),
+      "' (columns found: ", absl::StrJoin(names, ", "), "); ",
+      other_separator ? std::string("separate the columns by commas")
+                      : absl::StrCat("add it, or give one value for all pulses by ", FlagName(axis))));
 }
 
 }  // namespace
@@ -84,8 +84,8 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvReco
     const bool in_file = pulses.columns_[Index(axis)].has_value();
     const bool given = fixed[Index(axis)].has_value();
     if (in_file && given) {
-      return UsageError(absl::StrCat(FlagName(axis), ": ", name, " has the column '",
-                                     std::string(Describe(axis).name), "': leave out one of them"));
+      return UsageError(absl::StrCat(FlagName(axis), ": ", name, " also has the column '",
+                                     std::string(Describe(axis).name), "'; leave out one of them"));
     }
     if (!in_file && !given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names);
   }
@@ -115,14 +115,14 @@ absl::StatusOr<std::optional<float>> CsvPulses::Number(const CsvRecord& record, 
   return absl::InvalidArgumentError(absl::StrCat(
       name_, " line ", record.line, ", column '", std::string(Describe(axis).name),
       "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-      ": write a number in ", std::string(Describe(axis).units), ", such as 12.5"));
+      "; write a number in ", std::string(Describe(axis).units), ", such as 12.5"));
 }
 
 absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches& batches) const {
   if (record.cell_count() != column_count_) {
     return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": ", record.cell_count(),
-                                                   " cells under a header of ", column_count_,
-                                                   ": one cell a column is right"));
+                                                   " cells, but the header has ", column_count_,
+                                                   "; write one cell for each column"));
   }
   bool has_azimuth = fixed_[Index(AxisId::kAzimuth)].has_value();
   std::array<float, kAxisCount> numbers;
@@ -131,7 +131,7 @@ absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches&
     const absl::StatusOr<std::optional<float>> number = Number(record, axis);
     if (!number.ok()) return number.status();
     if (axis == AxisId::kAzimuth) has_azimuth = number->has_value();
-    numbers[Index(axis)] = number->value_or(std::numeric_limits<float>::infinity());  // Of the fetch.
+    numbers[Index(axis)] = number->value_or(std::numeric_limits<float>::infinity());  // An absent fetch.
   }
   PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
   ++batch.size;

@@ -1,4 +1,4 @@
-// Pulses out of CSV records: which column is which coordinate, and what its cells say.
+// Pulses from CSV records: which column has which coordinate, and the numbers in its cells.
 #pragma once
 
 #include <array>
@@ -14,26 +14,26 @@
 
 namespace albtpu::client {
 
-// Coordinates given once for all pulses, by axis.
+// Coordinates that are the same for all pulses, by axis.
 using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
 
-// Pulses of one file. Those with an azimuth and those without are asked about apart: a column has all or
-// none.
+// Pulses with an azimuth and pulses without one are queried separately, because a column of PulseColumns has a number
+// for all pulses or for none.
 struct CsvPulseBatches {
   PulseBatch with_azimuth, without_azimuth;
 };
 
 class CsvPulses {
  public:
-  // `name` is the file, for messages; `appended` are the columns that the output will get.
+  // `name` is the file, for messages; `appended` are the columns that the output gets in addition.
   static absl::StatusOr<CsvPulses> Bind(const std::string& name, const CsvRecord& header,
                                         const FixedCoordinates& fixed,
                                         const std::vector<std::string>& appended);
 
-  // Empties the batches but for what is alike for all pulses.
+  // Empties the batches, except for coordinates that are the same for all pulses.
   void Clear(CsvPulseBatches& batches) const;
 
-  // Appends a record's pulse to one of the batches; true when it has an azimuth.
+  // Appends a record's pulse to one of the batches. True if the pulse has an azimuth.
   absl::StatusOr<bool> Append(const CsvRecord& record, CsvPulseBatches& batches) const;
 
  private:
@@ -47,14 +47,14 @@ class CsvPulses {
   FixedCoordinates fixed_;
 };
 
-// The one pulse of fixed coordinates alone; fetch and azimuth may be absent.
+// A single pulse at the fixed coordinates; fetch and azimuth may be absent.
 PulseBatch OnePulse(const FixedCoordinates& fixed);
 
-// The flag that gives a coordinate once for all: `--wind-speed`.
+// The flag that sets a coordinate for all pulses: `--wind-speed`.
 std::string FlagName(AxisId axis);
 
-// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, the worse of along and
-// across.
+// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, and the larger of the values along
+// and across the wind.
 constexpr bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId::kAzimuth; }
 
 }  // namespace albtpu::client

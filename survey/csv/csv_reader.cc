@@ -17,20 +17,20 @@ namespace {
 
 constexpr std::size_t kBlockSize = 1 << 20;
 
-// How a record at the beginning of a text ends.
+// How the record at the beginning of a text ends.
 struct RecordEnd {
-  std::size_t text_size = 0;  // Without the line ending.
-  std::size_t size = 0;       // With it.
-  bool open = false;          // The text ends first; `open_quote` tells whether within a quoted cell.
-  bool open_quote = false;
-  bool open_return = false;        // The text ends behind a closing quote and a carriage return.
-  bool text_behind_quote = false;  // At `size`: an error.
+  std::size_t text_size = 0;      // Without the line ending.
+  std::size_t size = 0;           // With it.
+  bool open = false;              // The text ends before the record does.
+  bool open_quote = false;        // It ends inside a quoted cell.
+  bool open_return = false;       // The text ends after a closing quote and a carriage return.
+  bool text_after_quote = false;  // An error at offset `size`.
 };
 
-// Calls `cell_begins(offset)` for each cell but the first.
+// Calls `cell_begins(offset)` for each cell except the first.
 template <typename CellBegins>
 RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cell_begins) {
-  enum class State { kCellStart, kPlain, kQuoted, kQuoteInQuoted, kReturnBehindQuote };
+  enum class State { kCellStart, kPlain, kQuoted, kQuoteInQuoted, kReturnAfterQuote };
   State state = State::kCellStart;
   for (std::size_t i = begin; i < text.size(); ++i) {
     const char character = text[i];
@@ -42,13 +42,13 @@ RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cel
       const bool carriage_return = i > begin && text[i - 1] == '\r';
       return {.text_size = i - carriage_return, .size = i + 1};
     }
-    if (state == State::kReturnBehindQuote) return {.size = i, .text_behind_quote = true};
+    if (state == State::kReturnAfterQuote) return {.size = i, .text_after_quote = true};
     if (character == ',') {
       state = State::kCellStart;
       cell_begins(i + 1);
     } else if (state == State::kQuoteInQuoted) {
-      if (character != '"' && character != '\r') return {.size = i, .text_behind_quote = true};
-      state = character == '"' ? State::kQuoted : State::kReturnBehindQuote;
+      if (character != '"' && character != '\r') return {.size = i, .text_after_quote = true};
+      state = character == '"' ? State::kQuoted : State::kReturnAfterQuote;
     } else {
       state = state == State::kCellStart && character == '"' ? State::kQuoted : State::kPlain;
     }
@@ -57,20 +57,20 @@ RecordEnd FindRecordEnd(std::string_view text, std::size_t begin, CellBegins cel
           .size = text.size(),
           .open = true,
           .open_quote = state == State::kQuoted,
-          .open_return = state == State::kReturnBehindQuote};
+          .open_return = state == State::kReturnAfterQuote};
 }
 
 std::size_t AfterByteOrderMark(std::string_view text, std::size_t line) {
   return line == 1 && text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? kByteOrderMark.size() : 0;
 }
 
-// The size of the whole records at the beginning of a text. All of it when a record is wrong: whoever reads
-// them finds it.
+// The size of the complete records at the beginning of a text. The whole text if a record is malformed: CsvRecords
+// reports the error.
 std::size_t SizeOfWholeRecords(std::string_view text) {
   if (text.find('"') == std::string_view::npos) return text.rfind('\n') + 1;
   for (std::size_t size = 0;;) {
     const RecordEnd end = FindRecordEnd(text.substr(size), 0, [](std::size_t) {});
-    if (end.text_behind_quote) return text.size();
+    if (end.text_after_quote) return text.size();
     if (end.open) return size;
     size += end.size;
   }
@@ -91,12 +91,12 @@ std::string_view CsvRecord::RawCell(std::size_t cell) const {
 std::string CsvRecord::Cell(std::size_t cell) const {
   const std::string_view raw = RawCell(cell);
   if (raw.empty() || raw.front() != '"') return std::string(raw);
-  std::string meant;
+  std::string value;
   for (std::size_t i = 1; i + 1 < raw.size(); ++i) {
-    meant += raw[i];
-    if (raw[i] == '"') ++i;  // A doubled quote is one.
+    value += raw[i];
+    if (raw[i] == '"') ++i;  // A doubled quote stands for one.
   }
-  return meant;
+  return value;
 }
 
 absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
@@ -106,14 +106,14 @@ absl::StatusOr<bool> CsvRecords::Next(CsvRecord& record) {
   record.cell_begins.assign(1, begin);
   const RecordEnd end =
       FindRecordEnd(rest_, begin, [&](std::size_t cell) { record.cell_begins.push_back(cell); });
-  if (end.text_behind_quote || end.open_return) {
+  if (end.text_after_quote || end.open_return) {
     return absl::InvalidArgumentError(absl::StrCat(
         std::string(name_), " line ", line_ + CountLines(rest_.substr(0, end.size)), ", column ",
-        record.cell_count(), ": text follows a closing quote: double the quotes inside a quoted cell"));
+        record.cell_count(), ": text follows a closing quote; double the quotes inside a quoted cell"));
   }
   if (end.open_quote || end.text_size > CsvReader::kLongestRecord) {
     return absl::InvalidArgumentError(absl::StrCat(
-        std::string(name_), " line ", line_, ": the record that begins here does not end: close its quote"));
+        std::string(name_), " line ", line_, ": the record that begins here does not end; close its quote"));
   }
   record.text = rest_.substr(0, end.text_size);
   record.line_ending = rest_.substr(end.text_size, end.size - end.text_size);
@@ -131,12 +131,12 @@ absl::StatusOr<CsvReader> CsvReader::Open(const std::filesystem::path& path) {
     const int error = errno;
     return absl::Status(
         absl::ErrnoToStatusCode(error),
-        absl::StrCat(path.string(), ": ", std::strerror(error), ": name a CSV file that can be read"));
+        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a CSV file that can be read"));
   }
   CsvReader reader(path.string(), file);
   struct stat status;
   if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode)) {
-    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": is a folder: name a CSV file"));
+    return absl::FailedPreconditionError(absl::StrCat(path.string(), ": is a folder; give a CSV file"));
   }
   return reader;
 }
@@ -151,7 +151,7 @@ absl::StatusOr<std::size_t> CsvReader::Fill(std::size_t size) {
   rest_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   if (count < 0) {
     return absl::DataLossError(absl::StrCat(name_, ": reading failed at line ", line_ + CountLines(rest_),
-                                            ": ", std::strerror(error), ": copy the file to a sound disk"));
+                                            " (", std::strerror(error), "); copy the file to a sound disk"));
   }
   at_end_ = count == 0;
   return static_cast<std::size_t>(count);
@@ -167,7 +167,7 @@ void CsvReader::Take(std::size_t size, CsvBlock& block) {
 
 absl::Status CsvReader::EndlessRecord() const {
   return absl::InvalidArgumentError(
-      absl::StrCat(name_, " line ", line_, ": the record that begins here does not end: close its quote"));
+      absl::StrCat(name_, " line ", line_, ": the record that begins here does not end; close its quote"));
 }
 
 absl::StatusOr<CsvBlock> CsvReader::ReadHeader() {
@@ -178,7 +178,7 @@ absl::StatusOr<CsvBlock> CsvReader::ReadHeader() {
     end = FindRecordEnd(rest_, AfterByteOrderMark(rest_, line_), [](std::size_t) {});
   } while (end.open && !at_end_);
   CsvBlock header;
-  Take(end.text_behind_quote ? rest_.size() : end.size, header);
+  Take(end.text_after_quote ? rest_.size() : end.size, header);
   return header;
 }
 

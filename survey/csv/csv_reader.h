@@ -1,5 +1,5 @@
-// A CSV file (RFC 4180) as its header and blocks of whole records, and the records of a block with the bytes
-// they were written in.
+// Reads a CSV file (RFC 4180): first its header, then blocks of complete records; and splits a block into records that
+// keep their original bytes.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +15,36 @@
 
 namespace albtpu::client {
 
-// A record as it stands in the file, whose text it refers to. A quoted cell may span lines.
+// A record as written in the file; it refers to the text of its block. A quoted cell may span several lines.
 struct CsvRecord {
-  std::string_view text;                 // All of it, quotes included, without the line ending.
-  std::string_view line_ending;          // "\n", "\r\n", or nothing at the end of a file.
-  std::size_t line = 0;                  // Of its first character, from 1.
+  std::string_view text;                 // Including quotes, without the line ending.
+  std::string_view line_ending;          // "\n", "\r\n", or empty at the end of a file.
+  std::size_t line = 0;                  // Of its first character, counted from 1.
   std::vector<std::size_t> cell_begins;  // Offsets into `text`.
 
   std::size_t cell_count() const { return cell_begins.size(); }
-  std::string_view RawCell(std::size_t cell) const;  // As written, with its quotes.
-  std::string Cell(std::size_t cell) const;          // As meant, without them.
+  std::string_view RawCell(std::size_t cell) const;  // As written, with quotes.
+  std::string Cell(std::size_t cell) const;          // The value, without quotes.
   bool blank() const { return text.empty(); }
 };
 
-// Whole records, and where they stand in the file.
+// Complete records, and their position in the file.
 struct CsvBlock {
   std::string text;
   std::size_t first_line = 1;
 };
 
-// The byte order mark that some programs put in front of UTF-8.
+// The byte order mark with which some programs begin UTF-8 files.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-// The records of a block, one after the other. `name` is the file, for messages; the block must outlive it. A
-// byte order mark stays part of the first record's text, and not of its first cell.
+// Iterates over the records of a block, which must outlive it. `name` is the file, for messages. A byte order mark is
+// part of the text of the first record, but not of its first cell.
 class CsvRecords {
  public:
   CsvRecords(std::string_view name, const CsvBlock& block)
       : name_(name), rest_(block.text), line_(block.first_line) {}
 
-  // Reads the next record into `record`, reusing its memory. False at the end of the block.
+  // Reads the next record into `record` and reuses its memory. False at the end of the block.
   absl::StatusOr<bool> Next(CsvRecord& record);
 
  private:
@@ -55,23 +55,23 @@ class CsvRecords {
 
 class CsvReader {
  public:
-  // A record longer than this is taken for a quote that was never closed.
+  // Bytes. A longer record is reported as a quote that was never closed.
   static constexpr std::size_t kLongestRecord = 1 << 20;
 
   static absl::StatusOr<CsvReader> Open(const std::filesystem::path& path);
 
-  // The first record alone, as soon as it is there: a pipe may take its time with the next. Nothing when the
+  // The first record alone, as soon as it has arrived: through a pipe the next one may come much later. Empty if the
   // file is empty.
   absl::StatusOr<CsvBlock> ReadHeader();
 
-  // Many records, reusing the memory of `block`. False at the end of the file.
+  // Reads the next records into `block` and reuses its memory. False at the end of the file.
   absl::StatusOr<bool> Read(CsvBlock& block);
 
   const std::string& name() const { return name_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
-  std::uint64_t file_size() const { return stamp_.size(); }  // 0 when it is a pipe.
+  std::uint64_t file_size() const { return stamp_.size(); }  // 0 for a pipe.
 
-  // Fails when somebody wrote to the file since it was opened.
+  // Fails when the file has been modified since it was opened.
   absl::Status CheckUnchanged() const;
 
  private:
@@ -79,14 +79,14 @@ class CsvReader {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   CsvReader(std::string name, std::FILE* file);
-  absl::StatusOr<std::size_t> Fill(std::size_t size);  // Appends up to so many bytes to `rest_`.
-  void Take(std::size_t size, CsvBlock& block);        // Moves bytes from `rest_`.
+  absl::StatusOr<std::size_t> Fill(std::size_t size);  // Appends at most `size` bytes to `rest_`.
+  void Take(std::size_t size, CsvBlock& block);        // Moves `size` bytes from `rest_`.
   absl::Status EndlessRecord() const;
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
   FileStamp stamp_;
-  std::string rest_;  // Read and not given out.
+  std::string rest_;  // Bytes read but not yet returned.
   bool at_end_ = false;
   std::size_t line_ = 1;
   std::uint64_t bytes_read_ = 0;

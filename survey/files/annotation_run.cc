@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kWorthTiming = 2;  // s
+constexpr double kShortestTimedRun = 2;  // s; shorter runs print no rate.
 
-// Whether later files can fare better than this one did: not where the source has failed, or takes the token no
-// more, or the disk is full.
-bool IsOfOneFile(const absl::Status& status) {
+// Whether the failure concerns this file only. When the source has failed or refuses the token, or the disk is full,
+// later files would fail as well.
+bool ConcernsOneFile(const absl::Status& status) {
   return !absl::IsUnavailable(status) && !absl::IsAborted(status) && !absl::IsDeadlineExceeded(status) &&
          !absl::IsResourceExhausted(status) && !absl::IsUnauthenticated(status);
 }
@@ -37,7 +37,7 @@ class Run {
  public:
   Run(const AnnotationRun& run, const TableSummary& table, const std::vector<Job>& jobs)
       : run_(run),
-        making_{run.command, run.parameters, table},
+        settings_{run.command, run.parameters, table},
         jobs_(jobs),
         progress_(run.records, jobs.size(), TotalSize(jobs)) {}
 
@@ -49,45 +49,45 @@ class Run {
         ++done_;
       } else if (jobs_.size() == 1) {
         return status;
-      } else if (!IsOfOneFile(status)) {
+      } else if (!ConcernsOneFile(status)) {
         return absl::Status(status.code(), absl::StrCat(status.message(), "; ", DoneText()));
       } else {
         Report(status);
         ++failed_;
       }
     }
-    if (progress_.seconds() >= kWorthTiming && progress_.records() > 0) {
+    if (progress_.seconds() >= kShortestTimedRun && progress_.records() > 0) {
       Note(absl::StrFormat("%d %s in %.1f s: %s", progress_.records(), run_.records, progress_.seconds(),
                            RateText(progress_.records(), progress_.seconds(), run_.records)));
     }
     if (failed_ == 0) return absl::OkStatus();
-    return absl::FailedPreconditionError(absl::StrCat(failed_, " of ", jobs_.size(),
-                                                      " files failed: see above",
-                                                      done_ > 0 ? "; the others are written" : ""));
+    return absl::FailedPreconditionError(absl::StrCat(failed_, " of ", jobs_.size(), " files failed",
+                                                      done_ > 0 ? " (the others are written)" : "",
+                                                      "; see the messages above"));
   }
 
  private:
   absl::Status Annotate(const Job& job) {
     if (run_.resume) {
-      const absl::Status made = CheckMade(making_, job);
-      if (made.ok()) {
+      const absl::Status complete = CheckComplete(settings_, job);
+      if (complete.ok()) {
         progress_.Skip(SizeOf(job.input));
-        Note(absl::StrCat(job.output.string(), ": is made already"));
-        return made;
+        Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
+        return complete;
       }
-      if (!absl::IsNotFound(made) && run_.existing == Existing::kKeep) {
-        return absl::Status(made.code(),
-                            absl::StrCat(made.message(), ": --overwrite it, or choose another name"));
+      if (!absl::IsNotFound(complete) && run_.existing == Existing::kKeep) {
+        return absl::Status(complete.code(),
+                            absl::StrCat(complete.message(), "; add --overwrite, or choose another name"));
       }
     }
-    absl::Status possible = CheckNotTheSameFile(job.input, SummaryPath(job.output));
-    if (possible.ok()) possible = CheckSummaryCanBeWritten(job, run_.existing);
-    if (!possible.ok()) return possible;
-    std::error_code error;  // Creating the output says what is wrong.
-    if (job.in_subfolder) fs::create_directories(job.output.parent_path(), error);
+    absl::Status writable = CheckNotTheSameFile(job.input, SummaryPath(job.output));
+    if (writable.ok()) writable = CheckSummaryCanBeWritten(job, run_.existing);
+    if (!writable.ok()) return writable;
+    std::error_code ignored;  // If this fails, creating the output reports why.
+    if (job.in_subfolder) fs::create_directories(job.output.parent_path(), ignored);
     absl::StatusOr<AnnotatedFile> annotated = run_.annotate(job, progress_);
     if (!annotated.ok()) return annotated.status();
-    const std::string summary = SummaryText(making_, job, annotated->findings, annotated->file.size());
+    const std::string summary = SummaryText(settings_, job, annotated->findings, annotated->file.size());
     absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
     if (status.ok()) Note(absl::StrCat(job.output.string(), ":"), annotated->text);
     return status;
@@ -96,13 +96,13 @@ class Run {
   std::string DoneText() const {
     return absl::StrCat(done_, " of ", jobs_.size(), " files are done",
                         failed_ > 0 ? absl::StrCat(", ", failed_, " failed") : "",
-                        ": start again with --resume to go on");
+                        "; run again with --resume to continue");
   }
 
   const AnnotationRun& run_;
-  Making making_;
+  OutputSettings settings_;
   const std::vector<Job>& jobs_;
-  Progress progress_;
+  FileProgress progress_;
   std::size_t done_ = 0, failed_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The files of one run of a command, one after the other.
+// One run of a command over its files, one file after the other.
 #pragma once
 
 #include <functional>
@@ -9,31 +9,31 @@
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
 #include "survey/files/file_jobs.h"
+#include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
-#include "survey/files/progress.h"
 #include "survey/files/summary_file.h"
 
 namespace albtpu::client {
 
-// A file that is done but for its name.
+// A complete output that only lacks its name.
 struct AnnotatedFile {
   OutputFile file;
   Findings findings;
-  std::string text;  // For people; behind the name of the output.
+  std::string text;  // For the user; printed after the name of the output.
 };
 
 struct AnnotationRun {
   std::string command;                // "las"
-  std::string records;                // What its files hold, for people: "points".
-  nlohmann::ordered_json parameters;  // All that decides what is written, beside input and table.
-  bool resume = false;                // Leave outputs that are made already.
+  std::string records;                // What the files contain, for the user: "points".
+  nlohmann::ordered_json parameters;  // Everything that decides the output, apart from input and table.
+  bool resume = false;                // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
-  std::function<absl::StatusOr<AnnotatedFile>(const Job&, Progress&)> annotate;
+  std::function<absl::StatusOr<AnnotatedFile>(const Job&, FileProgress&)> annotate;
 };
 
-// Annotates every file and writes a summary beside each output; `table` is the one that answers. A file that
-// fails does not keep the others from being annotated, unless the source fails: then nothing more can be
-// answered, and the message says how many are done.
+// Annotates every file with `table`, the table of the source, and writes a summary beside each output. When one file
+// fails, the others are still annotated. When the source fails, no further file can be annotated: the run ends, and
+// the message says how many files are done.
 absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run, const TableSummary& table);
 
 }  // namespace albtpu::client

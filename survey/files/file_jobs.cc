@@ -27,31 +27,31 @@ bool IsSame(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, ignored);
 }
 
-// The files of `folder`, and of its subfolders if `recursive`, in the order of their names.
+// The files in `folder`, and in its subfolders with --recursive, ordered by name.
 absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std::string& extension,
                                               const FileOptions& options) {
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    std::error_code gone;  // Such entries are no files to annotate.
-    if (entry->is_directory(gone)) {
+    std::error_code ignored;  // An entry that disappeared is not annotated.
+    if (entry->is_directory(ignored)) {
       if (!options.recursive || IsSame(entry->path(), options.output_folder)) {
         entry.disable_recursion_pending();
       }
-    } else if (entry->is_regular_file(gone) && HasExtension(entry->path(), extension)) {
+    } else if (entry->is_regular_file(ignored) && HasExtension(entry->path(), extension)) {
       files.push_back(entry->path());
     }
   }
   if (error) {
     return absl::FailedPreconditionError(
-        absl::StrCat(folder.string(), ": ", error.message(), ": name a folder that can be read"));
+        absl::StrCat(folder.string(), ": ", error.message(), "; give a folder that can be read"));
   }
   if (files.empty()) {
     return absl::NotFoundError(absl::StrCat(folder.string(), ": no ", extension, " file in this folder",
-                                            options.recursive ? "" : ", subfolders left out",
-                                            ": name one that has some",
-                                            options.recursive ? "" : ", or say --recursive"));
+                                            options.recursive ? "" : " (subfolders were not searched)",
+                                            "; give a folder that has some",
+                                            options.recursive ? "" : ", or add --recursive"));
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -64,14 +64,14 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std:
   const std::vector<std::string>& files = options.files;
   if (options.output_folder.empty()) {
     if (files.size() != 2 || options.recursive) {
-      return UsageError(absl::StrCat(command, ": ", files.size(), " files: IN", extension, " OUT", extension,
-                                     " is right, or --output-dir DIR and any number of inputs"));
+      return UsageError(absl::StrCat(command, ": ", files.size(), " files; give IN", extension, " OUT",
+                                     extension, ", or --output-dir DIR and any number of inputs"));
     }
     return std::vector<Job>{{files[0], files[1]}};
   }
   if (!IsFolder(options.output_folder)) {
     return absl::NotFoundError(
-        absl::StrCat("--output-dir: ", options.output_folder, " is no folder: name one that is there"));
+        absl::StrCat("--output-dir: ", options.output_folder, " is not a folder; give one that exists"));
   }
   std::vector<Job> jobs;
   std::map<fs::path, fs::path> input_of;
@@ -80,7 +80,7 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std:
     if (!is_new) {
       return UsageError(absl::StrCat("--output-dir: two inputs are called ", name.string(), " (",
                                      other->second.string(), ", ", input.string(),
-                                     "): give them one at a time, as IN", extension, " OUT", extension));
+                                     "); annotate them one at a time, as IN", extension, " OUT", extension));
     }
     jobs.push_back({input, options.output_folder / name, name.has_parent_path()});
     return absl::OkStatus();

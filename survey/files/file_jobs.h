@@ -9,9 +9,9 @@
 
 namespace albtpu::client {
 
-// The flags that say so; all commands on files share them.
+// The flags that choose files; all commands that work on files share them.
 struct FileOptions {
-  std::vector<std::string> files;  // IN OUT, or inputs and folders of inputs.
+  std::vector<std::string> files;  // IN OUT, or input files and folders.
   std::string output_folder;       // --output-dir
   bool recursive = false;          // --recursive
   bool resume = false;             // --resume
@@ -20,13 +20,13 @@ struct FileOptions {
 // One file to annotate.
 struct Job {
   std::filesystem::path input, output;
-  bool in_subfolder = false;  // Of the output folder; it may have to be made.
+  bool in_subfolder = false;  // Of the output folder; the subfolder may not exist yet.
 };
 
-// IN OUT, or every input into the output folder. A folder stands for all files in it of `extension` (".las"),
-// in the order of their names; with --recursive also those of its subfolders, which the output folder
-// repeats. What lies in the output folder is no input. IsUsageError when the files do not say which, or when
-// two would go to one name.
+// IN OUT, or every input into the output folder. A folder stands for all files in it with `extension` (".las"),
+// ordered by name; with --recursive also for those in its subfolders, which are recreated in the output folder.
+// Files inside the output folder are never inputs. Fails with IsUsageError when the arguments are neither of the
+// two, or when two outputs would have the same name.
 absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::string& extension,
                                           const FileOptions& options);
 

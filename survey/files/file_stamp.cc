@@ -24,7 +24,7 @@ absl::Status FileStamp::CheckUnchanged(const std::string& name, int descriptor) 
   }
   return absl::FailedPreconditionError(
       absl::StrCat(name, ": changed while it was read (", size_, " bytes, then ", now.size_,
-                   "); nothing was written: start again when nobody writes to it"));
+                   "), so nothing was written; run again when no program writes to it"));
 }
 
 }  // namespace albtpu::client

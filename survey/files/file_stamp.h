@@ -1,4 +1,4 @@
-// Whether a file stayed what it was while it was read.
+// Detects that an input file was modified while it was read.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace albtpu::client {
 
-// Size and time of the last change of an open file. Pipes and devices have neither, and never change.
+// Size and modification time of an open file. Pipes and devices have neither, and count as unchanged.
 class FileStamp {
  public:
   static FileStamp Of(int descriptor);
@@ -17,7 +17,7 @@ class FileStamp {
   std::uint64_t size() const { return size_; }
   bool is_regular() const { return is_regular_; }
 
-  // FailedPrecondition when the open file is no longer what it was.
+  // FailedPrecondition when the open file has been modified since the stamp was taken.
   absl::Status CheckUnchanged(const std::string& name, int descriptor) const;
 
  private:

@@ -1,4 +1,4 @@
-// A file in chunks: read one after the other, worked on side by side, written one after the other.
+// A file processed in chunks: chunks are read in order, worked on in parallel and written in order.
 #pragma once
 
 #include <oneapi/tbb/global_control.h>
@@ -18,12 +18,11 @@ namespace albtpu::client {
 
 inline constexpr int kMostWorkers = 16;
 
-// Runs until `read` finds nothing more or something fails, and gives the failure that is first in the file.
-// Memory does not grow with the file: there are a few chunks, used again and again.
-//   absl::StatusOr<bool> read(Chunk&)   in order; false when nothing is left
-//   absl::Status work(Chunk&)           many at a time
-//   absl::Status write(Chunk&)          in order; after a failure no more
-// Chunks come from `make_chunk()`.
+// Runs to the end of the file or to the first failure, and returns the failure that comes first in the file. Memory
+// does not grow with the file: a few chunks, made by `make_chunk()`, are used again and again.
+//   absl::StatusOr<bool> read(Chunk&)   in order; false at the end of the file
+//   absl::Status work(Chunk&)           in parallel
+//   absl::Status write(Chunk&)          in order; not called after a failure
 template <typename MakeChunk, typename Read, typename Work, typename Write>
 absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Write write) {
   using Chunk = decltype(make_chunk());
@@ -31,8 +30,8 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
     Chunk chunk;
     absl::Status status;
   };
-  // More threads than cores: some wait for a disk or a server. Not many: one disk feeds them all, and each
-  // has a chunk in memory.
+  // More threads than cores, because some of them wait for the disk or a server; a limited number, because they all
+  // share one disk and each has a chunk in memory.
   const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMostWorkers) + 2;
   std::vector<Slot> slots;
   for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
@@ -42,7 +41,7 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
   std::atomic<bool> failed = false;
   const auto read_slot = [&](oneapi::tbb::flow_control& flow) -> Slot* {
     if (!read_all && !failed) {
-      // Slots are freed in order, so the one that is next in the ring is free.
+      // Slots are released in order, so the next one in the ring is free.
       Slot& slot = slots[next++ % slots.size()];
       const absl::StatusOr<bool> more = read(slot.chunk);
       slot.status = more.status();

@@ -1,4 +1,4 @@
-// A file that appears under its name only when it is whole.
+// A file that appears under its name only when it is complete.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace albtpu::client {
 
-// Writes to a file without a name in the same folder, which goes when the program does. Commit() syncs and
-// gives it its name. Where the file system has no such files (NFS), it has a temporary name, and without
-// Commit() is removed by the destructor or when a signal (HUP, INT, TERM) ends the program.
+// Writes to an unnamed file in the same folder, which the system removes when the program ends. Commit() syncs the
+// file and gives it its name. On file systems without unnamed files (NFS) it has a temporary name; unless it is
+// committed, the destructor removes it, or the signal handler when a signal (HUP, INT, TERM) ends the program.
 class OutputFile {
  public:
-  // AlreadyExists when `path` exists and is to be kept. FailedPrecondition when it is something other than a
-  // regular file, which a rename would replace (a device, a folder).
+  // AlreadyExists when `path` exists and is to be kept. FailedPrecondition when `path` is not a regular file: the
+  // rename would replace a device or a folder.
   static absl::StatusOr<OutputFile> Create(const std::filesystem::path& path, Existing existing);
 
   OutputFile(OutputFile&&) = default;
   OutputFile& operator=(OutputFile&&) = default;
 
-  // In large pieces: nothing is held back.
+  // Unbuffered: write large pieces.
   absl::Status Write(std::string_view bytes);
   std::uint64_t size() const;  // Bytes written.
 
-  // Brings all bytes to the disk, so that Commit() has only the name left to fail on.
+  // Brings all bytes to disk, so that only the renaming in Commit() can still fail.
   absl::Status Sync();
   absl::Status Commit();
 
@@ -42,8 +42,8 @@ class OutputFile {
   std::unique_ptr<Temporary, Discard> temporary_;
 };
 
-// FailedPrecondition when `output` is the file `input`, by whatever name: it would be replaced while it is
-// read.
+// FailedPrecondition when `output` and `input` are the same file, under whatever names: the input would be replaced
+// while it is read.
 absl::Status CheckNotTheSameFile(const std::filesystem::path& input, const std::filesystem::path& output);
 
 }  // namespace albtpu::client

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr char kProgram[] = "albtpu-query";
-constexpr std::uint64_t kLargestSummary = 1 << 20;  // Bytes; ours have some thousand.
+constexpr std::uint64_t kLargestSummary = 1 << 20;  // Bytes; ours have a few thousand.
 constexpr int kDeepestSummary = 8;                  // Levels; ours have 4.
 
 Json TableJson(const TableSummary& table) {
@@ -28,7 +28,7 @@ std::uint64_t SizeOf(const fs::path& path) {
   return ignored ? 0 : size;
 }
 
-// An empty object where there is no summary that can be read. What is nested deeper than any summary is left out.
+// An empty object if there is no readable summary. Values nested more deeply than in any summary of ours are dropped.
 Json ReadSummary(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
@@ -39,8 +39,8 @@ Json ReadSummary(const fs::path& path) {
   return json.is_object() ? json : Json::object();
 }
 
-// "parameters.water_level is 0 there, 1 here" of the first value of `here` that is another one there; empty
-// if there is none.
+// "parameters.water_level is 0 there, 1 here" for the first value in `here` that differs in `there`; empty if none
+// does.
 std::string Difference(const Json& there, const Json& here, const std::string& name) {
   if (!here.is_object()) {
     return there == here ? "" : absl::StrCat(name, " is ", there.dump(), " there, ", here.dump(), " here");
@@ -58,14 +58,14 @@ std::string Difference(const Json& there, const Json& here, const std::string& n
 
 fs::path SummaryPath(const fs::path& output) { return fs::path(output.string() + ".json"); }
 
-std::string SummaryText(const Making& making, const Job& job, const Findings& findings,
+std::string SummaryText(const OutputSettings& settings, const Job& job, const Findings& findings,
                         std::uint64_t output_bytes) {
   Json json;
   json["program"] = kProgram;
   json["program_version"] = std::string(Version());
-  json["command"] = making.command;
-  json["parameters"] = making.parameters;
-  json["table"] = TableJson(making.table);
+  json["command"] = settings.command;
+  json["parameters"] = settings.parameters;
+  json["table"] = TableJson(settings.table);
   json["input"] = {{"name", job.input.filename().string()}, {"bytes", findings.input_bytes}};
   json["input"].update(findings.input);
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
@@ -73,24 +73,24 @@ std::string SummaryText(const Making& making, const Job& job, const Findings& fi
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-absl::Status CheckMade(const Making& making, const Job& job) {
+absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   const std::string output = job.output.string(), summary = SummaryPath(job.output).string();
   std::error_code error;
-  if (!fs::exists(job.output, error)) return absl::NotFoundError(absl::StrCat(output, ": is not there"));
-  const auto other = [&](const std::string& what) {
-    return absl::FailedPreconditionError(absl::StrCat(output, ": exists already, and ", what));
+  if (!fs::exists(job.output, error)) return absl::NotFoundError(absl::StrCat(output, ": does not exist"));
+  const auto differs = [&](const std::string& what) {
+    return absl::FailedPreconditionError(absl::StrCat(output, ": already exists (", what, ")"));
   };
   const Json json = ReadSummary(summary);
-  if (json.empty()) return other(absl::StrCat("there is no summary ", summary, " to say how it was made"));
-  const Json here = {{"command", making.command},
-                     {"parameters", making.parameters},
-                     {"table", TableJson(making.table)},
+  if (json.empty()) return differs(absl::StrCat("without a summary ", summary, " that says how it was made"));
+  const Json here = {{"command", settings.command},
+                     {"parameters", settings.parameters},
+                     {"table", TableJson(settings.table)},
                      {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
                      {"output", {{"bytes", SizeOf(job.output)}}}};
   const std::string difference = Difference(json, here, "");
-  if (!difference.empty()) return other(absl::StrCat("by its summary ", difference));
+  if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
   if (fs::last_write_time(job.input, error) > fs::last_write_time(job.output, error) || error) {
-    return other(absl::StrCat(job.input.string(), " is newer"));
+    return differs(absl::StrCat(job.input.string(), " is newer"));
   }
   return absl::OkStatus();
 }
@@ -99,13 +99,13 @@ absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
   const fs::path summary = SummaryPath(job.output);
   std::error_code error;
   if (existing == Existing::kReplace || !fs::exists(summary, error)) return absl::OkStatus();
-  // A summary without its output is what a killed run leaves: it is worth nothing.
+  // A run that was killed may leave a summary without its output; such a summary is of no use and may be replaced.
   if (!fs::exists(job.output, error) && ReadSummary(summary).value("program", Json()) == kProgram) {
     return absl::OkStatus();
   }
-  const fs::path& there = fs::exists(job.output, error) ? job.output : summary;
+  const fs::path& existing_file = fs::exists(job.output, error) ? job.output : summary;
   return absl::AlreadyExistsError(
-      absl::StrCat(there.string(), ": exists already: choose another name, or --overwrite it"));
+      absl::StrCat(existing_file.string(), ": already exists; choose another name, or add --overwrite"));
 }
 
 absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,
@@ -120,7 +120,7 @@ absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::str
   if (!status.ok()) return status;
   std::error_code error;
   if (fs::exists(job.output, error)) {
-    // Whenever this is cut short, no summary is beside an output of another making.
+    // The old summary goes first: if the program is killed here, no summary describes the wrong output.
     fs::remove(summary_path, error);
     status = output.Commit();
     return status.ok() ? file->Commit() : status;

@@ -1,5 +1,5 @@
-// The summary beside each output, OUT.json: what was read, asked and answered. From it a later run tells
-// whether the output is whole and what it would write itself.
+// The summary beside each output, OUT.json: what was read, the parameters of the run and a summary of the answers. A
+// later run reads it to decide whether the output is complete and the same as it would write itself.
 #pragma once
 
 #include <filesystem>
@@ -17,33 +17,33 @@ namespace albtpu::client {
 // OUT.las.json
 std::filesystem::path SummaryPath(const std::filesystem::path& output);
 
-// What decides, beside the input, what is written.
-struct Making {
+// Everything that decides the output, apart from the input.
+struct OutputSettings {
   std::string command;                // "las"
-  nlohmann::ordered_json parameters;  // The flags, with their defaults.
+  nlohmann::ordered_json parameters;  // The flags, including defaults.
   TableSummary table;
 };
 
-// What has been read and answered.
+// What was read and answered.
 struct Findings {
   std::uint64_t input_bytes = 0;
-  nlohmann::ordered_json input;    // More about it: points, classes.
+  nlohmann::ordered_json input;    // Further properties: points, classes.
   nlohmann::ordered_json answers;  // UncertaintySummary::Json().
 };
 
-// The text of a summary. No time, host or path: equal runs give equal bytes.
-std::string SummaryText(const Making& making, const Job& job, const Findings& findings,
+// The text of a summary. It states no time, host or path, so that equal runs give equal bytes.
+std::string SummaryText(const OutputSettings& settings, const Job& job, const Findings& findings,
                         std::uint64_t output_bytes);
 
-// OK when the output of `job` is there, has the size that its summary tells, was made in this way of an input
-// of this name and size, and the input was not changed since. Otherwise what is different.
-absl::Status CheckMade(const Making& making, const Job& job);
+// OK when the output of `job` exists, has the size that its summary states, was made with these settings from an input
+// of this name and size, and the input has not been modified since. Otherwise the error says what differs.
+absl::Status CheckComplete(const OutputSettings& settings, const Job& job);
 
-// AlreadyExists when something is to be kept that stands where the summary would go.
+// AlreadyExists when a file that is to be kept has the name of the output or of its summary.
 absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing);
 
-// Gives output and summary their names, both or none: a summary is never beside an output that it does not
-// describe. `existing` is for both.
+// Gives the output and the summary their names, both or neither: a summary never lies beside an output that it does
+// not describe. `existing` applies to both.
 absl::Status CommitWithSummary(OutputFile output, const Job& job, const std::string& summary,
                                Existing existing);
 

@@ -1,4 +1,4 @@
-// From where a point lies and how the scanner looked at it to the pulse that made it.
+// The pulse behind a point: its incidence, azimuth, footprint and depth from the point's height and scan angle.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace albtpu::client {
 
-// The diameter [m] of a beam of full divergence `divergence` [mrad] at the mean surface, `altitude` [m] below
-// the aircraft, across the beam's axis: H / cos(incidence) * divergence.
+// The diameter [m], across its axis, of a beam with full divergence `divergence` [mrad] where it meets the mean
+// surface, `altitude` [m] below the aircraft: H / cos(incidence) * divergence. `incidence` is in degrees.
 double FootprintDiameter(double altitude, double divergence, double incidence);
 
-// The azimuth [degree] from downwind of the beam of an across-track scanner. Directions are true, clockwise
-// from north: where the aircraft flies to, and where the wind comes from. The beam points to the right of the
-// flight at positive scan angles, to the left at negative ones; at nadir either is as good, they fold to one
-// azimuth.
+// The azimuth [degree], from downwind, of the beam of an across-track scanner. Directions are true, clockwise from
+// north: `flight_direction` is where the aircraft flies to, `wind_from` where the wind comes from. The beam points to
+// the right of the flight direction at positive scan angles, to the left at negative ones. At nadir the side does not
+// matter, because both sides fold to the same azimuth.
 double AcrossTrackAzimuth(double flight_direction, double wind_from, double scan_angle);
 
 struct DivergingBeam {
@@ -29,17 +29,18 @@ struct AcrossTrackScan {
   double wind_from = 0;         // degree, true
 };
 
-// What all points of a flight line share.
+// Everything that the points of a flight line have in common.
 struct FlightLine {
-  double water_level = 0;      // In the vertical unit of the file.
-  double metres_per_unit = 1;  // Of that unit.
-  float wind_speed = 0;
-  std::optional<float> fetch;                                    // Absent: fully developed.
-  std::variant<float, DivergingBeam> footprint;                  // m, or computed.
-  std::variant<std::monostate, float, AcrossTrackScan> azimuth;  // Absent, degree, or computed.
+  double water_level = 0;                        // In the vertical unit of the file.
+  double metres_per_unit = 1;                    // Size of that unit.
+  float wind_speed = 0;                          // m/s at 10 m
+  std::optional<float> fetch;                    // m; absent: fully developed sea.
+  std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
+  std::variant<std::monostate, float, AcrossTrackScan>
+      azimuth;  // Absent, degree, or computed for each pulse.
 
-  // The pulses of points at heights `z` (in the file's unit) that were seen at `scan_angles` [degree], as
-  // many. Incidence is |scan angle|, depth the water level minus z, each rounded once to single precision.
+  // The pulses of points with heights `z`, in the file's unit, and `scan_angles` [degree]; both spans have the same
+  // size. Incidence is |scan angle| and depth is the water level minus z, each rounded once to single precision.
   void MakePulses(std::span<const double> z, std::span<const double> scan_angles, PulseBatch& pulses) const;
 };
 

@@ -13,7 +13,7 @@
 namespace albtpu::client {
 namespace {
 
-// A chunk has at most so many bytes of records, and no more records than a server takes pulses in a message.
+// The largest chunk, in bytes and in records. A server takes no more pulses than this in one message.
 constexpr std::size_t kChunkBytes = 8 << 20;
 constexpr std::size_t kChunkRecords = 65536;
 
@@ -24,12 +24,13 @@ absl::Status CheckUnits(const LasReader& reader, const LasAnnotation& annotation
   if (!feet->has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(
       absl::StrCat(reader.name(), ": its coordinate system is in feet (", **feet,
-                   "): say what unit its heights and --water-level have, by --units m, ft or us-ft"));
+                   "); give the unit of its heights and of --water-level by --units m, ft or us-ft"));
 }
 
-// All points, from `reader` into the file of `annotated`.
+// Copies all points from `reader` to the file of `annotated`, with their uncertainty.
 absl::Status AnnotatePoints(const LasReader& reader, const LasAnnotation& annotation,
-                            UncertaintySource& source, Progress::File& progress, AnnotatedLas& annotated) {
+                            UncertaintySource& source, FileProgress::File& progress,
+                            AnnotatedLas& annotated) {
   using Chunk = LasChunkWork::Chunk;
   const LasHeader& header = reader.header();
   const std::uint64_t length = header.record_length;
@@ -62,7 +63,7 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasAnnotation& annota
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const LasAnnotation& annotation, UncertaintySource& source,
-                                         Progress& progress) {
+                                         FileProgress& progress) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   const absl::StatusOr<LasReader> reader = LasReader::Open(input);
   if (!reader.ok()) return reader.status();
@@ -77,11 +78,11 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                          .classes = {},
                          .summary = UncertaintySummary(annotation.style),
                          .file = *std::move(file)};
-  Progress::File file_progress(progress, input.filename().string());
+  FileProgress::File file_progress(progress, input.filename().string());
   absl::Status status = annotated.file.Write(*head);
   if (status.ok()) status = AnnotatePoints(*reader, annotation, source, file_progress, annotated);
   if (status.ok()) status = CopyTail(*reader, annotated.file);
-  // An input that became shorter failed to be read as well: that it changed is what to say.
+  // Reading also fails when the input became shorter; the modification is the cause to report.
   if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
   if (!status.ok()) return status;
   return annotated;

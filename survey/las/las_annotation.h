@@ -1,4 +1,4 @@
-// A LAS file, repeated with the THU and TVU of each bathymetric point.
+// Copies a LAS file and appends THU and TVU to each point.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
 #include "survey/answers/uncertainty_summary.h"
+#include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
-#include "survey/files/progress.h"
 #include "survey/las/las_chunk.h"
-#include "survey/las/las_classes.h"
+#include "survey/las/las_points.h"
 
 namespace albtpu::client {
 
@@ -18,16 +18,16 @@ struct AnnotatedLas {
   std::uint64_t input_bytes = 0;
   LasClassCounts classes;
   UncertaintySummary summary;
-  OutputFile file;  // Whole, but not under its name before Commit().
+  OutputFile file;  // Complete; Commit() gives it its name.
 };
 
-// Points of other classes, and those without an interpolated answer, get no-data. Reads, asks and writes at
-// the same time; memory does not grow with the file. Fails, leaving nothing, for all that LasReader,
-// AnnotatedHead and the source refuse, when the output is the input, when the coordinate system is in feet
-// and no unit is given, and when somebody writes to the input meanwhile.
+// Bathymetric points with an interpolated answer get their uncertainty, all other points get no-data. Reading, querying
+// and writing overlap; memory does not grow with the file. Fails and leaves no output when LasReader, AnnotatedHead or
+// the source fails, when the output is the input, when the coordinate system is in feet and no unit is given, and when
+// the input is modified meanwhile.
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const LasAnnotation& annotation, UncertaintySource& source,
-                                         Progress& progress);
+                                         FileProgress& progress);
 
 }  // namespace albtpu::client

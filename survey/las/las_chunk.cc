@@ -42,7 +42,7 @@ void LasChunkWork::Decode(Chunk& chunk) const {
     const std::string_view record(chunk.records.data() + i * record_length_, record_length_);
     const int point_class = fields_.Class(record);
     chunk.classes.Add(point_class);
-    // Written whether it is one or not, and then written over: without branches.
+    // Avoids a branch: every point is written, and the next one overwrites it unless it is bathymetric.
     chunk.bathymetric[found] = static_cast<std::uint32_t>(i);
     chunk.z[found] = fields_.Z(record);
     chunk.scan_angles[found] = fields_.ScanAngle(record);

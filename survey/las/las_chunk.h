@@ -1,4 +1,4 @@
-// A run of points of a LAS file: from their records to records with the uncertainty behind each.
+// A run of points of a LAS file: turns their records into records with THU and TVU appended.
 #pragma once
 
 #include <array>
@@ -9,41 +9,39 @@
 
 #include "absl/status/status.h"
 #include "service/client/uncertainty_source.h"
-#include "survey/answers/answer_style.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/uncertainty_summary.h"
 #include "survey/las/beam_geometry.h"
-#include "survey/las/las_classes.h"
 #include "survey/las/las_header.h"
-#include "survey/las/las_point.h"
+#include "survey/las/las_points.h"
 
 namespace albtpu::client {
 
 struct LasAnnotation {
-  std::set<int> classes;  // Those that are the bottom seen through water.
+  std::set<int> classes;  // The bathymetric ones: bottom seen through water.
   FlightLine flight_line;
-  bool unit_is_given = false;  // Then feet in the coordinate system are no surprise.
+  bool unit_is_given = false;  // Then the coordinate system may be in feet.
   AnswerStyle style;
 };
 
-// What is alike for all chunks of a file.
+// Everything that the chunks of a file have in common.
 class LasChunkWork {
  public:
   LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, UncertaintySource& source);
 
-  // Memory that is used again for chunk after chunk.
+  // Memory that is reused from chunk to chunk.
   struct Chunk {
     explicit Chunk(AnswerStyle style) : summary(style) {}
 
-    std::string records;    // In.
-    std::string annotated;  // Out: the same with 8 bytes behind each.
+    std::string records;    // Input.
+    std::string annotated;  // Output: the same records, each followed by 8 bytes.
     LasClassCounts classes;
     UncertaintySummary summary;
 
    private:
     friend class LasChunkWork;
-    std::vector<std::uint32_t> bathymetric;  // Which records.
-    std::vector<double> z, scan_angles;      // Of those.
+    std::vector<std::uint32_t> bathymetric;  // Indices of records.
+    std::vector<double> z, scan_angles;      // Of these records.
     PulseBatch pulses;
     AnswerBatch answers;
   };

@@ -15,20 +15,19 @@ namespace {
 constexpr std::string_view kProjectionUser = "LASF_Projection";
 constexpr std::uint16_t kWktRecord = 2112;
 constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735;
-constexpr std::size_t kLongestWkt = 1 << 20;  // Real ones have a few thousand bytes.
+constexpr std::size_t kLongestWkt = 1 << 20;  // Bytes; real ones have a few thousand.
 
-// Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these, in
+// Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these limits, in
 // metres; no other unit of length or angle does.
 constexpr double kShortestFoot = 0.304;
 constexpr double kLongestFoot = 0.306;
 
-// GeoTIFF 1.1: the unit of projected coordinates, of heights and of geocentric coordinates.
+// GeoTIFF 1.1: keys for the units of projected coordinates, of heights and of geocentric coordinates.
 constexpr std::uint16_t kProjLinearUnits = 3076;
 constexpr std::uint16_t kVerticalUnits = 4099;
 
-// EPSG codes of units of length that are feet: 9002 international, 9003 US survey, 9005 Clarke, 9041 and 9070
-// British, 9080-9083 Indian, 9094 Gold Coast, 9095 British 1936; GeoTIFF 1.0 also had 9004 (modified
-// American) and 9006 (Indian).
+// EPSG codes of feet: 9002 international, 9003 US survey, 9005 Clarke, 9041, 9051 and 9070 British, 9080-9083 Indian,
+// 9094 Gold Coast, 9095 British 1936; GeoTIFF 1.0 also had 9004 (modified American) and 9006 (Indian).
 bool IsFoot(std::uint16_t unit) {
   return (unit >= 9002 && unit <= 9006) || unit == 9041 || unit == 9051 || unit == 9070 ||
          (unit >= 9080 && unit <= 9083) || unit == 9094 || unit == 9095;
@@ -38,11 +37,11 @@ bool IsFoot(std::uint16_t unit) {
 
 std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
   const std::string upper = absl::AsciiStrToUpper(absl::string_view(wkt.data(), wkt.size()));
-  // UNIT of WKT 1 and 2, LENGTHUNIT of WKT 2; ANGLEUNIT comes along and is no foot.
+  // UNIT of WKT 1 and 2, LENGTHUNIT of WKT 2. The search also finds ANGLEUNIT, which is never a foot.
   for (std::size_t at = upper.find("UNIT"); at != std::string::npos; at = upper.find("UNIT", at + 1)) {
     const std::size_t open = upper.find_first_not_of(" \t\r\n", at + 4);
     if (open == std::string::npos || (upper[open] != '[' && upper[open] != '(')) continue;
-    // Its name follows at once: looking further would take the square of a long text's length.
+    // The name must follow immediately: a further search would take time quadratic in the length of the text.
     const std::size_t name_begin = upper.find_first_not_of(" \t\r\n", open + 1);
     if (name_begin == std::string::npos) break;
     if (upper[name_begin] != '"') continue;
@@ -63,13 +62,13 @@ std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
 }
 
 std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory) {
-  constexpr std::size_t kEntry =
-      8;  // Key, place of its value (0: here), count, value; the first entry is a header.
+  // An entry has four u16: key, location of the value (0: in the entry), count, value. The first entry is a header.
+  constexpr std::size_t kEntry = 8;
   for (std::size_t begin = kEntry; begin + kEntry <= geo_key_directory.size(); begin += kEntry) {
     const auto key = Load<std::uint16_t>(geo_key_directory, begin);
-    const auto place = Load<std::uint16_t>(geo_key_directory, begin + 2);
+    const auto location = Load<std::uint16_t>(geo_key_directory, begin + 2);
     const auto value = Load<std::uint16_t>(geo_key_directory, begin + 6);
-    if ((key == kProjLinearUnits || key == kVerticalUnits) && place == 0 && IsFoot(value)) {
+    if ((key == kProjLinearUnits || key == kVerticalUnits) && location == 0 && IsFoot(value)) {
       return absl::StrCat("GeoTIFF key ", key, " = ", value);
     }
   }

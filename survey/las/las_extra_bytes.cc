@@ -11,8 +11,8 @@
 namespace albtpu::client {
 namespace {
 
-// An entry (LAS Specification 1.4 R15, table 24): reserved u16, type u8, options u8, name, unused u32,
-// no-data, min and max 24 bytes each, scale and offset 24 each, description.
+// An entry (LAS Specification 1.4 R15, table 24) has: reserved u16, type u8, options u8, name, unused u32; no-data,
+// min, max, scale and offset of 24 bytes each; description.
 constexpr std::size_t kEntrySize = 192;
 constexpr std::size_t kTypeField = 2;
 constexpr std::size_t kOptionsField = 3;
@@ -21,12 +21,12 @@ constexpr std::size_t kTextSize = 32;
 constexpr std::size_t kNoDataField = 40;
 constexpr std::size_t kDescriptionField = 160;
 
-constexpr std::uint8_t kUndocumented = 0;  // Its options are its number of bytes.
+constexpr std::uint8_t kUndocumented = 0;  // The options field has the number of bytes.
 constexpr std::size_t kMostUndocumented = 255;
 constexpr std::uint8_t kFloat = 9;
 constexpr std::uint8_t kNoDataIsSet = 0x01;
 
-// Types 1-10 are u8, i8, u16 .. i64, f32, f64; 11-20 and 21-30 (deprecated) are two and three of them.
+// Types 1-10 are u8, i8, u16 .. i64, f32, f64; the deprecated types 11-20 and 21-30 are two and three of these.
 constexpr std::array<std::size_t, 10> kTypeSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr int kTypeCount = 30;
 
@@ -35,22 +35,22 @@ struct Described {
   std::set<std::string, std::less<>> names;
 };
 
-absl::Status Bad(const std::string& name, const std::string& message) {
+absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
 }
 
 absl::StatusOr<Described> Read(const std::string& name, std::string_view record) {
   if (record.size() % kEntrySize != 0) {
-    return Bad(name, absl::StrCat("its record of extra bytes has ", record.size(), " bytes: a multiple of ",
-                                  kEntrySize, " is right"));
+    return Invalid(name, absl::StrCat("its Extra Bytes record has ", record.size(),
+                                      " bytes; expected a multiple of ", kEntrySize));
   }
   Described described;
   for (std::size_t begin = 0; begin < record.size(); begin += kEntrySize) {
     const std::string_view entry = record.substr(begin, kEntrySize);
     const int type = Load<std::uint8_t>(entry, kTypeField);
     if (type > kTypeCount) {
-      return Bad(name, absl::StrCat("its extra bytes have type ", type, ", whose size is not known: 0 to ",
-                                    kTypeCount, " are right"));
+      return Invalid(name, absl::StrCat("its Extra Bytes record has type ", type,
+                                        " (of unknown size); expected 0 to ", kTypeCount));
     }
     described.bytes += type == kUndocumented ? Load<std::uint8_t>(entry, kOptionsField)
                                              : kTypeSizes[(type - 1) % kTypeSizes.size()] *
@@ -75,12 +75,11 @@ std::string UncertaintyEntry(std::string_view name, Coverage coverage) {
   std::string entry =
       Entry(kFloat, kNoDataIsSet, name,
             coverage == Coverage::kTwoSigma ? "sea surface only, 2 sigma, m" : "sea surface only, 95 %, m");
-  Store(static_cast<double>(kNoUncertainty),
-        entry.data() + kNoDataField);  // Floats have their no-data as f64.
+  Store(static_cast<double>(kNoUncertainty), entry.data() + kNoDataField);  // As f64, also for a float.
   return entry;
 }
 
-// Names that are not taken: "undocumented", then with a number behind it, each but once.
+// Yields names that are not taken: "undocumented", "undocumented_2" and so on, each once.
 class FreeNames {
  public:
   explicit FreeNames(const std::set<std::string, std::less<>>& taken) : taken_(taken) {}
@@ -107,13 +106,13 @@ absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::st
   if (!known.ok()) return known.status();
   for (const std::string_view ours : {kThuName, kTvuName}) {
     if (known->names.count(ours) > 0) {
-      return Bad(
-          name, absl::StrCat("has ", std::string(ours), " already: annotate the file that it was made from"));
+      return Invalid(name, absl::StrCat("already has ", std::string(ours),
+                                        "; annotate the file from which it was made"));
     }
   }
   if (known->bytes > extra_bytes) {
-    return Bad(name, absl::StrCat("describes ", known->bytes, " extra bytes, its records have ", extra_bytes,
-                                  ": as many as there are is right"));
+    return Invalid(name, absl::StrCat("describes ", known->bytes, " extra bytes, but its points have ",
+                                      extra_bytes, "; correct the description"));
   }
   std::string record(described);
   FreeNames free_names(known->names);
@@ -125,8 +124,8 @@ absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::st
   record += UncertaintyEntry(kThuName, coverage);
   record += UncertaintyEntry(kTvuName, coverage);
   if (record.size() > kLargestExtraBytesRecord) {
-    return Bad(name, absl::StrCat("describes so many extra bytes that two more do not fit a record of ",
-                                  kLargestExtraBytesRecord, " bytes: remove some"));
+    return Invalid(name, absl::StrCat("describes so many extra bytes that two more descriptions exceed ",
+                                      kLargestExtraBytesRecord, " bytes; remove some"));
   }
   return record;
 }

@@ -1,4 +1,4 @@
-// The Extra Bytes record of LAS (LASF_Spec 4): what stands behind the fields of a point's format.
+// The Extra Bytes record of LAS (LASF_Spec 4), which describes the bytes of a point after the fields of its format.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,22 @@
 
 namespace albtpu::client {
 
-// The two floats that are appended to each record, by the names that readers of cBLUE's files know.
+// The two floats that are appended to each record. Readers of cBLUE's files know them by these names.
 inline constexpr std::string_view kThuName = "total_thu";
 inline constexpr std::string_view kTvuName = "total_tvu";
-inline constexpr float kNoUncertainty = -1;  // Declared as their no-data value.
+inline constexpr float kNoUncertainty = -1;  // Their no-data value.
 inline constexpr std::size_t kAppendedBytes = 2 * sizeof(float);
 
-// The most that a VLR can hold.
+// Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;
 
-// The data of the record with total_thu and total_tvu described last. `described` is the data that the file
-// has, kept byte for byte, empty if it has none; `extra_bytes` is what the records really have. Bytes that
-// nothing describes get entries of type 0, "undocumented", so that ours are found where they are.
+// The data of the record after descriptions of total_thu and total_tvu have been appended. `described` is the existing
+// data, which is kept byte for byte; it is empty if the file has no such record. `extra_bytes` is the actual number of
+// extra bytes in a point. Bytes without a description get entries of type 0, "undocumented", so that readers find ours
+// at the right offset.
 //
-// Fails when the names are there already, when more bytes are described than there are, when a type is
-// unknown, or when the result would not fit a VLR.
+// Fails when the names exist already, when more bytes are described than exist, when a type is unknown, or when the
+// result does not fit a VLR.
 absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::string_view described,
                                                 std::size_t extra_bytes, Coverage coverage);
 

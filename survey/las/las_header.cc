@@ -12,16 +12,16 @@ namespace {
 // LAS Specification 1.4 R15, tables 6-17.
 constexpr std::array<std::size_t, kLargestPointFormat + 1> kRecordLengths = {20, 28, 26, 34, 57, 63,
                                                                              30, 36, 38, 59, 67};
-// The last format that versions 1.2, 1.3 and 1.4 define.
+// The last point format that LAS 1.2, 1.3 and 1.4 define.
 constexpr std::array<int, 3> kLastFormats = {3, 5, 10};
 constexpr std::array<std::size_t, 3> kHeaderSizes = {227, 235, 375};
 constexpr int kFirstVersion = 2;
 
-// LASzip marks a compressed file by one of the two upper bits of the format.
+// LASzip sets one of the two upper bits of the point format in a compressed file.
 constexpr int kCompressionBits = 0xC0;
 constexpr std::uint16_t kWaveformInside = 0x2;  // Bit 1 of the global encoding.
 
-absl::Status Bad(const std::string& name, const std::string& message) {
+absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
 }
 
@@ -31,31 +31,32 @@ absl::Status Truncated(const std::string& name, const std::string& message) {
 
 absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
   if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF") {
-    return Bad(name, "is not a LAS file, which begins with 'LASF': name a .las file");
+    return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las file");
   }
   if (bytes.size() < kHeaderSizes[0]) {
     return Truncated(
-        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header: get a whole copy"));
+        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   }
   const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
   const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
   if (major != 1 || minor < kFirstVersion || minor > 4) {
-    return Bad(name,
-               absl::StrCat("is LAS ", major, ".", minor,
-                            ": 1.2, 1.3 and 1.4 are read (`las2las -set_version 1.4` or `pdal translate "
-                            "--writers.las.minor_version=4` converts)"));
+    return Invalid(name,
+                   absl::StrCat("is LAS ", major, ".", minor,
+                                " (expected 1.2, 1.3 or 1.4); convert it by `las2las -set_version 1.4` or "
+                                "`pdal translate --writers.las.minor_version=4`"));
   }
   return absl::OkStatus();
 }
 
-// 1.4 counts points in 64 bits, and beside it in the old 32 bits where the format is an old one.
+// LAS 1.4 has a 64-bit point count and, for the old point formats, the same count in the legacy 32-bit field.
 absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_view bytes, int version_minor) {
   const std::uint64_t legacy = Load<std::uint32_t>(bytes, las_field::kLegacyPointCount);
   if (version_minor < 4) return legacy;
   const auto count = Load<std::uint64_t>(bytes, las_field::kPointCount);
   if (legacy != 0 && legacy != count) {
-    return Bad(name, absl::StrCat("its header counts ", count, " points, and ", legacy,
-                                  " in its legacy field: one number, or 0 in the legacy field, is right"));
+    return Invalid(name,
+                   absl::StrCat("its header states ", count, " points, but ", legacy,
+                                " in the legacy field; expected the same number, or 0 in the legacy field"));
   }
   return count;
 }
@@ -63,61 +64,63 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
 absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
   const int last_format = kLastFormats[header.version_minor - kFirstVersion];
   if (header.point_format > last_format) {
-    return Bad(name, absl::StrCat("point format ", header.point_format, " in LAS 1.", header.version_minor,
-                                  ": 0 to ", last_format, " are right"));
+    return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.",
+                                      header.version_minor, "; expected 0 to ", last_format));
   }
   const std::size_t minimum = MinimumRecordLength(header.point_format);
   if (header.record_length < minimum) {
-    return Bad(name, absl::StrCat("records of ", header.record_length, " bytes: point format ",
-                                  header.point_format, " needs ", minimum, " or more"));
+    return Invalid(name, absl::StrCat("has point records of ", header.record_length, " bytes; point format ",
+                                      header.point_format, " needs ", minimum, " or more"));
   }
   if (!std::isfinite(header.scale_z) || header.scale_z == 0 || !std::isfinite(header.offset_z)) {
-    return Bad(name, absl::StrCat("z scale ", header.scale_z, " and offset ", header.offset_z,
-                                  ": finite numbers, the scale not zero, are right"));
+    return Invalid(name, absl::StrCat("has z scale ", header.scale_z, " and offset ", header.offset_z,
+                                      "; expected finite numbers and a scale other than zero"));
   }
   return absl::OkStatus();
 }
 
-absl::Status CheckPlaces(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
+absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
   const std::size_t least_header = kHeaderSizes[header.version_minor - kFirstVersion];
   if (header.header_size < least_header) {
-    return Bad(name, absl::StrCat("header size ", header.header_size, ": LAS 1.", header.version_minor,
-                                  " has ", least_header, " bytes or more"));
+    return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.",
+                                      header.version_minor, " needs ", least_header, " bytes or more"));
   }
   if (header.offset_to_points < header.header_size) {
-    return Bad(
-        name, absl::StrCat("point records begin at byte ", header.offset_to_points, ", inside the header of ",
-                           header.header_size, " bytes: behind it is right"));
+    return Invalid(
+        name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
+                           ", inside the header of ", header.header_size, " bytes; expected them after it"));
   }
   if (header.offset_to_points > file_size) {
-    return Truncated(name, absl::StrCat("point records begin at byte ", header.offset_to_points,
-                                        " of a file of ", file_size, ": get a whole copy"));
+    return Truncated(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
+                                        ", but the file has only ", file_size, "; get a complete copy"));
   }
   const std::uint64_t room = (file_size - header.offset_to_points) / header.record_length;
   if (header.point_count > room) {
-    return Truncated(name, absl::StrCat("its header counts ", header.point_count, " points, the file holds ",
-                                        room, ": it is truncated or its header is wrong; get a whole copy"));
+    return Truncated(
+        name, absl::StrCat("its header states ", header.point_count, " points, but the file has ", room,
+                           " (truncated, or the header is wrong); get a complete copy"));
   }
   return absl::OkStatus();
 }
 
-// What lies behind the points must be said by the header; points that it does not count would be lost.
-absl::Status CheckBehindPoints(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
+// The header must state everything that follows the points: points beyond its count would be lost.
+absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
   std::uint64_t next = file_size;
   for (const auto& [start, what] : {std::pair(header.start_of_evlrs, "extended variable length records"),
                                     std::pair(header.start_of_waveform_packet, "waveform packets")}) {
     if (start == 0) continue;
     if (start < header.end_of_points() || start > file_size) {
-      return Bad(name, absl::StrCat(what, " begin at byte ", start, ": between the end of the points, ",
-                                    header.end_of_points(), ", and of the file, ", file_size, ", is right"));
+      return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start,
+                                        "; expected between the end of the points, ", header.end_of_points(),
+                                        ", and the end of the file, ", file_size));
     }
     next = std::min(next, start);
   }
   const std::uint64_t uncounted = next - header.end_of_points();
   if (uncounted >= header.record_length) {
-    return Bad(name, absl::StrCat("its header counts ", header.point_count, " points, but ", uncounted,
-                                  " bytes, room for ", uncounted / header.record_length,
-                                  " more, lie behind them: a header that counts all is right"));
+    return Invalid(name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted,
+                                      " bytes, enough for ", uncounted / header.record_length,
+                                      " more points, follow them; correct the point count"));
   }
   return absl::OkStatus();
 }
@@ -136,7 +139,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   const std::size_t least_header = kHeaderSizes[header.version_minor - kFirstVersion];
   if (bytes.size() < least_header) {
     return Truncated(
-        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header: get a whole copy"));
+        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   }
   header.header_size = Load<std::uint16_t>(bytes, las_field::kHeaderSize);
   header.offset_to_points = Load<std::uint32_t>(bytes, las_field::kOffsetToPoints);
@@ -146,9 +149,9 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   header.scale_z = Load<double>(bytes, las_field::kScaleZ);
   header.offset_z = Load<double>(bytes, las_field::kOffsetZ);
   if ((header.point_format & kCompressionBits) != 0) {
-    return Bad(name,
-               "is compressed (LAZ): expand it first, by `laszip -i IN.laz -o OUT.las` or "
-               "`pdal translate IN.laz OUT.las`");
+    return Invalid(name,
+                   "is compressed (LAZ); decompress it first, by `laszip -i IN.laz -o OUT.las` or "
+                   "`pdal translate IN.laz OUT.las`");
   }
   const absl::StatusOr<std::uint64_t> count = PointCount(name, bytes, header.version_minor);
   if (!count.ok()) return count.status();
@@ -161,15 +164,15 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
     header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
     if (header.evlr_count > 0) header.start_of_evlrs = Load<std::uint64_t>(bytes, las_field::kStartOfEvlrs);
     if (header.evlr_count > 0 && header.start_of_evlrs == 0) {
-      return Bad(name,
-                 absl::StrCat("its header counts ", header.evlr_count,
-                              " extended variable length records that begin nowhere: a start behind the "
-                              "points is right"));
+      return Invalid(name,
+                     absl::StrCat("its header states ", header.evlr_count,
+                                  " extended variable length records but not where they begin; expected an "
+                                  "offset after the points"));
     }
   }
   if (absl::Status status = CheckRecords(name, header); !status.ok()) return status;
-  if (absl::Status status = CheckPlaces(name, header, file_size); !status.ok()) return status;
-  if (absl::Status status = CheckBehindPoints(name, header, file_size); !status.ok()) return status;
+  if (absl::Status status = CheckOffsets(name, header, file_size); !status.ok()) return status;
+  if (absl::Status status = CheckAfterPoints(name, header, file_size); !status.ok()) return status;
   return header;
 }
 

@@ -1,5 +1,5 @@
-// The public header block of LAS 1.2 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the layout of
-// its points.
+// The public header block of LAS 1.2 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the sizes of point
+// records.
 #pragma once
 
 #include <cstddef>
@@ -30,12 +30,12 @@ inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
 inline constexpr std::size_t kPointCount = 247;             // u64, from 1.4
 }  // namespace las_field
 
-inline constexpr std::size_t kLargestLasHeader = 375;  // Of 1.4; 227 of 1.2, 235 of 1.3.
+inline constexpr std::size_t kLargestLasHeader = 375;  // Bytes in 1.4; 227 in 1.2, 235 in 1.3.
 inline constexpr int kLargestPointFormat = 10;
 
 struct LasHeader {
   int version_minor = 4;
-  std::uint16_t header_size = 0;  // May be larger than the version asks; what is behind is kept.
+  std::uint16_t header_size = 0;  // May be larger than the version requires; the rest is kept.
   std::uint32_t offset_to_points = 0;
   std::uint32_t vlr_count = 0;
   int point_format = 0;
@@ -43,21 +43,21 @@ struct LasHeader {
   std::uint64_t point_count = 0;
   double scale_z = 0;
   double offset_z = 0;
-  std::uint64_t start_of_waveform_packet = 0;  // 0: none inside this file.
+  std::uint64_t start_of_waveform_packet = 0;  // 0: none in this file.
   std::uint64_t start_of_evlrs = 0;            // 0: none.
   std::uint32_t evlr_count = 0;
 
-  std::size_t extra_bytes() const;  // Of a record, behind the fields of its format.
+  std::size_t extra_bytes() const;  // In a point record, after the fields of its format.
   std::uint64_t end_of_points() const { return offset_to_points + point_count * record_length; }
 };
 
-// Bytes of a record of a format, 0 to 10, without extra bytes.
+// Bytes of a point record without extra bytes, for formats 0 to 10.
 std::size_t MinimumRecordLength(int point_format);
 
-// Reads and checks the header against itself and the size of the file, so that whoever follows its offsets
-// stays inside the file. `bytes` is the beginning of the file, at least kLargestLasHeader bytes or all there
-// is. `name` begins the messages. InvalidArgument: not LAS, not LAS 1.2-1.4, compressed, or a header that
-// contradicts itself. DataLoss: truncated.
+// Reads the header and checks that it is consistent with itself and with the size of the file, so that all its offsets
+// lie inside the file. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
+// begins the messages. InvalidArgument: not LAS, not LAS 1.2-1.4, compressed, or an inconsistent header. DataLoss:
+// truncated.
 absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
                                          std::uint64_t file_size);
 

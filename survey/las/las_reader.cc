@@ -13,7 +13,7 @@
 namespace albtpu::client {
 namespace {
 
-// Programs that compress LAS leave this record behind, even where they do not mark the point format.
+// Programs that compress LAS add this record, even those that do not mark the point format.
 constexpr std::string_view kLaszipUser = "laszip encoded";
 
 }  // namespace
@@ -21,20 +21,20 @@ constexpr std::string_view kLaszipUser = "laszip encoded";
 LasReader::LasReader(std::string name, std::FILE* file) : name_(std::move(name)), file_(file) {}
 
 absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
-  // A pipe that nobody writes to is opened, and refused, at once.
+  // O_NONBLOCK: opening a pipe without a writer returns immediately, and the pipe is refused.
   const int descriptor = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "rb");
   if (file == nullptr) {
     const int error = errno;
     return absl::Status(
         absl::ErrnoToStatusCode(error),
-        absl::StrCat(path.string(), ": ", std::strerror(error), ": name a LAS file that can be read"));
+        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a LAS file that can be read"));
   }
   LasReader reader(path.string(), file);
   reader.stamp_ = FileStamp::Of(fileno(file));
   if (!reader.stamp_.is_regular()) {
     return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is not a regular file: name a LAS file"));
+        absl::StrCat(path.string(), ": is not a regular file; give a LAS file"));
   }
   if (absl::Status head = reader.ReadHead(); !head.ok()) return head;
   if (absl::Status evlrs = reader.ReadEvlrs(); !evlrs.ok()) return evlrs;
@@ -54,9 +54,9 @@ absl::Status LasReader::ReadAt(std::uint64_t offset, std::span<char> bytes) cons
                                 static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      return absl::DataLossError(absl::StrCat(name_, ": reading failed at byte ", offset + done, ": ",
-                                              count < 0 ? std::strerror(errno) : "it became shorter",
-                                              ": copy the file to a sound disk"));
+      return absl::DataLossError(absl::StrCat(name_, ": reading failed at byte ", offset + done, " (",
+                                              count < 0 ? std::strerror(errno) : "the file became shorter",
+                                              "); copy the file to a sound disk"));
     }
     done += static_cast<std::size_t>(count);
   }
@@ -82,7 +82,7 @@ absl::Status LasReader::ReadHead() {
     if (vlr.user_id == kLaszipUser) {
       return absl::InvalidArgumentError(
           absl::StrCat(name_,
-                       ": is compressed (LAZ): expand it first, by `laszip -i IN.laz -o OUT.las` or "
+                       ": is compressed (LAZ); decompress it first, by `laszip -i IN.laz -o OUT.las` or "
                        "`pdal translate IN.laz OUT.las`"));
     }
   }
@@ -93,9 +93,9 @@ absl::Status LasReader::ReadEvlrs() {
   std::uint64_t next = header_.start_of_evlrs;
   for (std::uint32_t i = 0; i < header_.evlr_count; ++i) {
     if (file_size() - next < kEvlrHeaderSize) {
-      return absl::DataLossError(absl::StrCat(name_, ": extended variable length record ", i + 1, " of ",
-                                              header_.evlr_count, " begins at byte ", next, " of a file of ",
-                                              file_size(), ": get a whole copy"));
+      return absl::DataLossError(absl::StrCat(
+          name_, ": extended variable length record ", i + 1, " of ", header_.evlr_count, " begins at byte ",
+          next, ", but the file has only ", file_size(), "; get a complete copy"));
     }
     const absl::StatusOr<std::string> bytes = ReadAt(next, kEvlrHeaderSize);
     if (!bytes.ok()) return bytes.status();

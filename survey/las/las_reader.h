@@ -1,4 +1,4 @@
-// A LAS file, checked when it is opened, then read from the beginning to the end.
+// A LAS file, which is checked when it is opened and then read from beginning to end.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace albtpu::client {
 
 class LasReader {
  public:
-  // Reads and checks all but the points.
+  // Reads and checks everything except the points.
   static absl::StatusOr<LasReader> Open(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }
@@ -29,11 +29,11 @@ class LasReader {
   const std::vector<VlrEntry>& evlrs() const { return evlrs_; }
   std::uint64_t file_size() const { return stamp_.size(); }
 
-  // `size` bytes at `offset`, which lie in the file. By any number of threads at a time.
+  // `size` bytes at `offset`, which must lie in the file. Any number of threads may read at a time.
   absl::StatusOr<std::string> ReadAt(std::uint64_t offset, std::size_t size) const;
   absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const;
 
-  // Fails when somebody wrote to the file since it was opened.
+  // Fails when the file has been modified since it was opened.
   absl::Status CheckUnchanged() const;
 
  private:

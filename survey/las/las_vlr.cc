@@ -6,7 +6,7 @@
 namespace albtpu::client {
 namespace {
 
-// Both kinds begin alike: reserved u16, user id, record id u16, length u16 or u64, description.
+// Both kinds begin with the same fields: reserved u16, user id, record id u16, length u16 or u64, description.
 constexpr std::size_t kUserIdField = 2;
 constexpr std::size_t kUserIdSize = 16;
 constexpr std::size_t kRecordIdField = 18;
@@ -41,8 +41,7 @@ absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const La
       return absl::InvalidArgumentError(absl::StrCat(name, ": variable length record ", i + 1, " of ",
                                                      header.vlr_count, " at byte ", next,
                                                      " does not end before the points, at ", head.size(),
-                                                     ": a header whose counts and lengths "
-                                                     "agree is right"));
+                                                     "; correct the number or the lengths of these records"));
     }
     next = entry.end();
     entries.push_back(std::move(entry));
@@ -56,9 +55,9 @@ absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view byt
   entry.data_offset = offset + kEvlrHeaderSize;
   entry.data_size = Load<std::uint64_t>(bytes, kVlrLengthField);
   if (entry.data_offset > file_size || entry.data_size > file_size - entry.data_offset) {
-    return absl::DataLossError(absl::StrCat(name, ": the extended variable length record at byte ", offset,
-                                            " has ", entry.data_size, " bytes and ends behind the file of ",
-                                            file_size, ": get a whole copy"));
+    return absl::DataLossError(
+        absl::StrCat(name, ": the extended variable length record at byte ", offset, " has ", entry.data_size,
+                     " bytes and ends after the file, which has ", file_size, "; get a complete copy"));
   }
   return entry;
 }

@@ -13,28 +13,28 @@ namespace {
 
 constexpr std::size_t kCopySize = 1 << 20;
 
-absl::Status Bad(const LasReader& reader, const std::string& message) {
+absl::Status Invalid(const LasReader& reader, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(reader.name(), ": ", message));
 }
 
-// The file's one description of its extra bytes; none if it has none.
+// The record that describes the extra bytes; nullopt if the file has none.
 absl::StatusOr<std::optional<VlrEntry>> FindExtraBytesRecord(const LasReader& reader) {
   for (const VlrEntry& evlr : reader.evlrs()) {
     if (evlr.Is(kSpecUser, kExtraBytesRecord)) {
-      return Bad(reader,
-                 "describes its extra bytes behind the points, in an EVLR: a VLR before them is right");
+      return Invalid(reader,
+                     "describes its extra bytes in an EVLR after the points; expected a VLR before them");
     }
   }
   std::optional<VlrEntry> found;
   for (const VlrEntry& vlr : reader.vlrs()) {
     if (!vlr.Is(kSpecUser, kExtraBytesRecord)) continue;
-    if (found.has_value()) return Bad(reader, "describes its extra bytes in two VLRs: one is right");
+    if (found.has_value()) return Invalid(reader, "describes its extra bytes in two VLRs; expected one");
     found = vlr;
   }
   return found;
 }
 
-// Adds to a field of the header, if the field fits what it becomes.
+// Adds to a field of the header. False, and no change, if the sum does not fit the field.
 template <typename Number>
 bool Increase(std::size_t field, std::uint64_t increment, std::string& head) {
   const std::uint64_t value = Load<Number>(head, field);
@@ -78,8 +78,8 @@ absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage cove
     fits = fits && Increase<std::uint64_t>(las_field::kStartOfWaveformPacket, tail_moves_by, head);
   }
   if (!fits) {
-    return Bad(reader, absl::StrCat("has no room for ", kAppendedBytes, " more bytes a record of ",
-                                    header.record_length, ": remove some of its extra bytes"));
+    return Invalid(reader, absl::StrCat("has no room for ", kAppendedBytes, " more bytes in records of ",
+                                        header.record_length, "; remove some of its extra bytes"));
   }
   return head;
 }

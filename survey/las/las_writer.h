@@ -1,4 +1,4 @@
-// A LAS file that is another one with 8 bytes more on each record: total_thu and total_tvu.
+// Writes a copy of a LAS file with 8 more bytes in each point record: total_thu and total_tvu.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace albtpu::client {
 
-// Every byte before the points of the file to be written. The Extra Bytes record is extended where it stands,
-// or added behind the last VLR; bytes between the VLRs and the points stay. Of the header only these change:
-// offset to points, VLR count, record length, start of the EVLRs and, where waveforms are inside, of their
-// packet. Fails when a field would overflow, and for what DescribeUncertainty refuses.
+// All bytes before the points of the output. The Extra Bytes record is extended in place, or added after the last VLR;
+// bytes between the VLRs and the points are kept. In the header only these fields change: offset to points, number of
+// VLRs, record length, start of the EVLRs and, if waveforms are in the file, start of the waveform packet. Fails when a
+// field would overflow, or when DescribeUncertainty fails.
 absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage coverage);
 
-// Copies what lies behind the points.
+// Copies everything after the points.
 absl::Status CopyTail(const LasReader& reader, OutputFile& output);
 
 }  // namespace albtpu::client

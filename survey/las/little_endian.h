@@ -1,4 +1,4 @@
-// Numbers in the bytes of a LAS file, which is little-endian, unaligned and packed.
+// Reads and writes numbers in the bytes of a LAS file, which are little-endian, packed and unaligned.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@ namespace albtpu::client {
 
 static_assert(std::endian::native == std::endian::little, "LAS fields are copied as they lie in memory");
 
-// Requires that the bytes are there.
+// Requires that `bytes` extends to the end of the number.
 template <typename Number>
 Number Load(std::string_view bytes, std::size_t offset) {
   Number number;

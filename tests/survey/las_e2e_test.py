@@ -1,7 +1,7 @@
-"""albtpu-query las, checked by a reader that shares nothing with it.
+"""Checks the output of albtpu-query las with a reader that shares no code with it.
 
-The same points in the same order, the same bytes in the old fields, and the values that `albtpu-query csv`
-gives for the same pulses.
+The output must have the same points in the same order, the same bytes in the old fields, and the values that
+`albtpu-query csv` gives for the same pulses.
 """
 
 import csv
@@ -26,7 +26,7 @@ class LasTest(programs.Test):
                      *flags, check=0)
 
     def values_by_csv(self, las, point_class, water_level):
-        """THU and TVU of the bathymetric points by `albtpu-query csv`; NaN where there is no number."""
+        """THU and TVU of the bathymetric points from `albtpu-query csv`; NaN where there is no number."""
         chosen = las.classes == point_class
         angles, depths = las.scan_angles[chosen], water_level - las.z[chosen]
         incidences = np.abs(angles)
@@ -46,13 +46,13 @@ class LasTest(programs.Test):
 
     def check(self, source, target, point_class, water_level):
         old, new = LasFile(source), LasFile(target)
-        # The same points in the same order with the same bytes, 8 more behind them.
+        # The same points in the same order with the same bytes, each followed by 8 more.
         self.assertEqual(new.point_count, old.point_count)
         self.assertEqual(new.record_length, old.record_length + 8)
         np.testing.assert_array_equal(new.records[:, :-8], old.records)
-        # What is behind the points.
+        # Everything after the points.
         self.assertEqual(new.bytes[new.end_of_points:], old.bytes[old.end_of_points:])
-        # The header but for what must move; the VLRs but for ours; the gap.
+        # The header apart from sizes, counts and offsets; the VLRs apart from ours; the gap before the points.
         header = bytearray(new.bytes[:old.header_size])
         struct.pack_into("<I", header, 96, old.offset_to_points)
         struct.pack_into("<I", header, 100, old.vlr_count)
@@ -81,7 +81,7 @@ class LasTest(programs.Test):
     def test_sample_of_a_real_survey(self):
         source = pathlib.Path(programs.PATHS["sample"])
         if not source.exists():
-            self.skipTest(f"{source} is not here")
+            self.skipTest(f"{source} does not exist")
         target = self.folder / "out.las"
         result = self.annotate(source, target, 26, -23.09)
         self.assertEqual(result.stdout, "")
@@ -90,7 +90,7 @@ class LasTest(programs.Test):
         offset, kind, _, _ = new.extra_dimensions()["undocumented"]
         self.assertEqual((offset, kind), (30, 0))
 
-    def test_simulated_flights_of_many_formats(self):
+    def test_simulated_flights_in_many_formats(self):
         for version, point_format, extra_bytes in (
                 (2, 0, 0), (2, 1, 3), (2, 3, 300), (3, 4, 0), (3, 5, 2),
                 (4, 1, 0), (4, 6, 6), (4, 7, 0), (4, 8, 1), (4, 10, 9)):
@@ -118,7 +118,7 @@ class LasTest(programs.Test):
     def test_many_files_into_a_folder(self):
         make_flight(self.folder / "a.las")
         make_flight(self.folder / "b.las", 4, 7)
-        land = make_flight(self.folder / "land.las", 2, 1)  # Has no class 40.
+        land = make_flight(self.folder / "land.las", 2, 1)  # It has no class 40.
         out = self.folder / "out"
         out.mkdir()
         (self.folder / "bad.las").write_bytes(b"LASF")
@@ -137,7 +137,7 @@ class LasTest(programs.Test):
         same_name = self.folder / "out" / ".." / "a.las"
         self.assert_fails(query("las", files[0], same_name, *flags), 2, "two inputs are called a.las")
 
-    def test_hint_names_the_classes_there_are(self):
+    def test_error_lists_the_classes_of_the_file(self):
         source = make_flight(self.folder / "in.las")
         result = query("las", source, self.folder / "out.las", "--table", self.table, "--water-level", 0,
                        "--wind-speed", 6, "--footprint", 1, "--classes", "26,27")

@@ -1,4 +1,4 @@
-"""A LAS file as the specification has it, read with struct and NumPy only: nothing of ours."""
+"""Reads a LAS file according to the specification, with struct and NumPy only and none of our code."""
 
 import struct
 
@@ -50,7 +50,7 @@ class LasFile:
         return self.field(16, "i1") * 1.0 if self.point_format < 6 else self.field(18, "<i2") * 0.006
 
     def extra_dimensions(self):
-        """What the Extra Bytes record describes: name -> (offset in a record, type, no-data, description)."""
+        """The contents of the Extra Bytes record: name -> (offset in a point, type, no-data, description)."""
         (payload,) = [data for user, record, _, data in self.vlrs if user == b"LASF_Spec" and record == 4]
         dimensions, offset = {}, POINT_SIZES[self.point_format]
         for at in range(0, len(payload), 192):
@@ -61,5 +61,5 @@ class LasFile:
             assert name not in dimensions
             dimensions[name] = (offset, kind, no_data, description)
             offset += options if kind == 0 else TYPE_SIZES[(kind - 1) % 10] * ((kind - 1) // 10 + 1)
-        assert offset == self.record_length, "described bytes are not the bytes there are"
+        assert offset == self.record_length, "the described bytes are not all bytes of a point"
         return dimensions

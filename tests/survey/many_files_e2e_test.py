@@ -1,4 +1,4 @@
-"""albtpu-query on many files and on large ones: killed, resumed, without its server, within bounded memory."""
+"""albtpu-query with many files and large files: killed, resumed, without its server, and in bounded memory."""
 
 import contextlib
 import json
@@ -19,7 +19,7 @@ FLAGS = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
 
 
 def repeat(source, target, times):
-    """The points of a LAS 1.4 file, so many times; nothing behind them."""
+    """Writes a LAS 1.4 file with the points of `source` repeated `times` times and nothing after them."""
     data = bytearray(source.read_bytes())
     offset, = struct.unpack_from("<I", data, 96)
     length, = struct.unpack_from("<H", data, 105)
@@ -50,7 +50,7 @@ class ManyFilesTest(programs.Test):
     def outputs(self, out):
         return {path.name: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name[0] != "."}
 
-    def test_summary_tells_what_the_points_tell(self):
+    def test_summary_agrees_with_the_points(self):
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
         query("las", source, target, "--table", self.table, *FLAGS, check=0)
         las, summary = LasFile(target), json.loads((self.folder / "out.las.json").read_text())
@@ -89,16 +89,16 @@ class ManyFilesTest(programs.Test):
             query("las", survey, "--output-dir", out, "--server", address, *FLAGS, "--overwrite", check=0)
         self.assertEqual(self.outputs(out), first)
 
-    def test_folders_are_repeated_when_recursive(self):
+    def test_subfolders_are_recreated_when_recursive(self):
         survey, out = self.make_survey(1)
         (survey / "north").mkdir()
         shutil.copy(survey / "line0.las", survey / "north" / "line0.las")
         query("las", survey, "--recursive", "--output-dir", out, "--table", self.table, *FLAGS, check=0)
         self.assertEqual(sorted(str(path.relative_to(out)) for path in out.rglob("*.las")),
                          ["line0.las", "north/line0.las"])
-        self.assert_fails(query("las", out / "north", "--output-dir", out / "no", *FLAGS), 1, "is no folder")
+        self.assert_fails(query("las", out / "north", "--output-dir", out / "no", *FLAGS), 1, "is not a folder")
 
-    def test_csv_takes_many_files_too(self):
+    def test_csv_also_takes_many_files(self):
         source, out = self.folder / "in", self.folder / "out"
         source.mkdir()
         out.mkdir()
@@ -108,9 +108,9 @@ class ManyFilesTest(programs.Test):
         query(*flags, check=0)
         summary = json.loads((out / "a.csv.json").read_text())
         self.assertEqual(summary["answers"]["outcomes"], {"INTERPOLATED": 1, "OUT_OF_DOMAIN:depth": 1})
-        self.assertEqual(query(*flags, "--resume", check=0).stderr.count("is made already"), 2)
+        self.assertEqual(query(*flags, "--resume", check=0).stderr.count("is already complete"), 2)
 
-    def test_killed_run_goes_on_where_it_was(self):
+    def test_killed_run_resumes_where_it_stopped(self):
         survey, out = self.make_survey(4, 20)
         expected = self.folder / "expected"
         expected.mkdir()
@@ -118,7 +118,7 @@ class ManyFilesTest(programs.Test):
         query("las", survey, "--output-dir", expected, *flags, check=0)
         process = start("las", survey, "--output-dir", out, *flags)
         for line in process.stderr:
-            if line.endswith("line1.las:\n"):  # The second file is written, and not just under way.
+            if line.endswith("line1.las:\n"):  # The second file is complete.
                 break
         process.send_signal(signal.SIGKILL)
         process.communicate(timeout=60)
@@ -126,10 +126,10 @@ class ManyFilesTest(programs.Test):
         self.assertLessEqual({"line0.las", "line0.las.json", "line1.las", "line1.las.json"}, made)
         self.assert_fails(query("las", survey, "--output-dir", out, *flags), 1, "files failed")
         result = query("las", survey, "--output-dir", out, *flags, "--resume", check=0)
-        self.assertGreaterEqual(result.stderr.count("is made already"), 2)
+        self.assertGreaterEqual(result.stderr.count("is already complete"), 2)
         self.assertEqual(self.outputs(out), self.outputs(expected))
 
-    def test_resumes_only_what_was_made_alike(self):
+    def test_resume_keeps_only_outputs_of_the_same_run(self):
         survey, out = self.make_survey(2)
         flags = ("las", survey, "--output-dir", out, "--resume", "--water-level", 0, "--footprint", 1)
         query(*flags, "--wind-speed", 6, "--table", self.table, check=0)
@@ -143,10 +143,10 @@ class ManyFilesTest(programs.Test):
             self.assertEqual(self.outputs(out), before)
         os.truncate(out / "line0.las", 1000)
         result = query(*flags, "--wind-speed", 6, "--table", self.table, "--overwrite", check=0)
-        self.assertEqual(result.stderr.count("is made already"), 1)
+        self.assertEqual(result.stderr.count("is already complete"), 1)
         self.assertEqual(self.outputs(out), before)
 
-    def test_server_that_goes_away_leaves_whole_files_only(self):
+    def test_only_complete_files_are_left_when_the_server_stops(self):
         survey, out = self.make_survey(3, 100)
         make_flight(survey / "line0.las")
         tables = self.folder / "tables"
@@ -155,11 +155,11 @@ class ManyFilesTest(programs.Test):
         with programs.server(tables) as address:
             process = start("las", survey, "--output-dir", out, "--server", address, *FLAGS)
             for line in process.stderr:
-                if line.endswith("line0.las:\n"):  # The first file is written.
+                if line.endswith("line0.las:\n"):  # The first file is complete.
                     break
         rest = process.communicate(timeout=120)[1]
-        if process.returncode == 0:  # It was through before the server had gone.
-            self.skipTest("the client was faster than the server's end")
+        if process.returncode == 0:  # It finished before the server had stopped.
+            self.skipTest("the client finished before the server had stopped")
         self.assertEqual(process.returncode, 1)
         last = rest.strip().split("\n")[-1]
         self.assertIn(f"server {address}", last)
@@ -191,12 +191,12 @@ class ManyFilesTest(programs.Test):
         np.testing.assert_array_equal(new.records.reshape(150, *one.shape)[[0, 70, 149]],
                                       np.broadcast_to(one, (3, *one.shape)))
 
-    def test_input_that_changes_is_refused(self):
+    def test_input_that_is_modified_is_rejected(self):
         flight, target = make_flight(self.folder / "flight.las"), self.folder / "out.las"
         source = repeat(flight, self.folder / "in.las", 20)
         ended = threading.Event()
 
-        def change():  # Until it is seen: the last change comes after the file was opened.
+        def change():  # Repeatedly, so that the last change comes after the file was opened.
             while not ended.is_set():
                 os.utime(source)
 

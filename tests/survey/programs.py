@@ -1,6 +1,6 @@
-"""The real programs, for tests: albtpu-query and what it needs.
+"""Runs the real programs in tests: albtpu-query and what it needs.
 
-Their paths are this script's arguments, NAME=PATH.
+Their paths are the arguments of the test script, NAME=PATH.
 """
 
 import contextlib
@@ -15,7 +15,7 @@ PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
 
 
 def query(*arguments, check=None, **keywords):
-    """Runs albtpu-query; with `check`, its exit code must be that."""
+    """Runs albtpu-query. Fails if `check` is given and is not its exit code."""
     command = [PATHS["query"], *map(str, arguments)]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, **keywords)
     if check is not None and result.returncode != check:
@@ -35,7 +35,7 @@ def make_flight(path, *options):
 
 @contextlib.contextmanager
 def server(folder):
-    """A server of the tables in `folder`, on a free port; gives HOST:PORT."""
+    """A server for the tables in `folder` on a free port; yields HOST:PORT."""
     with subprocess.Popen([PATHS["serve"], "--tables", str(folder), "--listen", "127.0.0.1:0"],
                           stderr=subprocess.PIPE, text=True) as process:
         try:
@@ -51,7 +51,7 @@ def server(folder):
 
 
 class Test(unittest.TestCase):
-    """A test with a folder of its own and a table in it, `table`."""
+    """A test with its own folder and a table in it, `table`."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -63,12 +63,12 @@ class Test(unittest.TestCase):
         return sorted(path.name for path in self.folder.iterdir())
 
     def assert_fails(self, result, code, *parts):
-        """One clear message on standard error, nothing on standard output."""
+        """Checks for one clear message at the end of standard error, and nothing on standard output."""
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertEqual(result.stdout, "")
         last = result.stderr.rstrip("\n").split("\n")[-1]
         self.assertTrue(last.startswith("albtpu-query: "), result.stderr)
-        self.assertGreaterEqual(last.count(": "), 2, last)
+        self.assertRegex(last, r"\Aalbtpu-query: .+(: |; ).+")  # The problem, and what to do.
         for part in parts:
             self.assertIn(part, last)
 

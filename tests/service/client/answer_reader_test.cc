@@ -9,7 +9,7 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-// An answer for one pulse, as a server should give it.
+// A valid answer for one pulse.
 v1::QueryColumnsResponse GoodResponse() {
   v1::QueryColumnsResponse response;
   response.set_coverage(v1::COVERAGE_TWO_SIGMA);
@@ -25,16 +25,16 @@ v1::QueryColumnsResponse GoodResponse() {
   return response;
 }
 
-TEST(AnswerReader, RefusesAnswersThatBreakTheirRules) {
+TEST(AnswerReader, RejectsAnswersThatViolateTheProtocol) {
   AnswerMemory memory(1);
-  AnswerColumns wanted = memory.columns();
-  wanted.standard_errors = {};
-  wanted.best_s44_orders = nullptr;
-  wanted.remaining_thu = wanted.remaining_tvu = nullptr;
+  AnswerColumns requested = memory.columns();
+  requested.standard_errors = {};
+  requested.best_s44_orders = nullptr;
+  requested.remaining_thu = requested.remaining_tvu = nullptr;
   const auto read = [&](const v1::QueryColumnsResponse& response) {
     const grpc::Slice slice(response.SerializeAsString());
     grpc::ByteBuffer bytes(&slice, 1);
-    return ReadAnswer(bytes, {}, 1, wanted);
+    return ReadAnswer(bytes, {}, 1, requested);
   };
   EXPECT_TRUE(read(GoodResponse()).ok());
   auto response = GoodResponse();
@@ -54,44 +54,44 @@ TEST(AnswerReader, RefusesAnswersThatBreakTheirRules) {
   response = GoodResponse();
   response.mutable_sea_surface()->set_tvu("short");
   EXPECT_FALSE(read(response).ok());
-  wanted.standard_errors[0] = memory.columns().standard_errors[0];
-  EXPECT_FALSE(read(GoodResponse()).ok());  // They are not there.
+  requested.standard_errors[0] = memory.columns().standard_errors[0];
+  EXPECT_FALSE(read(GoodResponse()).ok());  // The answer has no standard errors.
 }
 
-TEST(AnswerReader, RefusesBytesThatAreNoMessage) {
+TEST(AnswerReader, RejectsBytesThatAreNotAMessage) {
   AnswerMemory memory(1);
   const std::string good = GoodResponse().SerializeAsString();
   for (const std::string& text :
        {good.substr(0, good.size() - 1), good + "\x0a", good + "\x38", std::string("\x20\1")}) {
     const grpc::Slice slice(text);
     grpc::ByteBuffer bytes(&slice, 1), streamed(&slice, 1);
-    AnswerColumns wanted;
-    wanted.outcomes = memory.columns().outcomes;
-    EXPECT_EQ(ReadAnswer(bytes, {}, 1, wanted).status().code(), absl::StatusCode::kInternal);
-    EXPECT_EQ(ReadStreamedAnswer(streamed, {}, 1, wanted).status().code(), absl::StatusCode::kInternal);
+    AnswerColumns requested;
+    requested.outcomes = memory.columns().outcomes;
+    EXPECT_EQ(ReadAnswer(bytes, {}, 1, requested).status().code(), absl::StatusCode::kInternal);
+    EXPECT_EQ(ReadStreamedAnswer(streamed, {}, 1, requested).status().code(), absl::StatusCode::kInternal);
   }
   grpc::ByteBuffer nothing;
   EXPECT_FALSE(ReadStreamedAnswer(nothing, {}, 1, memory.columns()).ok());
 }
 
-TEST(AnswerReader, ReturnsWhatIsNoColumnAndSkipsWhatItDoesNotKnow) {
+TEST(AnswerReader, ReturnsOtherFieldsAndSkipsUnknownOnes) {
   v1::QueryColumnsResponse response = GoodResponse();
   response.mutable_table()->set_digest("cafe");
-  // Fields of later versions, in the message and in a message of columns.
+  // Fields of a later version, in the message itself and in a nested message of columns.
   response.GetReflection()->MutableUnknownFields(&response)->AddLengthDelimited(100, "later");
   v1::SeaSurfaceColumns& columns = *response.mutable_sea_surface();
   columns.GetReflection()->MutableUnknownFields(&columns)->AddVarint(100, 7777);
   AnswerMemory memory(1);
-  AnswerColumns wanted;
-  wanted.values[Index(Quantity::kThu)] = memory.columns().values[Index(Quantity::kThu)];
-  *wanted.values[Index(Quantity::kThu)] = 1;
+  AnswerColumns requested;
+  requested.values[Index(Quantity::kThu)] = memory.columns().values[Index(Quantity::kThu)];
+  *requested.values[Index(Quantity::kThu)] = 1;
   const grpc::Slice slice(response.SerializeAsString());
   grpc::ByteBuffer bytes(&slice, 1);
-  const auto head = ReadAnswer(bytes, {}, 1, wanted);
+  const auto head = ReadAnswer(bytes, {}, 1, requested);
   ASSERT_TRUE(head.ok()) << head.status();
   EXPECT_EQ(head->table().digest(), "cafe");
   EXPECT_EQ(head->outcomes(), "");
-  EXPECT_EQ(*wanted.values[Index(Quantity::kThu)], 0);
+  EXPECT_EQ(*requested.values[Index(Quantity::kThu)], 0);
 }
 
 }  // namespace

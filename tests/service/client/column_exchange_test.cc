@@ -1,4 +1,4 @@
-// The client against servers that misbehave.
+// The client queries servers that misbehave.
 #include "service/client/column_exchange.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr char kDigest[] = "cafe";
 
-// The THU of a pulse is its depth, the digest of its table "cafe".
+// A valid answer, in which the THU of each pulse is its depth, and the digest of the table is "cafe".
 v1::StreamColumnsResponse GoodAnswer(const v1::StreamColumnsRequest& request) {
   const std::string& depth = request.query().pulses().depth();
   v1::StreamColumnsResponse response;
@@ -33,8 +33,8 @@ v1::StreamColumnsResponse GoodAnswer(const v1::StreamColumnsRequest& request) {
   return response;
 }
 
-// What happens to the nth request (from 0) of all streams: the answer, which it may change, or the end of the
-// stream by this status.
+// Decides about the nth request (from 0) of all streams: OK sends the answer, which the function may modify; any other
+// status ends the stream.
 using Behaviour = std::function<grpc::Status(int n, v1::StreamColumnsResponse& response)>;
 
 class Misbehaving : public v1::UncertaintyService::Service {
@@ -75,7 +75,7 @@ class Misbehaving : public v1::UncertaintyService::Service {
   const std::string& address() const { return address_; }
   int answers() const { return answers_; }
 
-  int refused_openings = 0;  // So many calls of GetTable, the first ones.
+  int refused_openings = 0;  // The first calls of GetTable, this many, fail.
 
  private:
   const Behaviour behaviour_;
@@ -85,10 +85,10 @@ class Misbehaving : public v1::UncertaintyService::Service {
 };
 
 const grpc::Status kGone(grpc::StatusCode::UNAVAILABLE, "power cut");
-// Stands for a stream that ends with OK before all was answered.
+// Stands for a stream that ends with OK before everything is answered.
 const grpc::Status kSilentEnd(grpc::StatusCode::OUT_OF_RANGE, "");
 
-// Ten messages, each pulse with a depth of its own, and the status of asking for them.
+// A query of ten messages, in which each pulse has a different depth, its answers and its status.
 struct TenMessages {
   explicit TenMessages(const Misbehaving& server, int retries = 3) {
     depth.resize(count);
@@ -110,80 +110,80 @@ struct TenMessages {
   absl::Status status;
 };
 
-TEST(ColumnExchange, BeginsWithAnotherServerWhereTheFirstIsGoing) {
+TEST(ColumnExchange, OpensOnAnotherServerWhenTheFirstIsStopping) {
   Misbehaving server([](int, v1::StreamColumnsResponse&) { return grpc::Status::OK; });
   server.refused_openings = 3;
   EXPECT_TRUE(TenMessages(server).status.ok());
 }
 
-TEST(ColumnExchange, BeginsNothingWhereServersStayAway) {
+TEST(ColumnExchange, FailsToOpenWhenNoServerReturns) {
   Misbehaving server([](int, v1::StreamColumnsResponse&) { return grpc::Status::OK; });
   server.refused_openings = 4;
   EXPECT_THAT(std::string(TenMessages(server).status.message()), HasSubstr("going"));
 }
 
-TEST(ColumnExchange, BringsAnswersToTheirPulses) {
+TEST(ColumnExchange, AssignsAnswersToTheirPulses) {
   const Misbehaving server([](int, auto&) { return grpc::Status::OK; });
-  const TenMessages asked(server);
-  EXPECT_TRUE(asked.status.ok()) << asked.status;
-  EXPECT_TRUE(asked.thu == asked.depth);
+  const TenMessages query(server);
+  EXPECT_TRUE(query.status.ok()) << query.status;
+  EXPECT_TRUE(query.thu == query.depth);
   EXPECT_EQ(server.answers(), 10);
 }
 
-TEST(ColumnExchange, GoesOnWhereItsServerWentAwayAndTakesEachAnswerOnce) {
+TEST(ColumnExchange, ContinuesAfterAnInterruptionAndTakesEachAnswerOnce) {
   for (const grpc::Status& end : {kGone, kSilentEnd}) {
-    // Of every three requests one is not answered.
+    // One of every three requests is not answered.
     const Misbehaving server([&](int n, auto&) { return n % 3 == 2 ? end : grpc::Status::OK; });
-    const TenMessages asked(server);
-    EXPECT_TRUE(asked.status.ok()) << asked.status;
-    EXPECT_TRUE(asked.thu == asked.depth);
+    const TenMessages query(server);
+    EXPECT_TRUE(query.status.ok()) << query.status;
+    EXPECT_TRUE(query.thu == query.depth);
     EXPECT_EQ(server.answers(), 10);
   }
 }
 
-TEST(ColumnExchange, CountsRetriesAnewAfterEachAnswer) {
-  // Gives one answer, then nothing twice: ten answers take twenty retries, never more than two in a row.
+TEST(ColumnExchange, ResetsTheRetryCountAfterEachAnswer) {
+  // One answer, then two failures: ten answers take twenty retries, but never more than two in a row.
   const Misbehaving server([](int n, auto&) { return n % 3 == 0 ? grpc::Status::OK : kGone; });
-  const TenMessages asked(server, 2);
-  EXPECT_TRUE(asked.status.ok()) << asked.status;
-  EXPECT_TRUE(asked.thu == asked.depth);
+  const TenMessages query(server, 2);
+  EXPECT_TRUE(query.status.ok()) << query.status;
+  EXPECT_TRUE(query.thu == query.depth);
 }
 
-TEST(ColumnExchange, GivesUpAfterItsRetriesAndSaysHowFarItCame) {
+TEST(ColumnExchange, GivesUpAfterItsRetriesAndReportsItsProgress) {
   const Misbehaving server([](int n, auto&) { return n < 4 ? grpc::Status::OK : kGone; });
-  const TenMessages asked(server);
-  EXPECT_EQ(asked.status.code(), absl::StatusCode::kUnavailable);
-  EXPECT_THAT(std::string(asked.status.message()),
-              HasSubstr("power cut (asked again 3 times, after 262144 of 589825 pulses)"));
+  const TenMessages query(server);
+  EXPECT_EQ(query.status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_THAT(std::string(query.status.message()),
+              HasSubstr("power cut (retried 3 times after 262144 of 589825 pulses)"));
 }
 
-TEST(ColumnExchange, AsksNotAgainWhatWillNotPass) {
+TEST(ColumnExchange, DoesNotRetryPermanentErrors) {
   const Misbehaving server([](int n, auto&) {
     return n < 4 ? grpc::Status::OK : grpc::Status(grpc::StatusCode::NOT_FOUND, "no");
   });
-  const TenMessages asked(server);
-  EXPECT_EQ(asked.status.code(), absl::StatusCode::kNotFound);
+  const TenMessages query(server);
+  EXPECT_EQ(query.status.code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(server.answers(), 4);
 }
 
-TEST(ColumnExchange, NoticesThatItsTableBecameAnotherBetweenTwoAnswers) {
+TEST(ColumnExchange, NoticesThatTheTableChangedBetweenTwoAnswers) {
   const Misbehaving server([](int n, v1::StreamColumnsResponse& response) {
     if (n == 5) response.mutable_answer()->mutable_table()->set_digest("beef");
     return grpc::Status::OK;
   });
-  const TenMessages asked(server);
-  EXPECT_EQ(asked.status.code(), absl::StatusCode::kAborted);
-  EXPECT_THAT(std::string(asked.status.message()), HasSubstr("from digest cafe to beef"));
+  const TenMessages query(server);
+  EXPECT_EQ(query.status.code(), absl::StatusCode::kAborted);
+  EXPECT_THAT(std::string(query.status.message()), HasSubstr("from digest cafe to beef"));
 }
 
-TEST(ColumnExchange, RefusesAnAnswerThatBreaksItsRules) {
+TEST(ColumnExchange, RejectsAnAnswerThatViolatesTheProtocol) {
   const Misbehaving server([](int n, v1::StreamColumnsResponse& response) {
     if (n == 5) response.mutable_answer()->mutable_sea_surface()->mutable_thu()->resize(7);
     return grpc::Status::OK;
   });
-  const TenMessages asked(server);
-  EXPECT_EQ(asked.status.code(), absl::StatusCode::kInternal);
-  EXPECT_THAT(std::string(asked.status.message()), HasSubstr("answered 7 bytes of thu for 65536 pulses"));
+  const TenMessages query(server);
+  EXPECT_EQ(query.status.code(), absl::StatusCode::kInternal);
+  EXPECT_THAT(std::string(query.status.message()), HasSubstr("answered 7 bytes of thu for 65536 pulses"));
 }
 
 }  // namespace

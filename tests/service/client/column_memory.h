@@ -1,4 +1,4 @@
-// Pulses and answers in columns that own their memory.
+// Columns of pulses and of answers that own their memory.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace albtpu::client {
 
 class PulseMemory {
  public:
-  // In the order of kAxes.
+  // The coordinates are in the order of kAxes.
   void Add(const std::array<float, kAxisCount>& pulse) {
     for (std::size_t i = 0; i < kAxisCount; ++i) axes_[i].push_back(pulse[i]);
   }
@@ -29,7 +29,7 @@ class PulseMemory {
   std::array<std::vector<float>, kAxisCount> axes_;
 };
 
-// Room for all that can be asked for.
+// Memory for every column that can be queried.
 class AnswerMemory {
  public:
   explicit AnswerMemory(std::size_t count) : bytes_(3, Bytes(count)), floats_(14, Floats(count)) {}
@@ -48,7 +48,7 @@ class AnswerMemory {
     return columns;
   }
 
-  // Bit by bit.
+  // Compares bit for bit.
   bool operator==(const AnswerMemory& other) const {
     for (std::size_t i = 0; i < floats_.size(); ++i) {
       const std::size_t size = floats_[i].size() * sizeof(float);

@@ -1,4 +1,4 @@
-// Servers for tests of the client, in one process with it.
+// Servers for tests of the client, in the same process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace albtpu::client {
 
-// A server with one table, `quick`.
+// A server with a single table, `quick`.
 class RunningServer {
  public:
   explicit RunningServer(const albtpu::testing::SyntheticOptions& options = {},
@@ -33,7 +33,7 @@ class RunningServer {
   }
   const std::string& address() const { return server_->address(); }
 
-  // How many it has given, of calls in columns.
+  // The number of answers it has given to queries in columns.
   int answers() const {
     int count = 0;
     for (const prometheus::MetricFamily& family : metrics_.registry->Collect()) {
@@ -55,7 +55,7 @@ class RunningServer {
   std::unique_ptr<server::Server> server_;
 };
 
-// One address for servers that have no name.
+// A single address for several servers without a name.
 inline std::string AllOf(const std::vector<std::string>& addresses) {
   return absl::StrCat("ipv4:", absl::StrJoin(addresses, ","));
 }

@@ -10,19 +10,19 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(ServerHealth, IsGoodWhileTheServerServes) {
+TEST(ServerHealth, IsOkWhileTheServerServes) {
   const RunningServer server;
   EXPECT_TRUE(CheckHealth(server.address()).ok());
 }
 
-TEST(ServerHealth, IsGoodWhereOneOfManyServes) {
+TEST(ServerHealth, IsOkWhenOneOfSeveralServersServes) {
   RunningServer first;
   const RunningServer second;
   first.Stop();
   EXPECT_TRUE(CheckHealth(AllOf({first.address(), second.address()})).ok());
 }
 
-TEST(ServerHealth, SaysWhatIsWrong) {
+TEST(ServerHealth, ReportsTheProblem) {
   RunningServer server;
   const std::string address = server.address();
   server.Stop();

@@ -1,4 +1,4 @@
-// The client against the real server, in one process.
+// The client queries the real server, in the same process.
 #include "service/client/server_source.h"
 
 #include <gmock/gmock.h>
@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "service/client/local_source.h"
+#include "tables/query/interpolation.h"
 #include "tests/service/client/column_memory.h"
 #include "tests/service/client/running_server.h"
 #include "tests/tables/synthetic_table.h"
@@ -22,7 +23,7 @@ using albtpu::testing::SyntheticOptions;
 using albtpu::testing::SyntheticTable;
 using ::testing::HasSubstr;
 
-// Pulses within and without the table, now and then not a number.
+// Pulses inside and outside the table; some depths are not a number.
 PulseMemory MixedPulses(std::size_t count) {
   std::mt19937 random(1);
   const auto draw = [&](float from, float to) {
@@ -39,7 +40,7 @@ PulseMemory MixedPulses(std::size_t count) {
 
 const Query kP95Of1b = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b};
 
-TEST(ServerSource, GivesTheBitsThatATableInThisProcessGives) {
+TEST(ServerSource, GivesTheSameBitsAsATableInThisProcess) {
   const RunningServer server;
   const auto remote = OpenServer(server.address(), "").value();
   LocalSource local("", SyntheticTable());
@@ -53,7 +54,7 @@ TEST(ServerSource, GivesTheBitsThatATableInThisProcessGives) {
   }
 }
 
-TEST(ServerSource, AnswersManyThreadsAtATime) {
+TEST(ServerSource, AnswersSeveralThreadsAtOnce) {
   const RunningServer server;
   const auto source = OpenServer(server.address(), "").value();
   const PulseMemory pulses = MixedPulses(70000);
@@ -70,22 +71,22 @@ TEST(ServerSource, AnswersManyThreadsAtATime) {
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST(ServerSource, AsksForTheColumnsThatAreWantedAlone) {
+TEST(ServerSource, QueriesOnlyTheRequestedColumns) {
   const RunningServer server;
   const auto source = OpenServer(server.address(), "").value();
   const PulseMemory pulses = MixedPulses(1000);
   AnswerMemory all(pulses.size()), some(pulses.size());
   ASSERT_TRUE(source->Answer({}, pulses.columns(), all.columns()).ok());
-  AnswerColumns wanted;
-  wanted.values[Index(Quantity::kTvu)] = some.columns().values[Index(Quantity::kTvu)];
-  ASSERT_TRUE(source->Answer({}, pulses.columns(), wanted).ok());
+  AnswerColumns requested;
+  requested.values[Index(Quantity::kTvu)] = some.columns().values[Index(Quantity::kTvu)];
+  ASSERT_TRUE(source->Answer({}, pulses.columns(), requested).ok());
   EXPECT_EQ(std::memcmp(all.columns().values[Index(Quantity::kTvu)],
                         some.columns().values[Index(Quantity::kTvu)], pulses.size() * sizeof(float)),
             0);
   EXPECT_TRUE(source->Answer({}, pulses.columns(), AnswerColumns()).ok());
 }
 
-TEST(ServerSource, TakesPulsesThatAreAllAlike) {
+TEST(ServerSource, AnswersPulsesThatAreAllTheSame) {
   const RunningServer server;
   const auto source = OpenServer(server.address(), "quick").value();
   PulseMemory pulse;
@@ -100,14 +101,14 @@ TEST(ServerSource, TakesPulsesThatAreAllAlike) {
   }
 }
 
-TEST(ServerSource, AsksNothingForNoPulses) {
+TEST(ServerSource, SendsNothingWithoutPulses) {
   RunningServer server;
   const auto source = OpenServer(server.address(), "").value();
   server.Stop();
   EXPECT_TRUE(source->Answer({}, {}, {}).ok());
 }
 
-TEST(ServerSource, RefusesColumnsOfOtherLengthsAsATableDoes) {
+TEST(ServerSource, RejectsColumnsOfWrongLengthAsATableDoes) {
   RunningServer server;
   const auto remote = OpenServer(server.address(), "").value();
   server.Stop();
@@ -119,7 +120,7 @@ TEST(ServerSource, RefusesColumnsOfOtherLengthsAsATableDoes) {
   EXPECT_EQ(LocalSource("", SyntheticTable()).Answer({}, pulses, {}), status);
 }
 
-TEST(ServerSource, KnowsItsTableAsAFileDoes) {
+TEST(ServerSource, DescribesItsTableAsALocalSourceDoes) {
   const RunningServer server;
   const TableSummary remote = OpenServer(server.address(), "").value()->table();
   const TableSummary local = Summarize("quick", SyntheticTable());
@@ -139,7 +140,7 @@ TEST(ServerSource, KnowsItsTableAsAFileDoes) {
   EXPECT_TRUE(listed[0].is_default);
 }
 
-TEST(ServerSource, SaysWhatIsWrongWithTheServer) {
+TEST(ServerSource, ReportsTheProblemWithTheServer) {
   RunningServer server;
   const absl::Status unknown = OpenServer(server.address(), "no").status();
   EXPECT_EQ(unknown.code(), absl::StatusCode::kNotFound);
@@ -152,7 +153,7 @@ TEST(ServerSource, SaysWhatIsWrongWithTheServer) {
   EXPECT_THAT(std::string(gone.message()), HasSubstr("start albtpu-serve"));
 }
 
-TEST(ServerSource, GoesOnWhenItsServerComesBack) {
+TEST(ServerSource, ContinuesWhenItsServerReturns) {
   auto server = std::make_unique<RunningServer>();
   const std::string address = server->address();
   const auto source = OpenServer(address, "").value();
@@ -161,16 +162,16 @@ TEST(ServerSource, GoesOnWhenItsServerComesBack) {
   const PulseMemory pulses = MixedPulses(1000);
   AnswerMemory answers(pulses.size()), expected(pulses.size());
   absl::Status status;
-  std::thread asker([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
+  std::thread querier([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
   server = std::make_unique<RunningServer>(SyntheticOptions(), address);
-  asker.join();
+  querier.join();
   EXPECT_TRUE(status.ok()) << status;
   ASSERT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
   EXPECT_TRUE(answers == expected);
 }
 
-// A channel that nobody polls looks for its server every five seconds alone: later than this one waits.
-TEST(ServerSource, SeesWhileItWaitsThatItsServerIsBack) {
+// A channel that nobody waits on looks for its server only every five seconds, which is longer than this source waits.
+TEST(ServerSource, NoticesWhileWaitingThatItsServerIsBack) {
   auto server = std::make_unique<RunningServer>();
   const std::string address = server->address();
   const auto source =
@@ -180,14 +181,14 @@ TEST(ServerSource, SeesWhileItWaitsThatItsServerIsBack) {
   const PulseMemory pulses = MixedPulses(1000);
   AnswerMemory answers(pulses.size());
   absl::Status status;
-  std::thread asker([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
+  std::thread querier([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
   server = std::make_unique<RunningServer>(SyntheticOptions(), address);
-  asker.join();
+  querier.join();
   EXPECT_TRUE(status.ok()) << status;
 }
 
-// Asks message after message until `enough` says so or something fails; returns how many were answered rightly.
-int AskUntil(UncertaintySource& source, const std::function<bool(int answered)>& enough) {
+// Repeats a query until `enough` returns true or something fails; returns the number of correct answers.
+int QueryUntil(UncertaintySource& source, const std::function<bool(int answered)>& enough) {
   const PulseMemory pulses = MixedPulses(1000);
   AnswerMemory answers(pulses.size()), expected(pulses.size());
   EXPECT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
@@ -201,39 +202,39 @@ int AskUntil(UncertaintySource& source, const std::function<bool(int answered)>&
   }
 }
 
-TEST(ServerSource, TakesTurnsWithTheServersOfAnAddress) {
+TEST(ServerSource, AlternatesBetweenTheServersOfAnAddress) {
   const RunningServer first, second;
   const auto source = OpenServer(AllOf({first.address(), second.address()}), "").value();
-  AskUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
+  QueryUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
   const int before = first.answers(), others_before = second.answers();
-  AskUntil(*source, [](int answered) { return answered == 10; });
+  QueryUntil(*source, [](int answered) { return answered == 10; });
   EXPECT_EQ(first.answers() - before, 5);
   EXPECT_EQ(second.answers() - others_before, 5);
 }
 
-TEST(ServerSource, AsksTheOtherServersWhenOneGoes) {
+TEST(ServerSource, UsesTheOtherServersWhenOneStops) {
   RunningServer first, second;
   const auto source = OpenServer(AllOf({first.address(), second.address()}), "").value();
-  AskUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
+  QueryUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
   first.Stop();
   const int before = second.answers();
-  AskUntil(*source, [](int answered) { return answered == 10; });
+  QueryUntil(*source, [](int answered) { return answered == 10; });
   EXPECT_EQ(second.answers() - before, 10);
 }
 
-TEST(ServerSource, AsksAServerAgainThatIsBack) {
+TEST(ServerSource, UsesAServerAgainWhenItIsBack) {
   auto first = std::make_unique<RunningServer>();
   const RunningServer second;
   const std::string address = first->address();
   const auto source = OpenServer(AllOf({address, second.address()}), "").value();
   first->Stop();
   first.reset();
-  AskUntil(*source, [](int answered) { return answered == 2; });
+  QueryUntil(*source, [](int answered) { return answered == 2; });
   first = std::make_unique<RunningServer>(SyntheticOptions(), address);
-  AskUntil(*source, [&](int) { return first->answers() > 0; });
+  QueryUntil(*source, [&](int) { return first->answers() > 0; });
 }
 
-TEST(ServerSource, NoticesThatItsTableBecameAnother) {
+TEST(ServerSource, NoticesThatItsTableChanged) {
   auto first = std::make_unique<RunningServer>();
   const std::string address = first->address();
   const auto source = OpenServer(address, "").value();
@@ -247,7 +248,7 @@ TEST(ServerSource, NoticesThatItsTableBecameAnother) {
   EXPECT_THAT(std::string(status.message()), HasSubstr("table quick changed from digest"));
 }
 
-TEST(ServerSource, GivesUpAServerThatStaysAway) {
+TEST(ServerSource, GivesUpWhenItsServerDoesNotReturn) {
   RunningServer server;
   const auto source =
       OpenServer(server.address(), "", {.retries = 2, .first_pause = std::chrono::milliseconds(1)}).value();
@@ -256,7 +257,7 @@ TEST(ServerSource, GivesUpAServerThatStaysAway) {
   AnswerMemory answers(pulses.size());
   const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable) << status;
-  EXPECT_THAT(std::string(status.message()), HasSubstr("asked again 2 times, after 0 of 10 pulses"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("retried 2 times after 0 of 10 pulses"));
   EXPECT_THAT(std::string(status.message()), HasSubstr("start albtpu-serve"));
 }
 

@@ -9,12 +9,12 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-TEST(Wire, AsksForWhatTheColumnsWant) {
+TEST(Wire, RequestsTheColumnsThatAreNotNull) {
   AnswerMemory memory(1);
-  AnswerColumns wanted;
-  wanted.values[Index(Quantity::kTvu)] = memory.columns().values[Index(Quantity::kTvu)];
+  AnswerColumns requested;
+  requested.values[Index(Quantity::kTvu)] = memory.columns().values[Index(Quantity::kTvu)];
   v1::QueryColumnsRequest request;
-  ToWire({.coverage = Coverage::kP95, .s44_order = std::nullopt}, wanted, request);
+  ToWire({.coverage = Coverage::kP95, .s44_order = std::nullopt}, requested, request);
   EXPECT_EQ(request.options().coverage(), v1::COVERAGE_P95);
   EXPECT_FALSE(request.options().standard_errors());
   EXPECT_FALSE(request.options().best_s44_order());
@@ -40,13 +40,13 @@ v1::PulseColumns Sent(const PulseColumns& pulses) {
   return request.pulses();
 }
 
-TEST(Wire, SendsWhatIsAlikeOnceAndWhatIsAbsentNotAtAll) {
+TEST(Wire, SendsConstantColumnsOnceAndAbsentOnesNotAtAll) {
   const float one = 1;
   const std::vector<float> depth(1000, 3.0f);
   PulseColumns pulses{.size = 1000, .axis = {}};
   pulses.axis.fill(std::span(&one, 1));
   pulses.axis[Index(AxisId::kAzimuth)] = {};
-  EXPECT_EQ(Sent(pulses).depth().size(), 4000u);  // Else nothing would tell that there are 1000.
+  EXPECT_EQ(Sent(pulses).depth().size(), 4000u);  // Otherwise the number of pulses would be lost.
   pulses.axis[Index(AxisId::kDepth)] = depth;
   const v1::PulseColumns columns = Sent(pulses);
   EXPECT_EQ(columns.wind_speed(), std::string(reinterpret_cast<const char*>(&one), 4));

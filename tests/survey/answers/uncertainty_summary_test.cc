@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-// Pulses of these depths, THU 1/10 and TVU 1/100 of it; those above the water are out of domain.
+// Pulses at these depths, with a THU of 1/10 and a TVU of 1/100 of the depth. Negative depths are out of domain.
 struct Answers {
   explicit Answers(const std::vector<float>& depths, std::uint8_t best_order = 1) {
     pulses.size = depths.size();
@@ -34,7 +34,7 @@ struct Answers {
   AnswerBatch answers;
 };
 
-TEST(UncertaintySummary, SortsPulsesIntoBandsOfDepth) {
+TEST(UncertaintySummary, SortsPulsesIntoDepthBands) {
   const Answers some({0, 0.125, 0.25, 7, 7.5, 60, -1});
   UncertaintySummary summary{AnswerStyle{}};
   summary.Add(some.pulses, some.answers);
@@ -54,7 +54,7 @@ TEST(UncertaintySummary, SortsPulsesIntoBandsOfDepth) {
   EXPECT_TRUE(json["depth_bands"][3]["to"].is_null());
 }
 
-TEST(UncertaintySummary, CountsOrdersFromTheStrictest) {
+TEST(UncertaintySummary, CountsPulsesByTheStrictestOpenOrder) {
   UncertaintySummary summary{AnswerStyle{}};
   for (std::uint8_t order = 0; order <= 5; ++order) {
     const Answers one({3}, order);
@@ -65,10 +65,10 @@ TEST(UncertaintySummary, CountsOrdersFromTheStrictest) {
             Json({{"exclusive", 1}, {"special", 1}, {"1a", 1}, {"1b", 1}, {"2", 1}, {"none", 1}}));
   EXPECT_EQ(json["depth_bands"][0]["s44_left_open"],
             Json({{"exclusive", 1}, {"special", 2}, {"1a", 3}, {"1b", 4}, {"2", 5}}));
-  EXPECT_THAT(summary.Text(), HasSubstr("66.7 %"));  // 1b: 4 of 6.
+  EXPECT_THAT(summary.Text(), HasSubstr("66.7 %"));  // Order 1b is open for 4 of 6.
 }
 
-TEST(UncertaintySummary, MergesAsIfAddedTogether) {
+TEST(UncertaintySummary, MergesToTheSameSummaryAsOneBatch) {
   const Answers first({1, 2, 4}), second({3, -1}), both({1, 2, 4, 3, -1});
   UncertaintySummary a{AnswerStyle{}}, b{AnswerStyle{}}, all{AnswerStyle{}};
   a.Add(first.pulses, first.answers);
@@ -81,7 +81,7 @@ TEST(UncertaintySummary, MergesAsIfAddedTogether) {
   EXPECT_EQ(a.Json()["depth"], all.Json()["depth"]);
 }
 
-TEST(UncertaintySummary, HasNoNumberWhereTheTableHasNone) {
+TEST(UncertaintySummary, IsNullWhereTheTableHasNoStandardErrors) {
   const Answers some({1});
   UncertaintySummary summary{AnswerStyle{.coverage = {}, .s44_order = {}, .standard_errors = true}};
   summary.Add(some.pulses, some.answers);
@@ -90,7 +90,7 @@ TEST(UncertaintySummary, HasNoNumberWhereTheTableHasNone) {
   EXPECT_TRUE(json["depth_bands"][0]["tvu"]["mean_standard_error"].is_null());
 }
 
-TEST(UncertaintySummary, SaysNothingOfDepthWithoutNumbers) {
+TEST(UncertaintySummary, OmitsDepthsWhenNoPulseIsInterpolated) {
   const Answers none({-1});
   UncertaintySummary summary{AnswerStyle{}};
   summary.Add(none.pulses, none.answers);

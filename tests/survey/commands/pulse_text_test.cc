@@ -7,7 +7,7 @@
 
 #include "service/client/local_source.h"
 #include "survey/number_text.h"
-#include "tests/survey/answers/one_answer.h"
+#include "tests/survey/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu::client {
@@ -36,7 +36,7 @@ class PulseTextTest : public ::testing::Test {
 
 TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
   const Json json = JsonOf(kPulse);
-  const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, kPulse);
+  const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
   for (const Quantity quantity : kQuantities) {
     EXPECT_EQ(json.at(std::string(Describe(quantity).name)).get<float>(), answer[quantity]);
   }
@@ -51,7 +51,7 @@ TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
 }
 
 TEST_F(PulseTextTest, PrintsNumbersWithTheDigitsOfTheCsv) {
-  const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, kPulse);
+  const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
   EXPECT_THAT(PulseJson(Ask(kPulse), source_.table()),
               HasSubstr("\"thu\": " + FormatFloat(answer[Quantity::kThu]) + ",\n"));
 }

@@ -7,7 +7,7 @@
 #include "service/client/local_source.h"
 #include "survey/exit_status.h"
 #include "survey/number_text.h"
-#include "tests/survey/answers/one_answer.h"
+#include "tests/survey/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
 
@@ -21,12 +21,12 @@ using ::testing::HasSubstr;
 
 class CsvAnnotation : public ::testing::Test {
  protected:
-  // What becomes of a file of this text; an error as its message.
+  // The annotated copy of a file with this text, or the message of the error.
   std::string Annotate(const std::string& text) {
     const std::filesystem::path input = folder_.Write("in.csv", text);
     const std::filesystem::path output = folder_ / "out.csv";
     std::filesystem::remove(output);
-    Progress progress("pulses", 1, 0);
+    FileProgress progress("pulses", 1, 0);
     absl::StatusOr<AnnotatedCsv> annotated =
         AnnotateCsv(input, output, Existing::kKeep, fixed_, style_, source_, progress);
     status_ = annotated.status();
@@ -40,9 +40,9 @@ class CsvAnnotation : public ::testing::Test {
     return ReadFile(output);
   }
 
-  // What a pulse's cells must be.
+  // The cells expected for a pulse.
   std::string Cells(const Pulse& pulse) {
-    const PulseUncertainty answer = albtpu::testing::AnswerOf(source_, pulse);
+    const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, pulse);
     std::string cells;
     for (const float value : answer.values) {
       absl::StrAppend(&cells, ",", answer.outcome == Outcome::kInterpolated ? FormatFloat(value) : "");
@@ -88,7 +88,7 @@ TEST_F(CsvAnnotation, TakesAMissingColumnFromAFlag) {
   EXPECT_THAT(Annotate("incidence,depth\n12.5,7\n"), HasSubstr("12.5,7" + Cells(kPulse)));
 }
 
-TEST_F(CsvAnnotation, TakesEmptyFetchAndAzimuthForAbsent) {
+TEST_F(CsvAnnotation, TreatsEmptyFetchAndAzimuthAsAbsent) {
   Pulse pulse = kPulse;
   pulse.fetch = std::numeric_limits<float>::infinity();
   pulse.azimuth.reset();
@@ -117,7 +117,7 @@ TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {
   EXPECT_EQ(counts_.interpolated(), 1u);
 }
 
-TEST_F(CsvAnnotation, RepeatsBlankLinesAndFilesWithoutPulses) {
+TEST_F(CsvAnnotation, CopiesBlankLinesAndFilesWithoutPulses) {
   const std::string header = std::string(kHeader) + kAppended;
   EXPECT_EQ(Annotate(std::string(kHeader) + "\n"), header + "\n");
   EXPECT_EQ(Annotate(kHeader), header + "\n");
@@ -125,81 +125,84 @@ TEST_F(CsvAnnotation, RepeatsBlankLinesAndFilesWithoutPulses) {
             header + "\n5,3e4,12.5,30,.6,7" + Cells(kPulse) + "\n\n");
 }
 
-TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44WhenAsked) {
+TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44OnRequest) {
   style_ = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b, .standard_errors = true};
   const std::string text = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n5,,12,,.6,99\n");
   EXPECT_THAT(text,
               HasSubstr("outcome,refraction_along_wind_standard_error,refraction_cross_wind_standard_error,"
                         "thu_standard_error,tvu_standard_error,bias_along_beam_standard_error,"
                         "bias_vertical_standard_error,s44_best_order,s44_remaining_thu,s44_remaining_tvu\n"));
-  const PulseUncertainty p95 = albtpu::testing::AnswerOf(source_, kPulse, Coverage::kP95);
+  const PulseUncertainty p95 = albtpu::testing::QueryPulse(source_, kPulse, Coverage::kP95);
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(p95[Quantity::kThu]), ",")));
   const double left = RemainingBudget(ThuLimit(S44Order::k1b, 7), p95[Quantity::kThu]).value();
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(static_cast<float>(left)), ",")));
   EXPECT_THAT(text, HasSubstr(",OUT_OF_DOMAIN:depth,,,,,,,,,\n"));
 }
 
-TEST_F(CsvAnnotation, LeavesCellsEmptyThatTheTableCannotFill) {
+TEST_F(CsvAnnotation, LeavesCellsEmptyWhereTheTableHasNoNumber) {
   source_ = LocalSource("", SyntheticTable({.published = true}));
   style_.standard_errors = true;
   const std::string text = Annotate(std::string(kHeader) + "\n5,3e4,12.5,30,.6,7\n");
   EXPECT_THAT(text, HasSubstr(",,,INTERPOLATED,,,,,,\n"));
 }
 
-TEST_F(CsvAnnotation, NamesLineAndColumnOfAWord) {
+TEST_F(CsvAnnotation, NamesLineAndColumnOfTextThatIsNotANumber) {
   const std::string ok = "5,,12,,.6,7\n";
   EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + ok + "5,,12,,.6,deep\n"),
-              HasSubstr("in.csv line 4, column 'depth': 'deep' is not a number: "));
+              HasSubstr("in.csv line 4, column 'depth': 'deep' is not a number; "));
   EXPECT_THAT(Annotate(kHeader + ("\n" + ok) + "5,,,,.6,7\n"),
               HasSubstr("line 3, column 'incidence': is empty"));
 }
 
 TEST_F(CsvAnnotation, NamesAMissingColumnAndTheFlagForIt) {
   const std::string message = Annotate("wind_speed,incidence,Depth,footprint\n5,12,7,.6\n");
-  EXPECT_THAT(message, HasSubstr("line 1: no column 'depth': add it, or give one value for all by --depth"));
+  EXPECT_THAT(
+      message,
+      HasSubstr("line 1: no column 'depth' (columns found: wind_speed, incidence, Depth, footprint); add it, "
+                "or give one value for all pulses by --depth"));
   EXPECT_FALSE(IsUsageError(status_));
   EXPECT_THAT(Annotate("wind_speed;incidence;depth;footprint\n5;12;7;.6\n"), HasSubstr("by commas"));
 }
 
-TEST_F(CsvAnnotation, RefusesAFlagBesideItsColumn) {
+TEST_F(CsvAnnotation, RejectsAFlagBesideItsColumn) {
   Fix(AxisId::kDepth, 3);
   EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6,7\n"), HasSubstr("--depth"));
   EXPECT_TRUE(IsUsageError(status_));
 }
 
-TEST_F(CsvAnnotation, RefusesHeadersThatWouldBeAmbiguous) {
-  EXPECT_THAT(Annotate("depth,wind_speed,depth,incidence,footprint\n"), HasSubstr("'depth' stands twice"));
-  EXPECT_THAT(Annotate(std::string(kHeader) + ",thu\n"), HasSubstr("column 'thu' is there already"));
+TEST_F(CsvAnnotation, RejectsAmbiguousHeaders) {
+  EXPECT_THAT(Annotate("depth,wind_speed,depth,incidence,footprint\n"), HasSubstr("'depth' occurs twice"));
+  EXPECT_THAT(Annotate(std::string(kHeader) + ",thu\n"), HasSubstr("column 'thu' exists already"));
   EXPECT_THAT(Annotate(""), HasSubstr("is empty"));
   EXPECT_THAT(Annotate("\n1\n"), HasSubstr("is empty"));
 }
 
-TEST_F(CsvAnnotation, RefusesRecordsOfAnotherLength) {
+TEST_F(CsvAnnotation, RejectsRecordsWithAnotherNumberOfCells) {
   EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6\n"),
-              HasSubstr("line 2: 5 cells under a header of 6"));
+              HasSubstr("line 2: 5 cells, but the header has 6"));
 }
 
-TEST_F(CsvAnnotation, DoesNotWriteOverItsInput) {
+TEST_F(CsvAnnotation, DoesNotOverwriteItsInput) {
   const std::filesystem::path input = folder_.Write("in.csv", kHeader);
-  Progress progress("pulses", 1, 0);
+  FileProgress progress("pulses", 1, 0);
   const auto status =
       AnnotateCsv(input, input, Existing::kReplace, fixed_, style_, source_, progress).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("is the input itself"));
   EXPECT_EQ(ReadFile(input), kHeader);
 }
 
-TEST_F(CsvAnnotation, RefusesAnInputThatChangesWhileItIsRead) {
+TEST_F(CsvAnnotation, RejectsAnInputThatIsModifiedWhileItIsRead) {
   albtpu::testing::DisturbedSource source(
       source_, [&] { std::ofstream(folder_ / "in.csv", std::ios::app) << "5,,12,,.6,7\n"; });
   const std::filesystem::path input = folder_.Write("in.csv", std::string(kHeader) + "\n5,,12,,.6,7\n");
-  Progress progress("pulses", 1, 0);
+  FileProgress progress("pulses", 1, 0);
   const auto status =
       AnnotateCsv(input, folder_ / "out.csv", Existing::kKeep, fixed_, style_, source, progress).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("in.csv: changed while it was read"));
   EXPECT_EQ(folder_.file_count(), 1u);
 }
 
-TEST_F(CsvAnnotation, KeepsTheOrderAcrossChunks) {
+TEST_F(CsvAnnotation, KeepsTheOrderOfRecordsAcrossChunks) {
   std::string text = "id,depth\n";
   for (int i = 0; i < 150000; ++i) absl::StrAppend(&text, i, ",", i % 20, "\n");
   Fix(AxisId::kWindSpeed, 5);

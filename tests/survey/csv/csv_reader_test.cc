@@ -16,7 +16,7 @@ using albtpu::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A record that does not refer to the memory of a block.
+// A copy of a record, independent of the memory of its block.
 struct OwnRecord {
   std::string text, line_ending;
   std::size_t line;
@@ -24,7 +24,7 @@ struct OwnRecord {
   bool blank;
 };
 
-// Header and blocks, one after the other.
+// All records, of the header and of the blocks.
 absl::StatusOr<std::vector<OwnRecord>> Read(const std::string& text) {
   const TemporaryFolder folder;
   absl::StatusOr<CsvReader> reader = CsvReader::Open(folder.Write("in.csv", text));
@@ -64,7 +64,7 @@ TEST(CsvReader, SplitsAtCommas) {
   EXPECT_THAT(records[1].cells, ElementsAre("1", "", "3"));
 }
 
-TEST(CsvReader, KeepsTheBytesAndMeansTheCells) {
+TEST(CsvReader, KeepsTheBytesAndUnquotesTheCells) {
   const std::string text = "\"one, two\",\"say \"\"hi\"\"\",\"two\nlines\"";
   const std::vector<OwnRecord> records = ReadAll(text + "\r\nnext,,\n");
   ASSERT_EQ(records.size(), 2u);
@@ -75,7 +75,7 @@ TEST(CsvReader, KeepsTheBytesAndMeansTheCells) {
   EXPECT_EQ(records[1].line_ending, "\n");
 }
 
-TEST(CsvReader, LeavesTheByteOrderMarkOutOfTheFirstCell) {
+TEST(CsvReader, ExcludesTheByteOrderMarkFromTheFirstCell) {
   const std::vector<OwnRecord> records = ReadAll("\xEF\xBB\xBF\"a\",b\n1,2");
   EXPECT_EQ(records[0].text, "\xEF\xBB\xBF\"a\",b");
   EXPECT_THAT(records[0].cells, ElementsAre("a", "b"));
@@ -83,7 +83,7 @@ TEST(CsvReader, LeavesTheByteOrderMarkOutOfTheFirstCell) {
   EXPECT_EQ(records[1].line_ending, "");
 }
 
-TEST(CsvReader, SeesBlankLines) {
+TEST(CsvReader, RecognizesBlankLines) {
   const std::vector<OwnRecord> records = ReadAll("a\n\r\n1\n");
   ASSERT_EQ(records.size(), 3u);
   EXPECT_TRUE(records[1].blank);
@@ -91,7 +91,7 @@ TEST(CsvReader, SeesBlankLines) {
   EXPECT_TRUE(ReadAll("").empty());
 }
 
-TEST(CsvReader, GivesWholeRecordsAcrossManyBlocks) {
+TEST(CsvReader, ReturnsCompleteRecordsInManyBlocks) {
   std::string text = "a,b\n";
   for (int i = 0; i < 300000; ++i) {
     absl::StrAppend(&text, i, i % 1000 == 0 ? ",\"two\nlines, \"\"quoted\"\"\"\r\n" : ",plain\n");
@@ -108,20 +108,20 @@ TEST(CsvReader, GivesWholeRecordsAcrossManyBlocks) {
   }
 }
 
-TEST(CsvReader, NamesTheLineOfAnOpenQuote) {
+TEST(CsvReader, NamesTheLineOfAnUnclosedQuote) {
   EXPECT_THAT(std::string(ErrorOf("a\nb\n\"c\nd\n").message()), HasSubstr("in.csv line 3: "));
   EXPECT_THAT(std::string(ErrorOf("a\n\"" + std::string(CsvReader::kLongestRecord, 'x')).message()),
               HasSubstr("line 2"));
 }
 
-TEST(CsvReader, NamesTheCellWithTextBehindItsQuote) {
+TEST(CsvReader, NamesTheCellWithTextAfterItsQuote) {
   EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"3\n").message()), HasSubstr("line 2, column 2"));
   EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"\r3\n").message()), HasSubstr("line 2, column 2"));
   EXPECT_THAT(std::string(ErrorOf("a,b\n\"1\"\r,2\n").message()), HasSubstr("line 2, column 1"));
   EXPECT_THAT(std::string(ErrorOf("a,b\n1,\"2\"\r").message()), HasSubstr("line 2, column 2"));
 }
 
-TEST(CsvReader, SaysWhatCannotBeRead) {
+TEST(CsvReader, SaysWhichFileCannotBeRead) {
   const TemporaryFolder folder;
   EXPECT_THAT(std::string(CsvReader::Open(folder / "no.csv").status().message()),
               HasSubstr("no.csv: No such file or directory"));

@@ -25,7 +25,7 @@ class FileJobs : public ::testing::Test {
     options_.output_folder = folder_ / "out";
   }
 
-  // Outputs, below the output folder; an error as its message.
+  // The outputs, relative to the output folder, or the message of the error.
   std::vector<std::string> Outputs() {
     const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options_);
     status_ = jobs.status();
@@ -40,12 +40,12 @@ class FileJobs : public ::testing::Test {
   absl::Status status_;
 };
 
-TEST_F(FileJobs, TakesAFolderForAllFilesInIt) {
+TEST_F(FileJobs, ExpandsAFolderToAllFilesInIt) {
   options_.files = {folder_ / "in"};
   EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las"));
 }
 
-TEST_F(FileJobs, RepeatsSubfoldersWhenRecursive) {
+TEST_F(FileJobs, RecreatesSubfoldersWhenRecursive) {
   options_.files = {folder_ / "in/"};
   options_.recursive = true;
   EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "b.las", "line/a.las", "line/deep/c.las"));
@@ -56,27 +56,27 @@ TEST_F(FileJobs, MixesFilesAndFolders) {
   EXPECT_THAT(Outputs(), ElementsAre("c.las", "a.LAS", "b.las"));
 }
 
-TEST_F(FileJobs, TakesNoOutputForAnInput) {
+TEST_F(FileJobs, SkipsFilesInTheOutputFolder) {
   options_.output_folder = folder_ / "in/line";
   options_.files = {folder_ / "in"};
   options_.recursive = true;
   EXPECT_EQ(Outputs().size(), 2u);
 }
 
-TEST_F(FileJobs, RefusesTwoInputsOfOneName) {
+TEST_F(FileJobs, RejectsTwoInputsWithTheSameName) {
   options_.files = {folder_ / "in/line", folder_ / "in/../in/line/a.las"};
   EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("two inputs are called a.las")));
   EXPECT_TRUE(IsUsageError(status_));
 }
 
-TEST_F(FileJobs, SaysWhatIsMissing) {
+TEST_F(FileJobs, SaysWhichArgumentIsWrong) {
   options_.files = {folder_ / "out"};
   EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("out: no .las file in this folder")));
   EXPECT_FALSE(IsUsageError(status_));
   options_.output_folder = folder_ / "no";
-  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("no is no folder")));
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("no is not a folder")));
   options_.output_folder.clear();
-  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("IN.las OUT.las is right")));
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("give IN.las OUT.las")));
   EXPECT_TRUE(IsUsageError(status_));
 }
 

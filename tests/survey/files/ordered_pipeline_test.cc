@@ -13,7 +13,7 @@ struct Number {
   int value = 0;
 };
 
-// Numbers from 0 to below `count`, doubled; what was written.
+// The numbers written by a pipeline that doubles 0, 1 .. count - 1.
 struct Outcome {
   absl::Status status;
   std::vector<int> written;
@@ -48,7 +48,7 @@ std::vector<int> EvenNumbers(int count) {
   return numbers;
 }
 
-TEST(OrderedPipeline, WritesInTheOrderInWhichItReads) {
+TEST(OrderedPipeline, WritesInTheOrderOfReading) {
   for (const int count : {0, 1, 2, 10000}) {
     const Outcome outcome = Double(count, -1, -1, -1);
     EXPECT_TRUE(outcome.status.ok());
@@ -56,14 +56,14 @@ TEST(OrderedPipeline, WritesInTheOrderInWhichItReads) {
   }
 }
 
-TEST(OrderedPipeline, GivesTheFirstFailureInTheFile) {
+TEST(OrderedPipeline, ReturnsTheFirstFailureInTheFile) {
   EXPECT_EQ(Double(100, 50, -1, -1).status, absl::DataLossError("read"));
   EXPECT_EQ(Double(100, 51, 50, -1).status, absl::UnavailableError("work"));
   EXPECT_EQ(Double(100, -1, 51, 50).status, absl::ResourceExhaustedError("write"));
   for (int i = 0; i < 100; ++i) EXPECT_EQ(Double(20, 11, 10, 12).written, EvenNumbers(10));
 }
 
-TEST(OrderedPipeline, HoldsAFewChunksAtATime) {
+TEST(OrderedPipeline, KeepsOnlyAFewChunksInMemory) {
   std::atomic<int> read = 0, written = 0, most = 0;
   const absl::Status status = RunOrderedPipeline(
       [] { return Number(); }, [&](Number&) -> absl::StatusOr<bool> { return ++read <= 1000; },

@@ -13,7 +13,7 @@ using albtpu::testing::ReadFile;
 using albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-TEST(OutputFile, AppearsWhenItIsCommitted) {
+TEST(OutputFile, AppearsWhenCommitted) {
   const TemporaryFolder folder;
   absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kKeep);
   ASSERT_TRUE(file.ok()) << file.status();
@@ -24,7 +24,7 @@ TEST(OutputFile, AppearsWhenItIsCommitted) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
-TEST(OutputFile, LeavesNothingWithoutCommit) {
+TEST(OutputFile, LeavesNothingBehindUnlessCommitted) {
   const TemporaryFolder folder;
   {
     absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kKeep);
@@ -33,7 +33,7 @@ TEST(OutputFile, LeavesNothingWithoutCommit) {
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
-TEST(OutputFile, KeepsWhatExists) {
+TEST(OutputFile, KeepsAnExistingFile) {
   const TemporaryFolder folder;
   folder.Write("out", "old");
   const absl::Status status = OutputFile::Create(folder / "out", Existing::kKeep).status();
@@ -42,18 +42,18 @@ TEST(OutputFile, KeepsWhatExists) {
   EXPECT_EQ(ReadFile(folder / "out"), "old");
 }
 
-TEST(OutputFile, KeepsWhatCameToExistMeanwhile) {
+TEST(OutputFile, KeepsAFileThatAppearedMeanwhile) {
   const TemporaryFolder folder;
   absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kKeep);
   ASSERT_TRUE(file->Write("ours").ok());
   folder.Write("out", "theirs");
   EXPECT_EQ(file->Commit().code(), absl::StatusCode::kAlreadyExists);
-  file = absl::CancelledError();  // Gone.
+  file = absl::CancelledError();  // Discards it.
   EXPECT_EQ(ReadFile(folder / "out"), "theirs");
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
-TEST(OutputFile, ReplacesOnlyWithTheWhole) {
+TEST(OutputFile, ReplacesAFileOnlyWhenComplete) {
   const TemporaryFolder folder;
   folder.Write("out", "old");
   absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kReplace);
@@ -63,7 +63,7 @@ TEST(OutputFile, ReplacesOnlyWithTheWhole) {
   EXPECT_EQ(ReadFile(folder / "out"), "new");
 }
 
-TEST(OutputFile, ReplacesNoFolderAndNoDevice) {
+TEST(OutputFile, DoesNotReplaceFoldersOrDevices) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
   for (const std::filesystem::path& path : {folder / "out", std::filesystem::path("/dev/null")}) {
@@ -72,13 +72,14 @@ TEST(OutputFile, ReplacesNoFolderAndNoDevice) {
   }
 }
 
-TEST(OutputFile, SaysWhichFolderIsMissing) {
+TEST(OutputFile, SaysThatTheFolderIsMissing) {
   const TemporaryFolder folder;
   const absl::Status status = OutputFile::Create(folder / "no" / "out", Existing::kKeep).status();
-  EXPECT_THAT(std::string(status.message()), HasSubstr("no/out: No such file or directory: name a folder"));
+  EXPECT_THAT(std::string(status.message()),
+              HasSubstr("no/out: No such file or directory (no output was written); write to a folder"));
 }
 
-TEST(OutputFile, HasTheModeOfAnyNewFile) {
+TEST(OutputFile, HasTheUsualModeOfANewFile) {
   const TemporaryFolder folder;
   const mode_t mask = umask(022);
   absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kKeep);
@@ -89,7 +90,7 @@ TEST(OutputFile, HasTheModeOfAnyNewFile) {
   EXPECT_EQ(status.st_mode & 0777, 0644u);
 }
 
-TEST(OutputFile, IsNeverItsInput) {
+TEST(OutputFile, IsNotTheInputUnderAnotherName) {
   const TemporaryFolder folder;
   const std::filesystem::path input = folder.Write("in", "x");
   std::filesystem::create_hard_link(input, folder / "hard");

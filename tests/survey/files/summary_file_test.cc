@@ -18,112 +18,112 @@ class SummaryFile : public ::testing::Test {
  protected:
   SummaryFile() {
     folder_.Write("in.las", "input");
-    making_.command = "las";
-    making_.parameters = {{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
-    making_.table.id = "survey";
-    making_.table.digest = "1234";
+    settings_.command = "las";
+    settings_.parameters = {{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
+    settings_.table.id = "survey";
+    settings_.table.digest = "1234";
   }
 
-  // Makes the output anew.
-  absl::Status Make(Existing existing = Existing::kKeep) {
+  // Writes the output and its summary.
+  absl::Status Write(Existing existing = Existing::kKeep) {
     absl::StatusOr<OutputFile> output = OutputFile::Create(job_.output, existing);
     if (!output.ok()) return output.status();
     EXPECT_TRUE(output->Write("output").ok());
     const Findings findings{.input_bytes = 5, .input = {{"points", 1}}, .answers = {{"pulses", 1}}};
-    const std::string text = SummaryText(making_, job_, findings, output->size());
+    const std::string text = SummaryText(settings_, job_, findings, output->size());
     return CommitWithSummary(*std::move(output), job_, text, existing);
   }
 
-  std::string Difference() { return std::string(CheckMade(making_, job_).message()); }
+  std::string Difference() { return std::string(CheckComplete(settings_, job_).message()); }
 
   TemporaryFolder folder_;
   Job job_{folder_ / "in.las", folder_ / "out.las"};
-  Making making_;
+  OutputSettings settings_;
 };
 
-TEST_F(SummaryFile, KnowsWhatItMade) {
-  EXPECT_TRUE(absl::IsNotFound(CheckMade(making_, job_)));
-  ASSERT_TRUE(Make().ok());
-  EXPECT_TRUE(CheckMade(making_, job_).ok()) << Difference();
+TEST_F(SummaryFile, RecognizesACompleteOutput) {
+  EXPECT_TRUE(absl::IsNotFound(CheckComplete(settings_, job_)));
+  ASSERT_TRUE(Write().ok());
+  EXPECT_TRUE(CheckComplete(settings_, job_).ok()) << Difference();
   EXPECT_EQ(folder_.file_count(), 3u);
 }
 
-TEST_F(SummaryFile, HasTheSameBytesWhereverItIsMade) {
-  ASSERT_TRUE(Make().ok());
+TEST_F(SummaryFile, HasTheSameBytesInEveryFolder) {
+  ASSERT_TRUE(Write().ok());
   const std::string text = ReadFile(folder_ / "out.las.json");
   EXPECT_THAT(text, ::testing::Not(HasSubstr(folder_ / "")));
   const TemporaryFolder elsewhere;
   elsewhere.Write("in.las", "input");
   job_ = {elsewhere / "in.las", elsewhere / "out.las"};
-  ASSERT_TRUE(Make().ok());
+  ASSERT_TRUE(Write().ok());
   EXPECT_EQ(ReadFile(elsewhere / "out.las.json"), text);
 }
 
-TEST_F(SummaryFile, SaysWhatIsDifferent) {
-  ASSERT_TRUE(Make().ok());
-  const Making made = making_;
-  making_.parameters["wind_speed"] = 6;
+TEST_F(SummaryFile, SaysWhatDiffers) {
+  ASSERT_TRUE(Write().ok());
+  const OutputSettings original = settings_;
+  settings_.parameters["wind_speed"] = 6;
   EXPECT_THAT(Difference(), HasSubstr("parameters.wind_speed is 5 there, 6 here"));
-  making_ = made;
-  making_.parameters["classes"] = {26};
+  settings_ = original;
+  settings_.parameters["classes"] = {26};
   EXPECT_THAT(Difference(), HasSubstr("parameters.classes is [26,40] there, [26] here"));
-  making_ = made;
-  making_.table.digest = "5678";
+  settings_ = original;
+  settings_.table.digest = "5678";
   EXPECT_THAT(Difference(), HasSubstr("table.digest is \"1234\" there"));
-  making_ = made;
+  settings_ = original;
   folder_.Write("out.las", "outpu");
   EXPECT_THAT(Difference(), HasSubstr("output.bytes is 6 there, 5 here"));
-  ASSERT_TRUE(Make(Existing::kReplace).ok());
+  ASSERT_TRUE(Write(Existing::kReplace).ok());
   folder_.Write("in.las", "other input");
   EXPECT_THAT(Difference(), HasSubstr("input.bytes is 5 there, 11 here"));
 }
 
-TEST_F(SummaryFile, SeesThatTheInputIsNewer) {
-  ASSERT_TRUE(Make().ok());
+TEST_F(SummaryFile, NoticesThatTheInputIsNewer) {
+  ASSERT_TRUE(Write().ok());
   const auto later = std::filesystem::last_write_time(job_.output) + std::chrono::seconds(1);
   std::filesystem::last_write_time(job_.input, later);
   EXPECT_THAT(Difference(), HasSubstr("in.las is newer"));
 }
 
-TEST_F(SummaryFile, TakesAnOutputWithoutSummaryForUnknown) {
+TEST_F(SummaryFile, RejectsAnOutputWithoutAValidSummary) {
   for (const char* text : {"", "{", "[]", "{\"program\": 1}", "{\"parameters\": 1, \"command\": \"las\"}"}) {
     folder_.Write("out.las", "output");
     folder_.Write("out.las.json", text);
-    EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_))) << text;
+    EXPECT_TRUE(absl::IsFailedPrecondition(CheckComplete(settings_, job_))) << text;
   }
 }
 
-TEST_F(SummaryFile, TakesADeepOrLongSummaryForUnknown) {
+TEST_F(SummaryFile, RejectsADeeplyNestedOrHugeSummary) {
   const auto nested = [](std::size_t depth) {
     return "{\"parameters\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
   };
   folder_.Write("out.las", "output");
   for (const std::string& text : {nested(200'000), nested(500'000), std::string(2 << 20, ' ')}) {
     folder_.Write("out.las.json", text);
-    EXPECT_TRUE(absl::IsFailedPrecondition(CheckMade(making_, job_)));
+    EXPECT_TRUE(absl::IsFailedPrecondition(CheckComplete(settings_, job_)));
   }
 }
 
-TEST_F(SummaryFile, NamesTheOutputBeforeItself) {
-  ASSERT_TRUE(Make().ok());
+TEST_F(SummaryFile, NamesTheOutputWhenBothExist) {
+  ASSERT_TRUE(Write().ok());
   EXPECT_THAT(CheckSummaryCanBeWritten(job_, Existing::kKeep).message(),
-              HasSubstr("out.las: exists already"));
+              HasSubstr("out.las: already exists"));
 }
 
-TEST_F(SummaryFile, KeepsWhatStandsInItsPlace) {
+TEST_F(SummaryFile, KeepsAnotherFileWithItsName) {
   folder_.Write("out.las.json", "{\"precious\": 1}");
-  EXPECT_TRUE(absl::IsAlreadyExists(Make()));
+  EXPECT_TRUE(absl::IsAlreadyExists(Write()));
   EXPECT_FALSE(std::filesystem::exists(job_.output));
   EXPECT_EQ(ReadFile(folder_ / "out.las.json"), "{\"precious\": 1}");
-  EXPECT_TRUE(Make(Existing::kReplace).ok());
+  EXPECT_TRUE(Write(Existing::kReplace).ok());
 }
 
-TEST_F(SummaryFile, ReplacesASummaryThatAKilledRunLeft) {
-  ASSERT_TRUE(Make().ok());
+TEST_F(SummaryFile, ReplacesASummaryLeftByAKilledRun) {
+  ASSERT_TRUE(Write().ok());
   std::filesystem::remove(job_.output);
-  EXPECT_TRUE(absl::IsNotFound(CheckMade(making_, job_)));
-  EXPECT_TRUE(Make().ok());
-  EXPECT_TRUE(CheckMade(making_, job_).ok());
+  EXPECT_TRUE(absl::IsNotFound(CheckComplete(settings_, job_)));
+  EXPECT_TRUE(Write().ok());
+  EXPECT_TRUE(CheckComplete(settings_, job_).ok());
 }
 
 }  // namespace

@@ -10,21 +10,21 @@
 namespace albtpu::client {
 namespace {
 
-// The pulse of one point.
+// The pulse of a single point.
 Pulse At(const FlightLine& line, double z, double scan_angle) {
   PulseBatch pulses;
   line.MakePulses({&z, 1}, {&scan_angle, 1}, pulses);
   return PulseAt(pulses.columns(), 0);
 }
 
-TEST(BeamGeometry, WidensTheFootprintWithDistance) {
+TEST(BeamGeometry, FootprintGrowsWithDistance) {
   EXPECT_DOUBLE_EQ(FootprintDiameter(400, 1, 0), 0.4);
   EXPECT_NEAR(FootprintDiameter(400, 1, 60), 0.8, 1e-12);  // Twice as far.
   EXPECT_DOUBLE_EQ(FootprintDiameter(400, 2.5, 0), 1.0);
 }
 
 TEST(BeamGeometry, PointsDownwindWhenTheWindBlowsToTheRight) {
-  // Flying north, wind from the west: it blows to the east, where the beam of a positive angle points.
+  // Flying north with wind from the west: the wind blows to the east, where the beam points at positive scan angles.
   EXPECT_EQ(FoldAzimuth(AcrossTrackAzimuth(0, 270, 15)), 0);
   EXPECT_EQ(std::remainder(AcrossTrackAzimuth(0, 270, 15), 360), 0);
   EXPECT_EQ(std::abs(std::remainder(AcrossTrackAzimuth(0, 270, -15), 360)), 180);
@@ -40,11 +40,11 @@ TEST(BeamGeometry, FollowsTheDefinition) {
   EXPECT_EQ(AcrossTrackAzimuth(30, 10, -5), (30 - 90) - (10 + 180));
 }
 
-TEST(BeamGeometry, SeesOneAzimuthOnBothSides) {
+TEST(BeamGeometry, HasTheSameFoldedAzimuthOnBothSides) {
   for (const double angle : {-20.0, 0.0, 20.0}) EXPECT_EQ(FoldAzimuth(AcrossTrackAzimuth(20, 95, angle)), 15);
 }
 
-TEST(BeamGeometry, MakesAPulseOfAPoint) {
+TEST(BeamGeometry, MakesThePulseOfAPoint) {
   FlightLine line;
   line.water_level = -23.09;
   line.wind_speed = 6;
@@ -59,7 +59,7 @@ TEST(BeamGeometry, MakesAPulseOfAPoint) {
   EXPECT_NEAR(pulse.footprint, 0.4 / std::cos(12.006 * M_PI / 180), 1e-6);
 }
 
-TEST(BeamGeometry, TurnsFeetIntoMetresForDepthOnly) {
+TEST(BeamGeometry, ConvertsOnlyDepthFromFeet) {
   FlightLine line;
   line.water_level = 10;
   line.metres_per_unit = 0.3048;
@@ -71,14 +71,14 @@ TEST(BeamGeometry, TurnsFeetIntoMetresForDepthOnly) {
   EXPECT_EQ(pulse.azimuth, 45.0f);
 }
 
-TEST(BeamGeometry, GivesANegativeDepthToAPointAboveTheWater) {
+TEST(BeamGeometry, PointsAboveTheWaterHaveNegativeDepth) {
   FlightLine line;
   line.water_level = 1;
   EXPECT_LT(At(line, 2, 0).depth, 0);
   EXPECT_FALSE(At(line, 2, 0).azimuth.has_value());
 }
 
-TEST(BeamGeometry, SaysOnceWhatIsAlikeForAllPoints) {
+TEST(BeamGeometry, StoresOneNumberWhereAllPulsesHaveTheSame) {
   FlightLine line;
   line.wind_speed = 6;
   line.footprint = 0.5f;

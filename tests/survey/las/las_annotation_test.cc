@@ -10,7 +10,7 @@
 
 #include "service/client/local_source.h"
 #include "survey/las/little_endian.h"
-#include "tests/survey/answers/one_answer.h"
+#include "tests/survey/answers/test_sources.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/survey/las/simulated_flight.h"
 #include "tests/tables/synthetic_table.h"
@@ -30,8 +30,8 @@ using albtpu::testing::TemporaryFolder;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-// A few points of each kind: bathymetric, above the water, deeper than the table, land. Their scan angles are
-// ones that every format holds.
+// Points of each kind: bathymetric, above the water, deeper than the table, on land. Every point format can represent
+// their scan angles.
 LasSpec Spec(int version_minor, int point_format) {
   LasSpec spec;
   spec.version_minor = version_minor;
@@ -54,7 +54,7 @@ class LasAnnotationTest : public ::testing::Test {
     annotation_.flight_line.azimuth = 30.0f;
   }
 
-  // The annotated file; an error as its message.
+  // The annotated file, or the message of the error.
   std::string Annotate(const std::string& file) {
     const std::filesystem::path input = folder_.Write("in.las", file);
     const std::filesystem::path output = folder_ / "out.las";
@@ -78,7 +78,7 @@ class LasAnnotationTest : public ::testing::Test {
     PulseBatch pulses;
     const double z = spec.points[point].z * spec.scale;
     annotation_.flight_line.MakePulses({&z, 1}, {&spec.points[point].scan_angle, 1}, pulses);
-    return albtpu::testing::AnswerOf(source_, PulseAt(pulses.columns(), 0), annotation_.style.coverage);
+    return albtpu::testing::QueryPulse(source_, PulseAt(pulses.columns(), 0), annotation_.style.coverage);
   }
 
   TemporaryFolder folder_;
@@ -86,18 +86,18 @@ class LasAnnotationTest : public ::testing::Test {
   LasAnnotation annotation_;
   LasClassCounts classes_;
   UncertaintySummary summary_{AnswerStyle{}};
-  Progress progress_{"points", 1, 0};
+  FileProgress progress_{"points", 1, 0};
 };
 
-// The annotated file must be what the builder makes of the specification with our record added and 8 bytes
-// more a record, up to those 8 bytes.
+// The file that the builder makes from the specification after adding our VLR and 8 bytes to each record. The annotated
+// file may differ from it only in those 8 bytes.
 std::string Expected(LasSpec spec, const std::string& descriptions) {
   spec.vlrs.push_back({"LASF_Spec", 4, descriptions});
   spec.extra_bytes += 8;
   return BuildLas(spec);
 }
 
-TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
+TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
   for (int version = 2; version <= 4; ++version) {
     for (int format = 0; format <= (version == 2 ? 3 : version == 3 ? 5 : 10); ++format) {
       for (const std::size_t extra : {0, 6}) {
@@ -113,7 +113,7 @@ TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
         const std::size_t count = spec.points.size();
         ASSERT_EQ(Load<std::uint16_t>(output, 105), old_length + 8);
 
-        // Records: the same bytes, 8 behind.
+        // Point records: the same bytes, followed by 8 more.
         for (std::size_t i = 0; i < count; ++i) {
           const std::string record = output.substr(new_points + i * (old_length + 8), old_length + 8);
           ASSERT_EQ(record.substr(0, old_length), input.substr(old_points + i * old_length, old_length));
@@ -123,7 +123,7 @@ TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
           EXPECT_EQ(Load<float>(record, old_length), has_value ? answer[Quantity::kThu] : -1) << i;
           EXPECT_EQ(Load<float>(record, old_length + 4), has_value ? answer[Quantity::kTvu] : -1) << i;
         }
-        // Behind the records: the same bytes, found from the header.
+        // After the points: the same bytes, at the offsets that the header states.
         EXPECT_EQ(output.substr(new_points + count * (old_length + 8)),
                   input.substr(old_points + count * old_length));
         if (version >= 3) {
@@ -132,7 +132,8 @@ TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
         if (version >= 4) {
           EXPECT_EQ(output.substr(Load<std::uint64_t>(output, 235) + 60, 6), "behind");
         }
-        // Before them: the builder's own header and VLRs with one more, but for the text that describes it.
+        // Before the points: the builder's own header and VLRs and one more VLR, apart from the description of that
+        // VLR.
         std::string head = output.substr(0, new_points);
         std::string builder_head =
             Expected(spec, std::string(extra > 0 ? 3 * 192 : 2 * 192, '\0')).substr(0, new_points);
@@ -145,7 +146,7 @@ TEST_F(LasAnnotationTest, KeepsEveryByteOfEveryVersionFormatAndTail) {
   }
 }
 
-TEST_F(LasAnnotationTest, CountsWhatItFound) {
+TEST_F(LasAnnotationTest, CountsClassesAndOutcomes) {
   Annotate(Spec(4, 6));
   EXPECT_EQ(classes_.points(), 5u);
   EXPECT_EQ(summary_.outcomes().Text(), "4 pulses: 2 interpolated, 2 OUT_OF_DOMAIN:depth");
@@ -153,7 +154,7 @@ TEST_F(LasAnnotationTest, CountsWhatItFound) {
   EXPECT_THAT(summary_.Text(), HasSubstr("depth 0.800 m to 5.000 m"));
 }
 
-TEST_F(LasAnnotationTest, ExtendsTheRecordThatIsThere) {
+TEST_F(LasAnnotationTest, ExtendsAnExistingExtraBytesRecord) {
   LasSpec spec = Spec(4, 6);
   spec.extra_bytes = 5;
   const std::string described = ExtraBytesEntry(4, 0, "echo width");  // Two bytes; three are undocumented.
@@ -165,7 +166,7 @@ TEST_F(LasAnnotationTest, ExtendsTheRecordThatIsThere) {
   EXPECT_EQ(output.substr(375 + 54 + 4 * 192 + 54, 4), "last");
 }
 
-TEST_F(LasAnnotationTest, StatesTheCoverageThatIsAsked) {
+TEST_F(LasAnnotationTest, StatesTheCoverageOfTheQuery) {
   annotation_.style.coverage = Coverage::kP95;
   const LasSpec spec = Spec(4, 6);
   const std::string output = Annotate(spec);
@@ -176,23 +177,23 @@ TEST_F(LasAnnotationTest, StatesTheCoverageThatIsAsked) {
 
 TEST_F(LasAnnotationTest, ReadsItsOwnOutputAndRefusesToAnnotateItAgain) {
   const std::string output = Annotate(Spec(3, 1));
-  EXPECT_THAT(Annotate(output), HasSubstr("has total_thu already"));
+  EXPECT_THAT(Annotate(output), HasSubstr("already has total_thu"));
 }
 
-TEST_F(LasAnnotationTest, WritesAFileWithoutPoints) {
+TEST_F(LasAnnotationTest, AnnotatesAFileWithoutPoints) {
   LasSpec spec = Spec(2, 0);
   spec.points.clear();
   EXPECT_EQ(Annotate(spec).size(), BuildLas(spec).size() + 54 + 2 * 192);
   EXPECT_EQ(classes_.points(), 0u);
 }
 
-TEST_F(LasAnnotationTest, TakesLegacyClassesWithoutTheirFlags) {
-  // The builder sets a flag in the byte of the class; 26 must be seen all the same.
+TEST_F(LasAnnotationTest, IgnoresTheFlagsBesideALegacyClass) {
+  // The builder sets a flag in the byte of the class; class 26 must be recognized nevertheless.
   Annotate(Spec(2, 0));
   EXPECT_EQ(summary_.outcomes().total(), 4u);
 }
 
-TEST_F(LasAnnotationTest, KeepsTheOrderOfAWholeFlight) {
+TEST_F(LasAnnotationTest, KeepsThePointsOfAFlightInOrder) {
   LasSpec spec = albtpu::testing::SimulateFlight(4, 8);
   annotation_.classes = {SimulatedFlight::kBottomClass};
   const std::string output = Annotate(spec);
@@ -205,17 +206,17 @@ TEST_F(LasAnnotationTest, KeepsTheOrderOfAWholeFlight) {
   }
 }
 
-TEST_F(LasAnnotationTest, AsksForTheUnitWhenTheFileIsInFeet) {
+TEST_F(LasAnnotationTest, RequiresAUnitWhenTheFileIsInFeet) {
   LasSpec spec = Spec(4, 6);
   spec.vlrs = {{"LASF_Projection", 2112, "VERT_CS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
-  EXPECT_THAT(Annotate(spec), HasSubstr("in feet (unit \"US survey foot\"): say what unit"));
+  EXPECT_THAT(Annotate(spec), HasSubstr("in feet (unit \"US survey foot\"); give the unit"));
   annotation_.unit_is_given = true;
   annotation_.flight_line.metres_per_unit = 1200.0 / 3937.0;
   const std::string output = Annotate(spec);
   EXPECT_EQ(Load<float>(output, Load<std::uint32_t>(output, 96) + 30), AnswerFor(spec, 0)[Quantity::kThu]);
 }
 
-TEST_F(LasAnnotationTest, RefusesRecordsThatDoNotEndWhereTheyShould) {
+TEST_F(LasAnnotationTest, RejectsVlrsOfWrongLength) {
   LasSpec spec = Spec(4, 6);
   std::string file = BuildLas(spec);
   Store<std::uint32_t>(2, file.data() + 100);
@@ -227,13 +228,13 @@ TEST_F(LasAnnotationTest, RefusesRecordsThatDoNotEndWhereTheyShould) {
   spec.evlrs = {{"someone", 7, "behind"}};
   file = BuildLas(spec);
   const std::size_t evlr = Load<std::uint64_t>(file, 235);
-  EXPECT_THAT(Annotate(file.substr(0, file.size() - 1)), HasSubstr("ends behind the file"));
-  EXPECT_THAT(Annotate(file.substr(0, evlr + 59)), HasSubstr("get a whole copy"));
+  EXPECT_THAT(Annotate(file.substr(0, file.size() - 1)), HasSubstr("ends after the file"));
+  EXPECT_THAT(Annotate(file.substr(0, evlr + 59)), HasSubstr("get a complete copy"));
   Store<std::uint64_t>(~0ull, file.data() + evlr + 20);
-  EXPECT_THAT(Annotate(file), HasSubstr("ends behind the file"));
+  EXPECT_THAT(Annotate(file), HasSubstr("ends after the file"));
 }
 
-TEST_F(LasAnnotationTest, RefusesExtraBytesDescribedTwiceOrElsewhere) {
+TEST_F(LasAnnotationTest, RejectsExtraBytesDescribedTwiceOrInAnEvlr) {
   LasSpec spec = Spec(4, 6);
   spec.extra_bytes = 1;
   const albtpu::testing::LasRecord record = {"LASF_Spec", 4, ExtraBytesEntry(1, 0, "x")};
@@ -244,19 +245,19 @@ TEST_F(LasAnnotationTest, RefusesExtraBytesDescribedTwiceOrElsewhere) {
   EXPECT_THAT(Annotate(spec), HasSubstr("in an EVLR"));
 }
 
-TEST_F(LasAnnotationTest, RefusesLazByItsRecordToo) {
+TEST_F(LasAnnotationTest, RejectsLazThatIsMarkedOnlyByItsVlr) {
   LasSpec spec = Spec(4, 6);
   spec.vlrs.push_back({"laszip encoded", 22204, "x"});
   EXPECT_THAT(Annotate(spec), HasSubstr("laszip -i"));
 }
 
-TEST_F(LasAnnotationTest, RefusesRecordsThatCannotGrow) {
+TEST_F(LasAnnotationTest, RejectsRecordsThatCannotGrow) {
   LasSpec spec = Spec(2, 0);
   spec.extra_bytes = 65535 - 20 - 7;
   EXPECT_THAT(Annotate(spec), HasSubstr("no room for 8 more bytes"));
 }
 
-// Whatever is wrong with a file, it ends in an output of the right size or in an error.
+// Whatever the damage to a file, the result is an output of the right size or an error that names the file.
 TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
   LasSpec spec = Spec(4, 9);
   spec.extra_bytes = 5;
@@ -280,7 +281,7 @@ TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
   EXPECT_EQ(folder_.file_count(), 1u);
 }
 
-TEST_F(LasAnnotationTest, RefusesAnInputThatChangesWhileItIsRead) {
+TEST_F(LasAnnotationTest, RejectsAnInputThatIsModifiedWhileItIsRead) {
   const std::string file = BuildLas(Spec(4, 6));
   for (const std::size_t size : {file.size(), file.size() - 1, file.size() + 1}) {
     const std::filesystem::path input = folder_.Write("in.las", file);
@@ -298,7 +299,7 @@ TEST_F(LasAnnotationTest, RefusesAnInputThatChangesWhileItIsRead) {
   }
 }
 
-TEST_F(LasAnnotationTest, LeavesNothingWhenTheSourceFails) {
+TEST_F(LasAnnotationTest, LeavesNothingBehindWhenTheSourceFails) {
   const std::filesystem::path input = folder_.Write("in.las", BuildLas(Spec(4, 6)));
   albtpu::testing::DisturbedSource source(
       source_, [] {}, absl::UnavailableError("gone"));
@@ -308,7 +309,7 @@ TEST_F(LasAnnotationTest, LeavesNothingWhenTheSourceFails) {
   EXPECT_EQ(folder_.file_count(), 1u);
 }
 
-TEST_F(LasAnnotationTest, DoesNotWriteOverItsInput) {
+TEST_F(LasAnnotationTest, DoesNotOverwriteItsInput) {
   const std::string file = BuildLas(Spec(4, 6));
   const std::filesystem::path input = folder_.Write("in.las", file);
   std::filesystem::create_symlink(input, folder_ / "out.las");

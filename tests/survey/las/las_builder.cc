@@ -6,7 +6,7 @@
 namespace albtpu::testing {
 namespace {
 
-// Little-endian, like the machines this runs on.
+// LAS is little-endian, like the machines that this runs on.
 template <typename Number>
 void Put(std::string& bytes, std::size_t offset, Number number) {
   std::memcpy(bytes.data() + offset, &number, sizeof number);
@@ -32,14 +32,14 @@ std::string Vlr(const LasRecord& record, bool extended) {
 std::string PointRecord(const LasSpec& spec, std::size_t index) {
   const LasPoint& point = spec.points[index];
   std::string bytes(PointSize(spec.point_format) + spec.extra_bytes, '\0');
-  // Every byte says something, so that a byte that moves is seen.
+  // A pattern without equal neighbours, so that a test notices bytes that move.
   for (std::size_t i = 12; i < bytes.size(); ++i) bytes[i] = static_cast<char>(index * 31 + i * 7);
   Put(bytes, 0, point.x);
   Put(bytes, 4, point.y);
   Put(bytes, 8, point.z);
   if (spec.point_format < 6) {
     Put<std::uint8_t>(bytes, 14, 0x09);  // Return 1 of 1.
-    // The upper bits are flags (here: key point), not class.
+    // The upper bits are flags (here: key point), not part of the class.
     Put<std::uint8_t>(bytes, 15, static_cast<std::uint8_t>(0x40 | (point.classification & 0x1F)));
     Put<std::int8_t>(bytes, 16, static_cast<std::int8_t>(std::lround(point.scan_angle)));
   } else {
@@ -87,13 +87,13 @@ std::string BuildLas(const LasSpec& spec) {
   std::string header(own_size, '\0');
   PutText(header, 0, "LASF");
   const bool waveform_inside = !spec.waveform_packet.empty();
-  // Bit 4: the coordinate system is well-known text, as formats 6-10 ask for. Bit 1: waveforms are inside.
+  // Bit 4: the coordinate system is well-known text, as formats 6-10 require. Bit 1: waveforms are in the file.
   Put<std::uint16_t>(header, 6, (spec.point_format >= 6 ? 0x10 : 0) | (waveform_inside ? 0x2 : 0));
   Put<std::uint8_t>(header, 24, 1);
   Put<std::uint8_t>(header, 25, static_cast<std::uint8_t>(spec.version_minor));
   PutText(header, 26, "SIMULATION");
   PutText(header, 58, "albtpu");
-  Put<std::uint16_t>(header, 90, 1);  // Made on the first day of 2024, whenever it is made.
+  Put<std::uint16_t>(header, 90, 1);  // Creation date: the first day of 2024, always.
   Put<std::uint16_t>(header, 92, 2024);
   Put<std::uint16_t>(header, 94, static_cast<std::uint16_t>(header_size));
   Put<std::uint32_t>(header, 96, static_cast<std::uint32_t>(offset_to_points));

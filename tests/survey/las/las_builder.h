@@ -1,5 +1,5 @@
-// LAS files made from a description, written from the specification and not from our reader: so a test can
-// have any version, point format, extra bytes and records, right or wrong.
+// Builds LAS files for tests, of any version and point format and with any extra bytes and records, valid or not. It
+// follows the specification and shares no code with our reader.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace albtpu::testing {
 struct LasPoint {
   std::int32_t x = 0, y = 0, z = 0;  // In steps of LasSpec::scale.
   int classification = 0;
-  double scan_angle = 0;  // degree, rounded to what the format holds
+  double scan_angle = 0;  // degree, rounded to the resolution of the format
 };
 
 struct LasRecord {
@@ -25,23 +25,23 @@ struct LasSpec {
   int version_minor = 4;
   int point_format = 6;
   std::vector<LasPoint> points;
-  std::size_t extra_bytes = 0;         // Of each record, behind its format; filled with a pattern.
-  std::vector<LasRecord> vlrs, evlrs;  // EVLRs: 1.4 only.
-  std::string header_tail;             // Behind the header of the version, part of its size.
-  std::string gap;                     // Between the VLRs and the points.
-  std::string waveform_packet;         // Behind the points, pointed to by the header (from 1.3).
+  std::size_t extra_bytes = 0;  // In each record, after the fields of its format; filled with a pattern.
+  std::vector<LasRecord> vlrs, evlrs;  // EVLRs only in 1.4.
+  std::string header_tail;             // Bytes after the fields of the header, counted in its size.
+  std::string gap;                     // Bytes between the VLRs and the points.
+  std::string waveform_packet;         // After the points; the header states its offset (from 1.3).
   double scale = 0.001;
 };
 
 std::string BuildLas(const LasSpec& spec);
 
-// Bytes of a record without extra bytes, by the specification's tables.
+// Bytes of a record without extra bytes, from the tables of the specification.
 std::size_t PointSize(int point_format);
 
-// An entry of an Extra Bytes record: 192 bytes.
+// An entry of an Extra Bytes record, 192 bytes.
 std::string ExtraBytesEntry(std::uint8_t type, std::uint8_t options, const std::string& name);
 
-// A well-known text of a coordinate system in metres.
+// The well-known text of a coordinate system in metres.
 extern const char kMetricWkt[];
 
 }  // namespace albtpu::testing

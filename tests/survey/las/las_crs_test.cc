@@ -36,7 +36,7 @@ TEST(LasCrs, FindsFeetInWellKnownText) {
   }
 }
 
-TEST(LasCrs, TakesAMomentForTheLongestText) {
+TEST(LasCrs, SearchesALongTextQuickly) {
   std::string wkt;
   while (wkt.size() < 1'000'000) wkt += "UNIT[";
   EXPECT_FALSE(FindFeetInWkt(wkt + "\"metre\",1]").has_value());
@@ -57,7 +57,7 @@ TEST(LasCrs, FindsFeetInGeoKeys) {
   EXPECT_FALSE(FindFeetInGeoKeys("short").has_value());
 }
 
-TEST(LasCrs, LooksIntoShortAndExtendedRecords) {
+TEST(LasCrs, SearchesVlrsAndEvlrs) {
   const albtpu::testing::TemporaryFolder folder;
   const albtpu::testing::LasRecord in_feet = {"LASF_Projection", 2112, "X[UNIT[\"foot\",0.3048]]"};
   albtpu::testing::LasSpec spec;

@@ -29,7 +29,7 @@ int OptionsOf(const std::string& record, std::size_t entry) {
   return Load<std::uint8_t>(record, 192 * entry + 3);
 }
 
-TEST(LasExtraBytes, DescribesTwoFloatsWithTheirNoData) {
+TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
   const std::string record = Describe("", 0);
   ASSERT_EQ(record.size(), 2 * 192u);
   EXPECT_EQ(NameOf(record, 0), "total_thu");
@@ -42,7 +42,7 @@ TEST(LasExtraBytes, DescribesTwoFloatsWithTheirNoData) {
   }
 }
 
-TEST(LasExtraBytes, SaysTheCoverageItHas) {
+TEST(LasExtraBytes, StatesTheCoverage) {
   const auto record = DescribeUncertainty("in.las", "", 0, Coverage::kP95);
   EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
 }
@@ -63,7 +63,7 @@ TEST(LasExtraBytes, SplitsManyUndocumentedBytes) {
   EXPECT_EQ(NameOf(record, 2), "undocumented_3");
 }
 
-TEST(LasExtraBytes, KeepsWhatIsDescribedAndAddsWhatIsNot) {
+TEST(LasExtraBytes, KeepsExistingDescriptionsAndAddsTheMissingOnes) {
   const std::string described = ExtraBytesEntry(4, 0, "echo width") + ExtraBytesEntry(0, 5, "undocumented");
   const std::string record = Describe(described, 2 + 5 + 7);
   ASSERT_EQ(record.size(), 5 * 192u);
@@ -77,21 +77,21 @@ TEST(LasExtraBytes, KnowsTheSizeOfEveryType) {
   for (int type = 1; type <= 30; ++type) {
     const int size = sizes[(type - 1) % 10] * ((type - 1) / 10 + 1);
     const std::string described = ExtraBytesEntry(static_cast<std::uint8_t>(type), 0, "x");
-    EXPECT_EQ(Describe(described, size).size(), 3 * 192u) << type;  // Nothing is left to describe.
-    EXPECT_THAT(Describe(described, size - 1), HasSubstr("extra bytes, its records have")) << type;
+    EXPECT_EQ(Describe(described, size).size(), 3 * 192u) << type;  // No undocumented bytes remain.
+    EXPECT_THAT(Describe(described, size - 1), HasSubstr("extra bytes, but its points have")) << type;
   }
 }
 
-TEST(LasExtraBytes, RefusesNamesThatAreThere) {
-  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "total_tvu"), 4), HasSubstr("in.las: has total_tvu already"));
+TEST(LasExtraBytes, RejectsNamesThatExistAlready) {
+  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "total_tvu"), 4), HasSubstr("in.las: already has total_tvu"));
 }
 
-TEST(LasExtraBytes, RefusesRecordsThatCannotBeRead) {
+TEST(LasExtraBytes, RejectsInvalidRecords) {
   EXPECT_THAT(Describe("short", 4), HasSubstr("a multiple of 192"));
   EXPECT_THAT(Describe(ExtraBytesEntry(31, 0, "x"), 4), HasSubstr("type 31"));
   std::string full;
   for (int i = 0; i < 340; ++i) full += ExtraBytesEntry(1, 0, std::to_string(i));
-  EXPECT_THAT(Describe(full, 340), HasSubstr("do not fit"));
+  EXPECT_THAT(Describe(full, 340), HasSubstr("two more descriptions exceed 65535 bytes"));
 }
 
 }  // namespace

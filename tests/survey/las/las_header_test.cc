@@ -30,7 +30,7 @@ absl::StatusOr<LasHeader> Parse(const std::string& file) {
 
 std::string ErrorOf(const std::string& file) { return std::string(Parse(file).status().message()); }
 
-// The file with another number in a field.
+// The file with the number in one field replaced.
 template <typename Number>
 std::string With(std::string file, std::size_t field, Number number) {
   Store(number, file.data() + field);
@@ -53,12 +53,12 @@ TEST(LasHeader, ReadsEveryVersionAndFormat) {
   }
 }
 
-TEST(LasHeader, RefusesWhatIsNotLas) {
+TEST(LasHeader, RejectsOtherFiles) {
   EXPECT_THAT(ErrorOf(""), HasSubstr("in.las: is not a LAS file"));
   EXPECT_THAT(ErrorOf("PK\3\4 something else"), HasSubstr("is not a LAS file"));
 }
 
-TEST(LasHeader, RefusesOtherVersions) {
+TEST(LasHeader, RejectsOtherVersions) {
   EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 1)),
               HasSubstr("is LAS 1.1"));
   EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec()), las_field::kVersionMinor, 5)),
@@ -67,7 +67,7 @@ TEST(LasHeader, RefusesOtherVersions) {
               HasSubstr("is LAS 2.4"));
 }
 
-TEST(LasHeader, NamesAConverterForLaz) {
+TEST(LasHeader, SuggestsADecompressorForLaz) {
   for (const int bits : {0x80, 0x40}) {
     const std::string message = ErrorOf(
         With<std::uint8_t>(BuildLas(Spec()), las_field::kPointFormat, static_cast<std::uint8_t>(6 | bits)));
@@ -76,36 +76,36 @@ TEST(LasHeader, NamesAConverterForLaz) {
   }
 }
 
-TEST(LasHeader, RefusesFormatsThatTheVersionDoesNotHave) {
+TEST(LasHeader, RejectsPointFormatsThatTheVersionDoesNotDefine) {
   EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec(2, 3)), las_field::kPointFormat, 4)),
-              HasSubstr("point format 4 in LAS 1.2: 0 to 3 are right"));
+              HasSubstr("point format 4 in LAS 1.2; expected 0 to 3"));
   EXPECT_THAT(ErrorOf(With<std::uint8_t>(BuildLas(Spec(4, 10)), las_field::kPointFormat, 11)),
-              HasSubstr("0 to 10 are right"));
+              HasSubstr("expected 0 to 10"));
 }
 
-TEST(LasHeader, FindsATruncatedFileAtEveryLength) {
+TEST(LasHeader, DetectsTruncationAtEveryLength) {
   const std::string file = BuildLas(Spec());
   for (std::size_t size = 4; size < file.size(); ++size) {
     ASSERT_EQ(Parse(file.substr(0, size)).status().code(), absl::StatusCode::kDataLoss) << size;
   }
 }
 
-TEST(LasHeader, RefusesCountsThatTheFileDoesNotHold) {
+TEST(LasHeader, RejectsPointCountsThatDisagreeWithTheFile) {
   const std::string file = BuildLas(Spec());
   EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kPointCount, 11)),
-              HasSubstr("counts 11 points, the file holds 10"));
-  // So many that their bytes overflow 64 bits.
+              HasSubstr("states 11 points, but the file has 10"));
+  // So many points that the number of their bytes overflows 64 bits.
   EXPECT_THAT(ErrorOf(With(file, las_field::kPointCount, std::numeric_limits<std::uint64_t>::max())),
-              HasSubstr("the file holds 10"));
+              HasSubstr("the file has 10"));
   EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kPointCount, 8)),
-              HasSubstr("counts 8 points, but 66 bytes, room for 2 more"));
+              HasSubstr("states 8 points, but 66 bytes, enough for 2 more"));
   EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kLegacyPointCount, 9)),
-              HasSubstr("counts 10 points, and 9 in its legacy field"));
+              HasSubstr("states 10 points, but 9 in the legacy field"));
   EXPECT_THAT(ErrorOf(With<std::uint32_t>(BuildLas(Spec(2, 1)), las_field::kLegacyPointCount, 11)),
-              HasSubstr("counts 11 points"));
+              HasSubstr("states 11 points"));
 }
 
-TEST(LasHeader, RefusesPlacesThatOverlap) {
+TEST(LasHeader, RejectsOverlappingOffsets) {
   const std::string file = BuildLas(Spec());
   EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kHeaderSize, 227)), HasSubstr("header size 227"));
   EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kOffsetToPoints, 100)),
@@ -113,12 +113,12 @@ TEST(LasHeader, RefusesPlacesThatOverlap) {
   EXPECT_THAT(ErrorOf(With<std::uint32_t>(file, las_field::kOffsetToPoints, 0xFFFFFFFF)),
               HasSubstr("begin at byte 4294967295"));
   EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 29)),
-              HasSubstr("records of 29 bytes: point format 6 needs 30 or more"));
+              HasSubstr("records of 29 bytes; point format 6 needs 30 or more"));
   EXPECT_THAT(ErrorOf(With<std::uint16_t>(file, las_field::kRecordLength, 0)),
               HasSubstr("records of 0 bytes"));
 }
 
-TEST(LasHeader, RefusesRecordsBehindThePointsThatAreElsewhere) {
+TEST(LasHeader, RejectsEvlrsThatAreNotAfterThePoints) {
   LasSpec spec = Spec();
   spec.evlrs.push_back({"someone", 1, "data"});
   const std::string file = BuildLas(spec);
@@ -127,17 +127,18 @@ TEST(LasHeader, RefusesRecordsBehindThePointsThatAreElsewhere) {
               HasSubstr("begin at byte 400"));
   EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, file.size() + 1)),
               HasSubstr("extended variable length records begin at byte"));
-  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 0)), HasSubstr("begin nowhere"));
+  EXPECT_THAT(ErrorOf(With<std::uint64_t>(file, las_field::kStartOfEvlrs, 0)),
+              HasSubstr("but not where they begin"));
 }
 
-TEST(LasHeader, RefusesHeightsThatAreNoNumbers) {
+TEST(LasHeader, RejectsScalesAndOffsetsThatAreNotFinite) {
   const std::string file = BuildLas(Spec());
   EXPECT_THAT(ErrorOf(With(file, las_field::kScaleZ, 0.0)), HasSubstr("z scale 0"));
   EXPECT_THAT(ErrorOf(With(file, las_field::kOffsetZ, std::numeric_limits<double>::quiet_NaN())),
               HasSubstr("offset nan"));
 }
 
-TEST(LasHeader, SurvivesAnyByteBeingWrong) {
+TEST(LasHeader, SurvivesAnyWrongByte) {
   LasSpec spec = Spec(4, 9);
   spec.evlrs.push_back({"someone", 1, "data"});
   spec.waveform_packet = "waveform";

@@ -12,9 +12,10 @@ constexpr int kPulsesPerLine = 101;
 constexpr double kLineSpacing = 1.5;   // m
 constexpr double kScanHalfAngle = 20;  // degree
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kEverySurfaceReturn = 10;  // One pulse in ten also has a return from the water surface.
+constexpr int kEverySurfaceReturn = 10;  // One pulse in ten also has a return from the surface.
 
-// Depth [m] below z = 0, `x` across and `y` along the line; negative on the beach. A slope with sand ripples.
+// Depth [m] below z = 0, at `x` [m] across and `y` [m] along the line: a slope with sand ripples. Negative on the
+// beach.
 double Depth(double x, double y) {
   const double along = y / (kLineSpacing * kLines);
   const double beach = static_cast<double>(kBeachLines) / kLines;

@@ -1,4 +1,4 @@
-// Sources of answers for tests: one pulse at a time, and disturbed ones.
+// For tests: queries about a single pulse, and a source that disturbs its caller.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace albtpu::testing {
 
-// What `source` answers to one pulse, whole.
-inline PulseUncertainty AnswerOf(client::UncertaintySource& source, const Pulse& pulse,
-                                 Coverage coverage = Coverage::kTwoSigma) {
+// Queries `source` about one pulse and returns all quantities with their standard errors.
+inline PulseUncertainty QueryPulse(client::UncertaintySource& source, const Pulse& pulse,
+                                   Coverage coverage = Coverage::kTwoSigma) {
   client::PulseBatch batch{.size = 1, .axis = {}};
   batch[AxisId::kWindSpeed] = {pulse.wind_speed};
   batch[AxisId::kFetch] = {pulse.fetch};
@@ -36,7 +36,7 @@ inline PulseUncertainty AnswerOf(client::UncertaintySource& source, const Pulse&
   return uncertainty;
 }
 
-// Answers as another source does, but does something before the first answer, and fails instead if it is to.
+// Answers as another source does, but first calls `disturb` once, and then fails if `status` is not OK.
 class DisturbedSource : public client::UncertaintySource {
  public:
   DisturbedSource(client::UncertaintySource& source, std::function<void()> disturb,

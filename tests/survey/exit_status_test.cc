@@ -1,10 +1,10 @@
-#include "survey/error_details.h"
+#include "survey/exit_status.h"
 
 #include <gtest/gtest.h>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "service/client/grpc_error.h"
+#include "service/client/server_error.h"
 
 namespace albtpu::client {
 namespace {
@@ -13,7 +13,7 @@ grpc::Status Refusal(const std::string& details) {
   return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "depth is empty", details);
 }
 
-TEST(MessageWithDetails, AddsTheFieldsThatTheMessageLeavesOut) {
+TEST(MessageWithDetails, AddsTheFieldsThatTheMessageDoesNotMention) {
   google::rpc::BadRequest request;
   for (const auto& [field, what] : {std::pair("depth", "depth is empty"), {"azimuth", "has 3 bytes"}}) {
     request.add_field_violations()->set_field(field);
@@ -27,7 +27,7 @@ TEST(MessageWithDetails, AddsTheFieldsThatTheMessageLeavesOut) {
             "server there: depth is empty; azimuth: has 3 bytes");
 }
 
-TEST(MessageWithDetails, IsTheMessageWhereThereAreNone) {
+TEST(MessageWithDetails, IsTheMessageWhenThereAreNoDetails) {
   EXPECT_EQ(MessageWithDetails(FromGrpc(Refusal(""))), "depth is empty");
   EXPECT_EQ(MessageWithDetails(FromGrpc(Refusal("no message"))), "depth is empty");
   EXPECT_EQ(MessageWithDetails(absl::NotFoundError("no file")), "no file");

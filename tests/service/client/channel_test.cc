@@ -1,4 +1,4 @@
-#include "service/client/channel_credentials.h"
+#include "service/client/channel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,31 +26,32 @@ class ChannelCredentials : public ::testing::Test {
   albtpu::testing::TemporaryFolder folder_;
 };
 
-TEST_F(ChannelCredentials, AreNoneForPlainText) {
+TEST_F(ChannelCredentials, ArePlainTextWithoutFiles) {
   EXPECT_FALSE(Credentials().HasTls());
   EXPECT_TRUE(MakeCredentials({}).ok());
 }
 
-TEST_F(ChannelCredentials, MeanTlsWhicheverIsGiven) {
+TEST_F(ChannelCredentials, UseTlsIfAnyFileIsGiven) {
   EXPECT_TRUE(Credentials{.ca = "ca.pem"}.HasTls());
   EXPECT_TRUE((Credentials{.certificate = "me.pem", .key = "me.key"}.HasTls()));
   EXPECT_TRUE(Credentials{.token = "token"}.HasTls());
 }
 
-TEST_F(ChannelCredentials, NameTheFileThatIsNotRight) {
+TEST_F(ChannelCredentials, NameTheFileThatIsWrong) {
   const std::string junk = File("junk", "junk"), two = File("two", "one\ntwo\n"), none = File("none", "\n");
   EXPECT_THAT(Problem({.ca = folder_ / "nowhere"}), HasSubstr("nowhere: No such file"));
   EXPECT_THAT(Problem({.ca = junk}),
-              HasSubstr("--tls-ca: " + junk + ": a PEM file with a CERTIFICATE is right"));
+              HasSubstr("--tls-ca: " + junk + " has no CERTIFICATE; give a PEM file that has one"));
   EXPECT_THAT(Problem({.certificate = junk, .key = junk}), HasSubstr("--tls-key"));
   const std::string key = File("key", "-----BEGIN PRIVATE KEY-----\n");
-  EXPECT_THAT(Problem({.certificate = key, .key = key}), HasSubstr("--tls-cert: " + key + ": a PEM file"));
-  EXPECT_THAT(Problem({.certificate = key}), HasSubstr("--tls-cert and --tls-key: both are right"));
-  EXPECT_THAT(Problem({.token = two}), HasSubstr("--token-file: " + two + ": one token"));
-  EXPECT_THAT(Problem({.token = none}), HasSubstr("one token"));
+  EXPECT_THAT(Problem({.certificate = key, .key = key}),
+              HasSubstr("--tls-cert: " + key + " has no CERTIFICATE"));
+  EXPECT_THAT(Problem({.certificate = key}), HasSubstr("--tls-cert and --tls-key: one is missing"));
+  EXPECT_THAT(Problem({.token = two}), HasSubstr("--token-file: " + two + " has more than one token"));
+  EXPECT_THAT(Problem({.token = none}), HasSubstr(none + " has no token"));
 }
 
-TEST_F(ChannelCredentials, TakeATokenAlone) {
+TEST_F(ChannelCredentials, MayBeATokenAlone) {
   EXPECT_TRUE(MakeCredentials({.token = File("token", "c0ffee\n")}).ok());
 }
 

@@ -1,4 +1,4 @@
-#include "survey/files/progress.h"
+#include "survey/files/file_progress.h"
 
 #include <unistd.h>
 
@@ -12,8 +12,8 @@
 namespace albtpu::client {
 namespace {
 
-constexpr std::chrono::milliseconds kRedraw{200};
-constexpr std::chrono::seconds kLineEvery{10};
+constexpr std::chrono::milliseconds kRedrawInterval{200};
+constexpr std::chrono::seconds kLineInterval{10};
 constexpr int kBarWidth = 30;
 
 }  // namespace
@@ -24,7 +24,7 @@ std::string RateText(std::uint64_t records, double seconds, const std::string& r
                     : absl::StrFormat("%.2f million %s/s", rate / 1e6, record_name);
 }
 
-Progress::Progress(std::string records, std::size_t file_count, std::uint64_t total_bytes)
+FileProgress::FileProgress(std::string records, std::size_t file_count, std::uint64_t total_bytes)
     : record_name_(std::move(records)),
       file_count_(file_count),
       total_bytes_(total_bytes),
@@ -32,14 +32,15 @@ Progress::Progress(std::string records, std::size_t file_count, std::uint64_t to
       start_(Clock::now()),
       last_shown_(start_) {}
 
-void Progress::Skip(std::uint64_t bytes) { total_bytes_ -= std::min(bytes, total_bytes_); }
+void FileProgress::Skip(std::uint64_t bytes) { total_bytes_ -= std::min(bytes, total_bytes_); }
 
-double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+double FileProgress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-void Progress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t records) {
+void FileProgress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t records) {
   const Clock::time_point now = Clock::now();
   if (total_bytes_ == 0 || bytes == 0) return;
-  if (now - last_shown_ < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kLineEvery))) return;
+  if (now - last_shown_ < (terminal_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval)))
+    return;
   last_shown_ = now;
   const double fraction = std::min(1.0, static_cast<double>(bytes) / static_cast<double>(total_bytes_));
   const std::string state =
@@ -55,17 +56,17 @@ void Progress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t
   }
 }
 
-Progress::File::File(Progress& run, std::string name) : run_(run), label_(std::move(name)) {
+FileProgress::File::File(FileProgress& run, std::string name) : run_(run), label_(std::move(name)) {
   if (run_.file_count_ > 1) absl::StrAppend(&label_, " (", run_.file_, " of ", run_.file_count_, ")");
 }
 
-void Progress::File::Reach(std::uint64_t bytes, std::uint64_t records) {
+void FileProgress::File::Reach(std::uint64_t bytes, std::uint64_t records) {
   bytes_ = bytes;
   records_ = records;
   run_.Show(label_, run_.bytes_before_ + bytes, run_.records_before_ + records);
 }
 
-Progress::File::~File() {
+FileProgress::File::~File() {
   run_.bytes_before_ += bytes_;
   run_.records_before_ += records_;
   if (std::exchange(run_.drawn_, false)) std::fputs("\r\033[K", stderr);
