@@ -1,6 +1,6 @@
-"""What tests of faults share: a server to hurt, and a client beside the fault that must not notice.
+"""Shared by the tests of faults: a server to disturb, and a client that must not notice the fault.
 
-The paths of the programs are the arguments of the script that uses it, NAME=PATH, see programs.py.
+The paths of the programs are the arguments of the test script, NAME=PATH; see programs.py.
 """
 
 import contextlib
@@ -22,17 +22,17 @@ from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 SEED = 20240501
 AXES = ("wind_speed", "incidence", "footprint", "depth")
-FLAGS = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)  # Of a simulated flight.
+FLAGS = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)  # For a simulated flight.
 
 
 def memory(process, what="VmRSS"):
-    """Bytes that a process has in memory; with "VmHWM", had at most. Of a sanitized one, the share of its own."""
+    """Resident memory of a process in bytes; with "VmHWM", its peak. For a sanitized process, without the overhead."""
     status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
     return (int(re.search(rf"{what}:\s+(\d+) kB", status)[1]) << 10) // serving.ALLOWANCE
 
 
 def written(process):
-    """Bytes that a running process has handed to write(); None when it has ended."""
+    """Bytes that a running process has passed to write(); None if it has ended."""
     if process.poll() is not None:
         return None
     try:
@@ -45,19 +45,19 @@ def wait_until(holds, what, patience=serving.PATIENCE):
     end = time.monotonic() + patience
     while not holds():
         if time.monotonic() > end:
-            raise AssertionError(f"not within {patience} s: {what}")
+            raise AssertionError(f"did not happen within {patience} s: {what}")
         time.sleep(0.002)
 
 
 def random_pulses(count, seed=SEED):
-    """Within the synthetic table, some at its borders and some beyond."""
+    """Pulses in the synthetic table, some of them on its edges and some outside."""
     ranges = np.float32([[4, 12], [5, 22], [0.3, 1.2], [1, 40]])
     share = np.random.default_rng(seed).random((4, count), np.float32)
     return dict(zip(AXES, ranges[:, :1] + share * (ranges[:, 1:] - ranges[:, :1])))
 
 
 class FaultTest(programs.Test):
-    """With the folder `tables` of one table, and what it answers in process."""
+    """A test with a folder `tables` that has one table, and with the answers of that table in process."""
 
     def setUp(self):
         super().setUp()
@@ -68,7 +68,7 @@ class FaultTest(programs.Test):
         self.expected = self.answer_in_process(self.pulses)
 
     def answer_in_process(self, pulses):
-        """THU, TVU and outcomes as `albtpu-query csv --table` has them; nine digits read back the same."""
+        """THU, TVU and outcomes from `albtpu-query csv --table`; its nine digits read back to the same float32."""
         source, target = self.folder / "pulses.csv", self.folder / "answers.csv"
         rows = np.column_stack([pulses[axis] for axis in AXES]).astype(float)
         np.savetxt(source, rows, "%.9g", ",", header=",".join(AXES), comments="")
@@ -82,7 +82,7 @@ class FaultTest(programs.Test):
         return server
 
     def metric(self, server, sample):
-        """Of one that serves metrics: `sample` is name and labels, as they are written."""
+        """A metric of a server that serves metrics; `sample` is its name and labels, as in the text format."""
         url = server.wait_for("metrics on").split()[-1]
         no_proxy = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         with no_proxy.open(url, timeout=serving.PATIENCE) as answer:
@@ -94,7 +94,7 @@ class FaultTest(programs.Test):
             np.testing.assert_array_equal(is_, was)
 
     def assert_drains(self, server):
-        """It is well enough to stop as it should."""
+        """The server is healthy enough to stop properly."""
         self.assertEqual(server.stop(signal.SIGTERM), 0, server.lines)
 
     def start_query(self, *arguments):
@@ -105,10 +105,10 @@ class FaultTest(programs.Test):
 
 
 class Witness:
-    """A client that asks without pause, each second time over a connection of its own, while a fault is at work."""
+    """A client that queries without pause during a fault, alternately over an old and a new connection."""
 
     def __init__(self, test, address, patience=0.0):
-        self.test, self.address, self.patience = test, address, patience  # s, with a server that refuses.
+        self.test, self.address, self.patience = test, address, patience  # patience in s, with a refusing server.
         self.answered, self.longest, self.failure = 0, 0.0, None
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run)
@@ -120,16 +120,16 @@ class Witness:
                     with self.connect() as new:
                         for service in (old, new):
                             begin = time.monotonic()
-                            self.ask(service)
+                            self.query(service)
                             self.longest = max(self.longest, time.monotonic() - begin)
                             self.answered += 1
-        except Exception as failure:  # Whatever it is, it is told where the test can see it.
+        except Exception as failure:  # Reported by __exit__, in the thread of the test.
             self.failure = failure
 
     def connect(self):
         return albtpu.connect(self.address, patience=self.patience, timeout=serving.PATIENCE)
 
-    def ask(self, service):
+    def query(self, service):
         self.test.assert_answers(service)
 
     def __enter__(self):
@@ -143,11 +143,11 @@ class Witness:
             if self.failure:
                 raise self.failure
             self.test.assertGreater(self.answered, 0)
-            print(f"beside it {self.answered} calls answered, the longest took {self.longest:.2f} s")
+            print(f"meanwhile {self.answered} calls were answered, the longest in {self.longest:.2f} s")
 
 
 class UnaryWitness(Witness):
-    """Asks in calls that are answered at once, and need no place among the long ones."""
+    """Queries by unary calls, which are answered immediately and do not count towards the limit of long calls."""
 
     @contextlib.contextmanager
     def connect(self):
@@ -155,7 +155,7 @@ class UnaryWitness(Witness):
         with grpc.insecure_channel(self.address, options) as channel:
             yield UncertaintyServiceStub(channel)
 
-    def ask(self, service):
+    def query(self, service):
         pulses = {axis: column.tobytes() for axis, column in self.test.pulses.items()}
         answer = service.QueryColumns(wire.QueryColumnsRequest(pulses=pulses), timeout=serving.PATIENCE)
         for was, sea_surface in zip(self.test.expected, (answer.sea_surface.thu, answer.sea_surface.tvu)):

@@ -1,4 +1,4 @@
-"""Frames that are right, each for itself, and far too many or too large, take neither memory nor the server.
+"""Valid frames, but far too many or too large, neither exhaust the memory of the server nor stop it.
 
 Usage: floods_test.py NAME=PATH..., see programs.py
 """
@@ -13,50 +13,50 @@ import http2
 import programs
 import serving
 
-# Of limits.h, in bytes.
+# From limits.h, in bytes.
 MEMORY_GROWTH = 16 << 20
 MAX_READ_BYTES = 64 << 10
 
-MOST = 4 << 20  # Bytes of a flood, unless the server ends it;
-MOST_CALLS, CONNECTIONS = 40 << 20, 4  # of one that makes calls, from each of several connections at a time.
-LARGEST = 2**31 - 1  # Window, and stream.
+MOST = 4 << 20  # Bytes of a flood, unless the server ends it.
+MOST_CALLS, CONNECTIONS = 40 << 20, 4  # The same for a flood of calls, on each of so many connections at a time.
+LARGEST = 2**31 - 1  # The largest window, and the largest stream number.
 
-# Bytes of memory, that a flood may cost the server: what it grows by before connections are looked at, what a
-# processor makes of calls within a tenth of a second, which is what a busy machine may take to let the server look,
-# and what each connection had sent of them, in one read, when it was ended.
+# The bytes of memory that a flood may cost the server: its growth before the server checks connections, the calls that
+# one processor begins within a tenth of a second, which a busy machine may take to let the server check, and the calls
+# in the last read of each connection before it is ended.
 CALL_BYTES, SHORTEST_CALL, CALLS_IN_TIME = 12 << 10, 15, 10_000
 GROWTH = MEMORY_GROWTH + CALL_BYTES * (CALLS_IN_TIME + CONNECTIONS * MAX_READ_BYTES // SHORTEST_CALL)
 
 
 def odd(i):
-    """Number of the stream of a client's call `i`."""
+    """The stream number of a client's call `i`."""
     return 2 * i + 1
 
 
 def resets(i):
-    """Calls that are taken back at once."""
+    """Calls that are cancelled at once."""
     return http2.call(odd(i), b"StreamColumns") + http2.frame(http2.RST_STREAM, stream=odd(i),
                                                               payload=struct.pack(">I", 8))
 
 
 def short_resets(i):
-    """The same in a seventh of the bytes: as many as a server can be made to begin."""
+    """The same in a seventh of the bytes: as many calls as a server can be made to begin."""
     return http2.short_call(odd(i), b"QueryPulses") + http2.frame(http2.RST_STREAM, stream=odd(i),
                                                                  payload=struct.pack(">I", 8))
 
 
 def unacknowledged(i):
-    """Calls that do not end, of a caller that never acknowledges how many it may have."""
+    """Calls that do not end, from a client that never acknowledges the limit of concurrent calls."""
     return http2.short_call(odd(i), b"QueryColumns")
 
 
 def calls(i):
-    """Many more than a connection may have; their messages do not end."""
+    """Many more calls than a connection may have; their messages do not end."""
     return http2.call(odd(i), b"QueryColumns") + http2.frame(http2.DATA, stream=odd(i), payload=b"\0\0\0\xff\xff")
 
 
-def questions(i):
-    """Whose answers nobody takes: the window is closed."""
+def unread_answers(i):
+    """Calls whose answers are never read: the window is closed."""
     if i == 0:
         return http2.settings(_4=0)
     return http2.call(odd(i), b"ListTables") + http2.message(odd(i), b"", http2.END_STREAM)
@@ -75,13 +75,13 @@ def empty_continuations(i):
 
 
 def long_number(i):
-    """A length in a header block that takes no end (RFC 7541, 5.1)."""
+    """A length in a header block that does not end (RFC 7541, 5.1)."""
     return http2.frame(http2.CONTINUATION, 0, 1, b"\x80" * 16384) if i else http2.frame(
         http2.HEADERS, 0, 1, b"\0\x7f" + b"\x80" * 100)
 
 
 def promised_header(i):
-    """A header field that is said to have two gigabytes, and comes."""
+    """A header field of two gigabytes that is really sent."""
     return http2.frame(http2.CONTINUATION, 0, 1, b"x" * 16384) if i else http2.frame(
         http2.HEADERS, 0, 1, b"\0\x7f\x80\xff\xff\xff\x07")
 
@@ -99,7 +99,7 @@ def pings(i):
 
 
 def windows(i):
-    """That overflow."""
+    """Window updates that overflow."""
     return http2.window_update(0, LARGEST)
 
 
@@ -120,8 +120,8 @@ def unknown_frames(i):
 
 
 MANY_CALLS = (resets, short_resets, unacknowledged)
-FLOODS = (*MANY_CALLS, calls, questions, continuations, empty_continuations, long_number, promised_header, settings,
-          huge_settings, pings, windows, windows_of_a_stream, empty_data, priorities, unknown_frames)
+FLOODS = (*MANY_CALLS, calls, unread_answers, continuations, empty_continuations, long_number, promised_header,
+          settings, huge_settings, pings, windows, windows_of_a_stream, empty_data, priorities, unknown_frames)
 
 
 def pour(address, flood):
@@ -131,7 +131,7 @@ def pour(address, flood):
         if flood is not unacknowledged:
             caller.finish_handshake()
         connection = caller.socket
-        connection.settimeout(10)  # A server that takes no more has its limit too.
+        connection.settimeout(10)  # A server that stops reading has reached its limit.
         try:
             while sent < (MOST_CALLS if flood in MANY_CALLS else MOST) and (flood in MANY_CALLS or i < 200_000):
                 piece = b"".join(flood(i + more) for more in range(500))
@@ -144,7 +144,7 @@ def pour(address, flood):
 
 
 class Floods(faults.FaultTest):
-    def test_take_neither_memory_nor_the_server(self):
+    def test_neither_exhaust_memory_nor_stop_the_server(self):
         for flood in FLOODS:
             with self.subTest(flood.__name__):
                 server = self.serve("--metrics", "127.0.0.1:0")
@@ -155,11 +155,11 @@ class Floods(faults.FaultTest):
                 grown = faults.memory(server.process, "VmHWM") - before
                 print(f"{flood.__name__}: {sent >> 10} KiB sent, memory grew by {grown >> 10} KiB", flush=True)
                 self.assertLess(grown, GROWTH)
-                if flood is unacknowledged:  # Its calls end with their connections alone.
+                if flood is unacknowledged:  # Its calls end only with their connections.
                     ended = "albtpu_ended_connections_total"
-                    faults.wait_until(lambda: self.metric(server, ended) == CONNECTIONS, "each is ended")
+                    faults.wait_until(lambda: self.metric(server, ended) == CONNECTIONS, "all connections are ended")
                 with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
-                    self.assert_answers(service)  # In a stream: each place was given back.
+                    self.assert_answers(service)  # In a stream: calls of the flood no longer count towards the limit.
                 self.assert_drains(server)
 
 

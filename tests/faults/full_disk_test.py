@@ -1,10 +1,11 @@
-"""Where there is no room, outputs are absent and the server goes on.
+"""On a full disk no output is left behind, and the server continues.
 
 Usage: full_disk_test.py NAME=PATH..., see programs.py
 """
 
 import atexit
 import ctypes
+import errno
 import os
 import pathlib
 import subprocess
@@ -16,35 +17,50 @@ import programs
 import serving
 
 CLONE_NEWNS = 0x20000
-ROOM, LEFT = 256 << 10, 8 << 10  # Bytes: of the disk, and free for a log.
+MS_REC_PRIVATE = 0x4000 | 1 << 18
+ROOM, LEFT = 256 << 10, 8 << 10  # Bytes: size of the disk, and space left on it for a log.
+LIBC = ctypes.CDLL(None, use_errno=True)
+
+
+def check(result, action):
+    """Raises an OSError that says why a system call failed, and what it needs."""
+    if result == 0:
+        return
+    number = ctypes.get_errno()
+    if number == errno.EINVAL:
+        need = "/ must be a mount point (before a chroot, bind-mount its folder on itself)"
+    else:
+        need = "run as root with CAP_SYS_ADMIN (in a container: --cap-add SYS_ADMIN)"
+    raise OSError(number, f"cannot {action} ({os.strerror(number)}); {need}")
 
 
 def make_small_disk():
-    """A tmpfs that only this process and its children see; None where that is not permitted."""
-    if os.geteuid() != 0 or ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWNS) != 0:
-        return None
+    """Mounts a tmpfs that only this process and its children see. Returns its folder, or None and the reason."""
     folder = tempfile.mkdtemp()
-    commands = (["mount", "--make-rprivate", "/"], ["mount", "-t", "tmpfs", "-o", f"size={ROOM}", "tmpfs", folder])
-    if any(subprocess.run(command, capture_output=True, check=False).returncode for command in commands):
+    try:
+        check(LIBC.unshare(CLONE_NEWNS), "create a mount namespace")
+        check(LIBC.mount(b"none", b"/", None, MS_REC_PRIVATE, None), "make the mounts below / private")
+        check(LIBC.mount(b"tmpfs", os.fsencode(folder), b"tmpfs", 0, b"size=%d" % ROOM), "mount a tmpfs")
+    except OSError as error:
         os.rmdir(folder)
-        return None
+        return None, f"this test needs a small disk: {error.strerror}"
     atexit.register(os.rmdir, folder)
-    atexit.register(subprocess.run, ["umount", "--lazy", folder], check=False)  # First: last in, first out.
-    return pathlib.Path(folder)
+    atexit.register(subprocess.run, ["umount", "--lazy", folder], check=False)  # Runs first: last in, first out.
+    return pathlib.Path(folder), None
 
 
-DISK = make_small_disk()
+DISK, WHY_NOT = make_small_disk()
 
 
 class FullDisk(faults.FaultTest):
-    """Runs programs where no more than ROOM bytes can be written."""
+    """Runs programs where at most ROOM bytes can be written."""
 
     prefix = ()
 
     def setUp(self):
         super().setUp()
         if DISK is None:
-            self.skipTest("a small disk can be mounted by root alone")
+            self.skipTest(WHY_NOT)
         self.room = DISK
         self.addCleanup(self.clear)
 
@@ -76,7 +92,7 @@ class FullDisk(faults.FaultTest):
     def test_leaves_no_table(self):
         self.assert_writes_nothing("table.h5", programs.PATHS["synthetic_table"], self.room / "table.h5")
 
-    def test_of_the_log_does_not_stop_the_server(self):
+    def test_for_the_log_does_not_stop_the_server(self):
         log = self.room / "log"
         log.write_bytes(b"\n" * (ROOM - LEFT))
         with open(log, "ab") as file:
@@ -86,7 +102,7 @@ class FullDisk(faults.FaultTest):
         faults.wait_until(lambda: b"\n" in log.read_bytes().lstrip(b"\n"), "the server is ready")
         address = serving.READY.search(log.read_text())[1]
         with albtpu.connect(address) as service:
-            for _ in range(2 * LEFT // 100):  # Each is a line, longer than that.
+            for _ in range(2 * LEFT // 100):  # Each call logs a line of more than 100 bytes.
                 with self.assertRaises(albtpu.ServiceError):
                     service.query(**self.pulses, table="unknown" * 12)
                 self.assert_answers(service)
@@ -96,10 +112,10 @@ class FullDisk(faults.FaultTest):
 
 
 class FileLimit(FullDisk):
-    """The same where the system limits the size of files (ulimit -f)."""
+    """The same where the system limits the size of a file (ulimit -f)."""
 
     prefix = ("prlimit", f"--fsize={ROOM}")
-    test_leaves_no_table = None  # Made by a program of the tests, which such a limit ends.
+    test_leaves_no_table = None  # The limit would end the program of the tests that writes tables.
 
     def setUp(self):
         faults.FaultTest.setUp(self)

@@ -1,4 +1,4 @@
-"""A caller of albtpu-serve that speaks HTTP/2 frame by frame, as well or as badly as it is told to."""
+"""A client of albtpu-serve that sends HTTP/2 frame by frame, valid or not."""
 
 import socket
 import struct
@@ -8,7 +8,7 @@ import serving
 PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"
 DATA, HEADERS, PRIORITY, RST_STREAM, SETTINGS, PUSH_PROMISE, PING, GOAWAY, WINDOW_UPDATE, CONTINUATION = range(10)
 END_STREAM, ACK, END_HEADERS = 1, 1, 4
-INITIAL_WINDOW_SIZE = 4  # Of SETTINGS.
+INITIAL_WINDOW_SIZE = 4  # A setting.
 
 
 def frame(kind, flags=0, stream=0, payload=b""):
@@ -16,7 +16,7 @@ def frame(kind, flags=0, stream=0, payload=b""):
 
 
 def settings(**values):
-    """By number: settings(_4=0)."""
+    """A SETTINGS frame; settings are given by number: settings(_4=0)."""
     return frame(SETTINGS, payload=b"".join(struct.pack(">HI", int(name[1:]), value)
                                             for name, value in values.items()))
 
@@ -26,12 +26,12 @@ def window_update(stream, increment):
 
 
 def field(name, value):
-    """Of a header block, literal, without index or Huffman code (RFC 7541, 6.2.2)."""
+    """A field of a header block, literal, without index or Huffman code (RFC 7541, 6.2.2)."""
     def text(string):
         length = len(string)
         if length < 127:
             return bytes([length]) + string
-        head, rest = b"\x7f", length - 127  # An integer with a prefix of 7 bits.
+        head, rest = b"\x7f", length - 127  # An integer with a 7-bit prefix (RFC 7541, 5.1).
         while rest > 127:
             head, rest = head + bytes([rest % 128 + 128]), rest // 128
         return head + bytes([rest]) + string
@@ -53,7 +53,7 @@ def call(stream, method, *more):
 
 
 def short_call(stream, method):
-    """In 15 bytes, by the table that the first of a connection fills (RFC 7541, 6.1 and 6.2.1)."""
+    """A call in 15 bytes, using the table that the first call of a connection fills (RFC 7541, 6.1 and 6.2.1)."""
     if stream == 1:
         block = b"".join(b"\x40" + field(name, value)[1:] for name, value in fields(method))
     else:
@@ -62,7 +62,7 @@ def short_call(stream, method):
 
 
 def message(stream, content, flags=0):
-    """A message of gRPC in frames of data."""
+    """A gRPC message in DATA frames."""
     content = b"\0" + struct.pack(">I", len(content)) + content
     pieces = [content[at:at + 16384] for at in range(0, len(content), 16384)]
     return b"".join(frame(DATA, flags if i == len(pieces) - 1 else 0, stream, piece)
@@ -75,16 +75,16 @@ def dial(address):
 
 
 class Connection:
-    """Reads frames; what is sent is up to the user."""
+    """A connection that reads frames; the user decides what to send."""
 
     def __init__(self, address, first=PREFACE + settings()):
         self.socket = dial(address)
         self.socket.sendall(first)
         self.received = b""
-        self.windows = {0: 65535}  # Of the server: bytes of messages that it takes, by stream; 0 is all.
+        self.windows = {0: 65535}  # Bytes that the server accepts, by stream; stream 0 is the connection.
 
     def read(self):
-        """The next frame, (kind, flags, stream, payload); None when the server has closed."""
+        """The next frame, (kind, flags, stream, payload); None when the server has closed the connection."""
         while len(self.received) < 9 or len(self.received) < 9 + self._length():
             try:
                 more = self.socket.recv(1 << 16)
@@ -100,10 +100,10 @@ class Connection:
             self.windows[stream] = self.windows.get(stream, 65535) + struct.unpack(">I", payload)[0]
         return kind, flags, stream, payload
 
-    def ask(self, stream, method, content):
-        """A single call, as the server opens its window. What else it says meanwhile is returned."""
+    def make_call(self, stream, method, content):
+        """Makes a unary call as fast as the server opens its window. Returns the other frames received meanwhile."""
         self.socket.sendall(call(stream, method))
-        content, said = b"\0" + struct.pack(">I", len(content)) + content, []
+        content, frames = b"\0" + struct.pack(">I", len(content)) + content, []
         self.windows.setdefault(stream, 65535)
         while content:
             size = min(16384, len(content), self.windows[0], self.windows[stream])
@@ -115,19 +115,19 @@ class Connection:
                 continue
             got = self.read()
             if got is None or (got[0] == RST_STREAM and got[2] == stream):
-                return [*said, got]
+                return [*frames, got]
             if got[:2] == (SETTINGS, 0):
                 self.socket.sendall(frame(SETTINGS, ACK))
             elif got[:2] == (PING, 0):
                 self.socket.sendall(frame(PING, ACK, payload=got[3]))
-            said.append(got)
-        return said
+            frames.append(got)
+        return frames
 
     def _length(self):
         return int.from_bytes(self.received[:3], "big")
 
     def finish_handshake(self):
-        """Until the server knows that it is HTTP/2."""
+        """Reads until the server has acknowledged the settings."""
         while (got := self.read())[:2] != (SETTINGS, ACK):
             if got[0] == SETTINGS:
                 self.socket.sendall(frame(SETTINGS, ACK))

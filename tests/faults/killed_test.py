@@ -1,4 +1,4 @@
-"""SIGKILL again and again, of the server or of the client: files come out byte for byte as in process.
+"""The server or the client is killed (SIGKILL) repeatedly; the files are byte for byte those made in process.
 
 Usage: killed_test.py NAME=PATH..., see programs.py
 """
@@ -15,11 +15,11 @@ SERVER_KILLS, CLIENT_KILLS = 20, 12
 
 
 def wait_for_written(process, size):
-    """Whether the process comes so far."""
-    def is_there():
+    """Waits until the process has written `size` bytes. False if it ended before."""
+    def is_written():
         so_far = faults.written(process)
         return so_far is None or so_far >= size
-    faults.wait_until(is_there, f"{size} bytes are written")
+    faults.wait_until(is_written, f"{size} bytes are written")
     return process.poll() is None
 
 
@@ -55,14 +55,14 @@ class Killed(faults.FaultTest):
         summaries = [path.with_name(path.name + ".json").read_bytes() for path in (target, expected)]
         self.assertEqual(*summaries)
         self.assertEqual(len(list(target.parent.iterdir())), 2)
-        print(f"{command}: {size >> 20} MiB, the server killed {kills} times")
+        print(f"{command}: {size >> 20} MiB, the server was killed {kills} times")
         self.assertGreaterEqual(kills, SERVER_KILLS - 1)
 
-    def test_server_leaves_no_trace_in_las(self):
+    def test_killed_server_does_not_change_las_files(self):
         source = many_files.repeat(self.flight, self.folder / "long.las", 150)
         self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
 
-    def test_server_leaves_no_trace_in_csv(self):
+    def test_killed_server_does_not_change_csv_files(self):
         self.assert_survives_kills_of_the_server("csv", self.make_csv(self.folder / "long.csv", 800_000), ())
 
     def assert_survives_kills_of_the_client(self, command, flags):
@@ -72,8 +72,8 @@ class Killed(faults.FaultTest):
             folder.mkdir()
         flags = ("--server", self.serve().address, *flags)
         programs.query(command, survey, "--output-dir", expected, *flags, check=0)
-        whole = {path.name: path.read_bytes() for path in expected.iterdir()}
-        most = max(map(len, whole.values()))
+        complete = {path.name: path.read_bytes() for path in expected.iterdir()}
+        most = max(map(len, complete.values()))
         kills = 0
         for _ in range(CLIENT_KILLS):
             client = self.start_query(command, survey, "--output-dir", out, *flags, "--resume")
@@ -81,20 +81,20 @@ class Killed(faults.FaultTest):
                 kills += 1
             client.send_signal(signal.SIGKILL)
             client.wait()
-            for path in out.iterdir():  # What has its name is whole.
-                self.assertEqual(path.read_bytes(), whole.get(path.name), path.name)
+            for path in out.iterdir():  # A file that has its name is complete.
+                self.assertEqual(path.read_bytes(), complete.get(path.name), path.name)
         programs.query(command, survey, "--output-dir", out, *flags, "--resume", check=0)
-        self.assertEqual({path.name: path.read_bytes() for path in out.iterdir()}, whole)
-        print(f"{command}: the client killed {kills} times")
+        self.assertEqual({path.name: path.read_bytes() for path in out.iterdir()}, complete)
+        print(f"{command}: the client was killed {kills} times")
         self.assertGreater(kills, CLIENT_KILLS // 2)
 
-    def test_client_leaves_nothing_but_whole_las(self):
+    def test_client_leaves_only_complete_las_files(self):
         (self.folder / "survey").mkdir()
         for i in range(6):
             many_files.repeat(self.flight, self.folder / "survey" / f"line{i}.las", 20)
         self.assert_survives_kills_of_the_client("las", faults.FLAGS)
 
-    def test_client_leaves_nothing_but_whole_csv(self):
+    def test_client_leaves_only_complete_csv_files(self):
         (self.folder / "survey").mkdir()
         for i in range(6):
             self.make_csv(self.folder / "survey" / f"line{i}.csv", 100_000)

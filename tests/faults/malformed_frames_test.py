@@ -1,4 +1,4 @@
-"""Connections that speak HTTP/2 wrongly harm nobody but themselves.
+"""Connections that violate HTTP/2 harm only themselves.
 
 Usage: malformed_frames_test.py NAME=PATH..., see programs.py
 """
@@ -16,17 +16,17 @@ import programs
 import serving
 
 CASES = 4000
-GROWTH = 32 << 20  # Bytes of memory, that all cases together may cost the server.
+GROWTH = 32 << 20  # The bytes of memory that all cases together may cost the server.
 
 
 class Recorder:
-    """Stands between a client and the server, and keeps what the client says on its one connection."""
+    """Relays the one connection of a client to the server, and records what the client sends."""
 
     def __init__(self, address):
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.address = "127.0.0.1:%d" % self.listener.getsockname()[1]
         self.server = http2.dial(address)
-        self.said = b""
+        self.sent = b""
         threading.Thread(target=self._listen, daemon=True).start()
 
     def _listen(self):
@@ -34,7 +34,7 @@ class Recorder:
         threading.Thread(target=self._answer, daemon=True).start()
         with contextlib.suppress(OSError):  # Closed.
             while piece := self.client.recv(1 << 16):
-                self.said += piece
+                self.sent += piece
                 self.server.sendall(piece)
 
     def _answer(self):
@@ -48,43 +48,43 @@ class Recorder:
         self.server.close()
 
 
-def split(said):
-    """The frames of a client's half of a conversation."""
+def split(sent):
+    """The frames that a client sent on a connection."""
     at, frames = len(http2.PREFACE), []
-    while at < len(said):
-        end = at + 9 + int.from_bytes(said[at:at + 3], "big")
-        frames.append(said[at:end])
+    while at < len(sent):
+        end = at + 9 + int.from_bytes(sent[at:at + 3], "big")
+        frames.append(sent[at:end])
         at = end
     return frames
 
 
 def any_frame(chance):
-    """Of any kind; often shorter or longer than it says."""
+    """A frame of any kind; often shorter or longer than the length it states."""
     payload = chance.randbytes(chance.choice((0, 1, 4, 5, 8, 9, 64, 1000, 16384, 20000)))
     stream = chance.choice((0, 1, 2, 3, 5, 2**31 - 1, 2**32 - 1))
     made = http2.frame(chance.randrange(12), chance.randrange(256), stream, payload)
     return made if chance.random() < 0.7 else struct.pack(">I", chance.randrange(1 << 24))[1:] + made[3:]
 
 
-def flip(said, frames, chance):
-    changed = bytearray(said)
+def flip(sent, frames, chance):
+    changed = bytearray(sent)
     for _ in range(chance.randint(1, 8)):
-        changed[chance.randrange(len(said))] ^= 1 << chance.randrange(8)
+        changed[chance.randrange(len(sent))] ^= 1 << chance.randrange(8)
     return bytes(changed)
 
 
-def cut(said, frames, chance):
-    return said[:chance.randrange(len(said))]
+def cut(sent, frames, chance):
+    return sent[:chance.randrange(len(sent))]
 
 
-def lose(said, frames, chance):
-    at = chance.randrange(len(said))
-    return said[:at] + said[at + chance.randint(1, 100):]
+def lose(sent, frames, chance):
+    at = chance.randrange(len(sent))
+    return sent[:at] + sent[at + chance.randint(1, 100):]
 
 
 def with_frames(change):
-    """`change` is made to a list of the frames."""
-    def changed(said, frames, chance):
+    """A mutation that applies `change` to the list of frames."""
+    def changed(sent, frames, chance):
         frames = list(frames)
         change(frames, chance)
         return http2.PREFACE + b"".join(frames)
@@ -126,13 +126,13 @@ class MalformedFrames(faults.FaultTest):
             service.table()
             service.query(**faults.random_pulses(3), standard_errors=True)
         recorder.close()
-        return recorder.said
+        return recorder.sent
 
-    def say(self, server, said, aborts):
-        """Returns once the server has closed the connection, or it is aborted."""
+    def send(self, server, sent, aborts):
+        """Sends bytes. Returns when the server has closed the connection, or after aborting it."""
         with http2.dial(server.address) as connection:
             try:
-                connection.sendall(said)
+                connection.sendall(sent)
                 if aborts:
                     connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
                     return
@@ -144,18 +144,18 @@ class MalformedFrames(faults.FaultTest):
             except OSError:  # Closed or reset by the server.
                 pass
 
-    def test_of_any_kind_harm_nobody_else(self):
+    def test_of_any_kind_do_not_harm_other_connections(self):
         server = self.serve()
-        said = self.record(server)
-        frames = split(said)
-        self.assertEqual(http2.PREFACE + b"".join(frames), said)
-        # Streams of those who have gone keep their places until the server gets to them; who is told to wait, waits.
+        sent = self.record(server)
+        frames = split(sent)
+        self.assertEqual(http2.PREFACE + b"".join(frames), sent)
+        # Streams of closed connections count towards the limit until the server notices; the witness retries meanwhile.
         with faults.Witness(self, server.address, patience=serving.PATIENCE):
             for i in range(CASES):
                 chance = random.Random(faults.SEED + i)
                 change = CHANGES[i % len(CHANGES)]
                 with self.subTest(change.__qualname__, seed=faults.SEED + i):
-                    self.say(server, change(said, frames, chance), aborts=chance.random() < 0.2)
+                    self.send(server, change(sent, frames, chance), aborts=chance.random() < 0.2)
                 if i == CASES // 4:
                     before = faults.memory(server.process)
         growth = faults.memory(server.process) - before

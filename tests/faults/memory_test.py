@@ -1,4 +1,4 @@
-"""What a busy moment took of memory is given back when it is over, each time."""
+"""The memory that a burst of calls takes is given back afterwards, every time."""
 
 import concurrent.futures
 
@@ -9,7 +9,7 @@ import serving
 
 CALLERS, PULSES = 16, 500_000
 BURSTS = 3
-# Of what the moment took: what it leaves at most, each time.
+# The largest share of a burst's memory that may remain after it.
 SHARE_LEFT = 0.2
 
 
@@ -18,21 +18,22 @@ class Memory(faults.FaultTest):
         super().setUp()
         self.many = faults.random_pulses(PULSES)
 
-    def ask_for_all(self, server):
+    def query_all(self, server):
         with albtpu.connect(server.address, patience=serving.PATIENCE) as service:
             return service.query(**self.many).thu.size
 
-    def test_is_given_back(self):
+    def test_is_given_back_after_each_burst(self):
         server = self.serve()
         with albtpu.connect(server.address) as service:
             self.assert_answers(service)
         before = faults.memory(server.process)
         with concurrent.futures.ThreadPoolExecutor(CALLERS) as callers:
             for burst in range(BURSTS):
-                answered = list(callers.map(self.ask_for_all, [server] * CALLERS))
+                answered = list(callers.map(self.query_all, [server] * CALLERS))
                 self.assertEqual(answered, [PULSES] * CALLERS)
                 took = faults.memory(server.process, "VmHWM") - before
-                faults.wait_until(lambda: faults.memory(server.process) - before < SHARE_LEFT * took, "given back")
+                faults.wait_until(lambda: faults.memory(server.process) - before < SHARE_LEFT * took,
+                                  "the memory is given back")
                 print(f"burst {burst + 1}: {took / 2**20:.0f} MiB more than before, then "
                       f"{(faults.memory(server.process) - before) / 2**20:.0f}")
         self.assert_drains(server)

@@ -1,13 +1,13 @@
-"""A server under everything at once, for as long as one likes: its answers stay right and its memory flat.
+"""Puts all kinds of load on a server at once, for any length of time; its answers stay correct and its memory flat.
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed in the middle and resumed; arrays and single
-pulses are asked for; requests are wrong; streams are cancelled, or never read; connections are silent or speak
-something else; tables are exchanged. Every answer is compared with that of the table file. Prints what was done and
-the resident memory of the server after a tenth of the time and at its end: under load, where from 10 minutes on more
-than 5 % between them fails, and at rest, when the load has paused and the server has given back what is free: some MiB
-of which are caches of threads that come and go. Nothing but the time that it takes is left to chance: seeds are fixed.
+At the same time: files are annotated, some by clients that are killed and resumed; arrays and single pulses are
+queried; requests are invalid; streams are cancelled or never read; connections are silent or do not speak HTTP/2;
+tables are replaced. Every answer is compared with that of the table file. Prints what was done, and the resident memory
+of the server after a tenth of the time and at the end. Under load, from 10 minutes on, a growth of more than 5 %
+between the two is a failure. At rest, the load has paused and the server has given back its free memory; some MiB of
+what remains are caches of threads that come and go. Seeds are fixed, so that only timing differs between runs.
 """
 
 import argparse
@@ -36,14 +36,14 @@ from serving import PATIENCE, Server, connect
 
 FLIGHT = ("--water-level", "0", "--wind-speed", "5", "--footprint", "1")
 MOST_GROWTH = 1.05
-PAUSES = {"exchange": 2, "silent_connections": 0.5, "strange_connections": 0.5, "wrong_requests": 0.1}  # s
-FLAT_FROM = 10  # Minutes: a shorter run has seen too little of each kind to say that memory is flat.
-EARLY = 0.1  # Of the time.
-GIVEN_BACK = 10  # s until the server has given back what is free: service/allocator.cc.
+PAUSES = {"replace_table": 2, "silent_connections": 0.5, "strange_connections": 0.5, "invalid_requests": 0.1}  # s
+FLAT_FROM = 10  # Minutes; a shorter run has too little load of each kind to judge whether memory is flat.
+EARLY = 0.1  # Of the running time.
+GIVEN_BACK = 10  # s; after this time the server has given back its free memory: service/allocator.cc.
 
 
 class Wrong(Exception):
-    """An answer that is not that of the table, or a failure where there should be none."""
+    """An answer that differs from that of the table, or an unexpected failure."""
 
 
 def expect(good, *what):
@@ -52,7 +52,7 @@ def expect(good, *what):
 
 
 class MixedLoad:
-    """What is done to a server; each method without `_` is one kind of load, done once."""
+    """The load on a server. Each method without `_` is one kind of load and applies it once."""
 
     def __init__(self, programs, folder):
         self.programs, self.folder, self.numbers = programs, folder, itertools.count()
@@ -61,7 +61,7 @@ class MixedLoad:
         for factor in (2, 3):
             self._run(programs.synthetic_table, folder / f"{factor}.h5", "--factor", factor)
         self._run(programs.synthetic_table, self.tables / "survey.h5")
-        self._exchange(2)
+        self._replace_table(2)
         self.flight = folder / "flight.las"
         self._run(programs.simulated_flight, self.flight)
         self.annotated = folder / "annotated.las"
@@ -72,11 +72,11 @@ class MixedLoad:
                        for name, ends in ranges.items()}
         with albtpu.open_table(self.tables / "survey.h5") as table:
             self.expected = table.query(**self.pulses)
-        self.exchanged = {}
+        self.replacements = {}
         for factor in (2, 3):
             with albtpu.open_table(folder / f"{factor}.h5") as table:
                 answer = table.query(**self._some(slice(0, 1000)))
-                self.exchanged[answer.table.digest] = answer
+                self.replacements[answer.table.digest] = answer
         self.server = Server(programs.serve, "--tables", self.tables)
 
     def file(self):
@@ -106,23 +106,23 @@ class MixedLoad:
                 if row.outcome == 1:
                     np.testing.assert_allclose(row.sea_surface.thu, self.expected.thu[i], 2e-5, 1e-7)
 
-    def table_under_exchange(self):
+    def table_under_replacement(self):
         with albtpu.connect(self.server.address, patience=PATIENCE) as service:
             answer = service.query(**self._some(slice(0, 1000)), table="spare")
-            self._compare(answer, self.exchanged[answer.table.digest])
+            self._compare(answer, self.replacements[answer.table.digest])
 
-    def exchange(self):
-        self._exchange(2 + next(self.numbers) % 2)
+    def replace_table(self):
+        self._replace_table(2 + next(self.numbers) % 2)
         self.server.process.send_signal(signal.SIGHUP)
 
-    def wrong_requests(self):
+    def invalid_requests(self):
         with connect(self.server.address) as channel:
             stub = UncertaintyServiceStub(channel)
             for pulses in ({}, {"depth": b"123"}, {"depth": bytes(8), "wind_speed": bytes(12)},
                            {"depth": bytes(5 << 20)}):
                 try:
                     stub.QueryColumns(pb.QueryColumnsRequest(pulses=pulses), timeout=PATIENCE)
-                    raise Wrong("a wrong request was answered", pulses)
+                    raise Wrong("an invalid request was answered", pulses)
                 except grpc.RpcError as error:
                     expect(error.code().name in ("INVALID_ARGUMENT", "RESOURCE_EXHAUSTED"), error)
 
@@ -165,7 +165,7 @@ class MixedLoad:
         for name in ("thu", "tvu"):
             np.testing.assert_allclose(getattr(answer, name), getattr(expected, name), 2e-5, 1e-7, name)
 
-    def _exchange(self, factor):
+    def _replace_table(self, factor):
         new = self.tables / "new"
         new.write_bytes((self.folder / f"{factor}.h5").read_bytes())
         os.replace(new, self.tables / "spare.h5")
@@ -175,7 +175,7 @@ class MixedLoad:
 
     def _annotate(self, output, *more):
         self._query("las", self.flight, output, "--server", self.server.address, *FLIGHT, *more)
-        expect(output.read_bytes() == self.annotated.read_bytes(), "the file has other bytes")
+        expect(output.read_bytes() == self.annotated.read_bytes(), "the bytes of the file differ")
         output.unlink()
         pathlib.Path(f"{output}.json").unlink()
 
@@ -189,7 +189,7 @@ class MixedLoad:
 
 
 class Run:
-    """Each kind of load in a thread of its own, again and again until the time is over or one of them fails."""
+    """Repeats each kind of load in its own thread until the time is over or one of them fails."""
 
     def __init__(self, load, seconds, rests):
         self.load = load
@@ -220,7 +220,7 @@ class Run:
                 count += 1
                 self.stop.wait(PAUSES.get(name, 0))
                 self._pause()
-        except Exception as failure:  # Whatever it is, it is the result.
+        except Exception as failure:  # Reported at the end.
             self.failures.append((name, count, failure))
             self.stop.set()
             with self.change:
@@ -228,7 +228,7 @@ class Run:
         self.counts[name] = count
 
     def _pause(self):
-        """While the load rests."""
+        """Waits while the load rests."""
         if self.going.is_set():
             return
         with self.change:
@@ -239,7 +239,7 @@ class Run:
             self.paused -= 1
 
     def _rest(self):
-        """MiB that the server keeps when nothing is asked of it."""
+        """MiB that the server keeps without load."""
         self.going.clear()
         with self.change:
             self.change.wait_for(lambda: self.paused == len(self.threads) or self.stop.is_set())
@@ -253,7 +253,7 @@ class Run:
         return int(pages) * os.sysconf("SC_PAGE_SIZE") / 2**20
 
     def memory_at(self, part):
-        """MiB, median of a twentieth of the run, up to `part` of it."""
+        """MiB; the median over the last twentieth of the run before `part` of it."""
         last = max(1, round(part * len(self.memory)))
         return statistics.median(self.memory[max(0, last - max(1, len(self.memory) // 20)):last])
 
@@ -270,15 +270,15 @@ def main():
             run = Run(load, 60 * arguments.minutes, rests=arguments.minutes >= FLAT_FROM)
             code = load.server.stop(signal.SIGTERM)
     for name, count, failure in run.failures:
-        print(f"{name}, time {count + 1}: {failure!r}")
+        print(f"{name} failed in round {count + 1}: {failure!r}")
     for name, count in sorted(run.counts.items()):
         print(f"{name}: {count}")
     is_flat = True
-    if run.memory:  # Of a run that did not fail at once.
+    if run.memory:  # Empty if the run failed at once.
         early, late = run.memory_at(EARLY), run.memory_at(1)
         print(f"resident memory under load: {early:.1f} MiB after {EARLY * arguments.minutes:g} minutes, "
               f"{late:.1f} MiB after {arguments.minutes:g} ({late / early - 1:+.1%}); "
-              f"the most {max(run.memory):.1f} MiB")
+              f"at most {max(run.memory):.1f} MiB")
         is_flat = arguments.minutes < FLAT_FROM or late <= MOST_GROWTH * early
     if len(run.memory_at_rest) == 2:
         early, late = run.memory_at_rest

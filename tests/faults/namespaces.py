@@ -1,6 +1,6 @@
-"""A network that can be cut: this process in a network namespace, albtpu-serve in another, a wire in between.
+"""A network that can be cut: this process in one network namespace, albtpu-serve in another, and a wire between them.
 
-Both namespaces and the wire go when the processes that are in them end.
+Both namespaces and the wire disappear when the processes in them end.
 """
 
 import ctypes
@@ -9,35 +9,38 @@ import pathlib
 import subprocess
 
 CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000
-HERE, THERE = "192.0.2.1", "192.0.2.2"  # Documentation's (RFC 5737).
-NOBODY = "02:00:00:00:00:99"  # An address of hardware that is nowhere.
+HERE, THERE = "192.0.2.1", "192.0.2.2"  # Reserved for documentation (RFC 5737).
+NOBODY = "02:00:00:00:00:99"  # A hardware address that nothing has.
 
 
 def ip(*arguments, of=None):
-    """In the namespace of the process `of`, or in ours."""
+    """Runs `ip` in the namespace of the process `of`, or in ours."""
     prefix = () if of is None else ("nsenter", f"--net=/proc/{of}/ns/net")
     subprocess.run([*prefix, "ip", *arguments], check=True, capture_output=True, text=True)
 
 
 def enter():
-    """Moves this process, which has no threads yet, to a namespace of its own. Why not, or None when it is there."""
+    """Moves this process, which must have no threads yet, to a new namespace. Returns None, or why it failed."""
     user, group = os.geteuid(), os.getegid()
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.unshare(CLONE_NEWNET) != 0:
         if libc.unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0:
-            return f"a namespace for the network needs root here: {os.strerror(ctypes.get_errno())}"
+            return (f"this test needs a network namespace: cannot create one ({os.strerror(ctypes.get_errno())}); "
+                    "run as root with CAP_SYS_ADMIN, or allow user namespaces")
         pathlib.Path("/proc/self/setgroups").write_text("deny")
         pathlib.Path("/proc/self/uid_map").write_text(f"0 {user} 1")
         pathlib.Path("/proc/self/gid_map").write_text(f"0 {group} 1")
     try:
         ip("link", "set", "lo", "up")
-    except (OSError, subprocess.CalledProcessError) as error:
-        return f"the network cannot be set up: {error}"
+    except OSError as error:
+        return f"this test needs a network: cannot run ip ({error.strerror}); apt-get install iproute2"
+    except subprocess.CalledProcessError as error:
+        return f"this test needs a network: cannot set up lo ({error.stderr.strip()}); run as root with CAP_NET_ADMIN"
     return None
 
 
 class Wire:
-    """From us to `process`, which was started with `unshare --net`."""
+    """A wire from our namespace to that of `process`, which was started with `unshare --net`."""
 
     def __init__(self, process):
         self.pid = str(process.pid)
@@ -47,7 +50,7 @@ class Wire:
             ip("link", "set", name, "up", of=of)
 
     def remove(self):
-        """At once; with the namespace it would go some time later."""
+        """Removes the wire at once; otherwise it would disappear some time after the namespace."""
         ip("link", "delete", "here")
 
     def cut(self):
@@ -57,7 +60,7 @@ class Wire:
         ip("link", "set", "there", "up", of=self.pid)
 
     def lose(self):
-        """From now on packets go to nobody, and no one is told."""
+        """From now on all packets are lost without an error."""
         for name, other, of in (("here", THERE, None), ("there", HERE, self.pid)):
             ip("neighbour", "replace", other, "lladdr", NOBODY, "nud", "permanent", "dev", name, of=of)
 

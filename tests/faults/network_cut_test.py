@@ -1,4 +1,5 @@
-"""The network goes while a file is under way: it comes back and nothing shows, or there is one error and no output.
+"""The network fails while a file is annotated. If it recovers, the output is the same; if not, there is one error and
+no output.
 
 Usage: network_cut_test.py NAME=PATH..., see programs.py
 """
@@ -16,14 +17,14 @@ import programs
 import serving
 
 REASON = namespaces.enter()
-SOME_WRITTEN = 1 << 20  # Bytes of an answer; sanitizers write less, which start with a try of memory.
-SHORT = 5  # s, of a cut that is survived.
-# s, from a cut to the error: 30 until it is seen, 13 of patience, 8 tries of at most 5 to connect.
+SOME_WRITTEN = 1 << 20  # Bytes; more than a sanitizer writes when it starts, so that part of an answer is written.
+SHORT = 5  # s; the length of an interruption that clients survive.
+# s, from the interruption to the error: 30 until it is noticed, 13 of patience, 8 attempts of at most 5 to connect.
 LONGEST = 100 * serving.ALLOWANCE
 
 
 class Python:
-    """The Python client, in a thread: asks the same again and again, for answers that must be the same."""
+    """The Python client, in a thread: it repeats a query whose answers must all be the same."""
 
     def __init__(self, address, pulses):
         self.answer = self.failure = None
@@ -40,7 +41,7 @@ class Python:
                     again = service.query(**pulses)
                     for name in ("thu", "tvu", "outcome"):
                         np.testing.assert_array_equal(getattr(again, name), getattr(self.answer, name))
-        except Exception as failure:  # Whatever it is, it is the result.
+        except Exception as failure:  # Checked by the test.
             self.failure = failure
 
     def end(self, patience):
@@ -59,7 +60,7 @@ class NetworkCut(faults.FaultTest):
         self.many = faults.random_pulses(400_000)
         rows = io.StringIO()
         np.savetxt(rows, np.column_stack(list(self.many.values())).astype(float), "%.9g", ",")
-        # Many more than are asked for ahead of what is written.
+        # Many more pulses than are queried ahead of the output.
         self.csv.write_text(",".join(self.many) + "\n" + 8 * rows.getvalue())
         self.server = self.serve("--insecure", listen="0.0.0.0:0", prefix=("unshare", "--net"))
         self.wire = namespaces.Wire(self.server.process)
@@ -67,7 +68,7 @@ class NetworkCut(faults.FaultTest):
         self.address = f"{namespaces.THERE}:{self.server.address.rpartition(':')[2]}"
 
     def cut_in_the_middle(self, cut):
-        """Starts a client of each kind; `cut` comes when all of them are under way."""
+        """Starts a client of each kind, and calls `cut` when all of them are working."""
         self.out = self.folder / "out"
         self.out.mkdir()
         self.clients = [
@@ -78,12 +79,13 @@ class NetworkCut(faults.FaultTest):
         self.assertTrue(self.python.begun.wait(serving.PATIENCE), self.python.failure)
         for client in self.clients:
             faults.wait_until(lambda: client.poll() is not None or (faults.written(client) or 0) > SOME_WRITTEN,
-                              "answers are on the way")
+                              "answers are written")
         cut()
         self.cut_at = time.monotonic()
-        self.assertEqual([client.poll() for client in self.clients], [None, None], "a client was faster")
+        self.assertEqual([client.poll() for client in self.clients], [None, None],
+                         "a client finished before the network was cut")
 
-    def assert_nothing_shows(self):
+    def assert_outputs_are_unaffected(self):
         for client in self.clients:
             errors = client.communicate(timeout=LONGEST)[1]
             self.assertEqual(client.returncode, 0, errors)
@@ -116,23 +118,23 @@ class NetworkCut(faults.FaultTest):
         self.assertLess(time.monotonic() - self.cut_at, LONGEST)
         self.assertEqual(list(self.out.iterdir()), [])
 
-    def test_for_seconds_does_not_show(self):
+    def test_of_seconds_does_not_affect_outputs(self):
         self.cut_in_the_middle(self.wire.cut)
-        time.sleep(SHORT)  # The fault itself.
+        time.sleep(SHORT)  # The interruption itself.
         self.wire.mend()
-        self.assert_nothing_shows()
+        self.assert_outputs_are_unaffected()
 
-    def test_that_loses_packets_for_seconds_does_not_show(self):
+    def test_that_loses_packets_for_seconds_does_not_affect_outputs(self):
         self.cut_in_the_middle(self.wire.lose)
         time.sleep(SHORT)
         self.wire.find()
-        self.assert_nothing_shows()
+        self.assert_outputs_are_unaffected()
 
-    def test_for_good_is_an_error(self):
+    def test_without_end_is_an_error(self):
         self.cut_in_the_middle(self.wire.cut)
         self.assert_one_error_each()
 
-    def test_that_loses_packets_for_good_is_an_error(self):
+    def test_that_loses_packets_without_end_is_an_error(self):
         self.cut_in_the_middle(self.wire.lose)
         self.assert_one_error_each()
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Half an hour of everything at once against one server: mixed_load.py says what that is, and what must hold.
+# Runs all kinds of load at once against one server for half an hour. mixed_load.py says which, and what must hold.
 #
-# Usage: soak.sh      after the programs are built in build/release
+# Usage: soak.sh      after the programs have been built in build/release
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 build=build/release
