@@ -1,5 +1,5 @@
-// Any text as a campaign: refused with a reason, or one whose every sea case is a sea that can be simulated
-// and whose table can be written.
+// Arbitrary text as a campaign is rejected with a reason, or all its sea cases can be simulated and its table can be
+// written.
 #include <cmath>
 #include <string_view>
 

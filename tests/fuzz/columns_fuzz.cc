@@ -1,4 +1,4 @@
-// Any bytes as the message of QueryColumns: refused with a reason, or answered as the slow twin answers.
+// Arbitrary bytes as the request of QueryColumns are rejected with a reason, or answered as the slow twin answers.
 #include <grpcpp/support/proto_buffer_reader.h>
 
 #include <map>
@@ -19,7 +19,7 @@ namespace {
 using namespace albtpu;
 using namespace albtpu::server;
 
-// Three tables, made once, and the twin of each.
+// Three tables and their twins, made once.
 class Tables {
  public:
   Tables() : catalog_(MakeCatalog()) {
@@ -57,7 +57,7 @@ std::span<const float> Floats(const std::string& column) {
   return {reinterpret_cast<const float*>(column.data()), column.size() / sizeof(float)};
 }
 
-// A column of an answer: as long as there are pulses, or absent.
+// A column of an answer: one element for each pulse, or absent.
 template <typename Number>
 Number* ColumnOf(const std::string& bytes, std::size_t count) {
   if (bytes.empty()) return nullptr;
@@ -102,7 +102,7 @@ void CheckAnswer(const Tables& tables, const v1::QueryColumnsRequest& request,
   const Query query{
       .coverage = response.coverage() == v1::COVERAGE_P95 ? Coverage::kP95 : Coverage::kTwoSigma,
       .s44_order = {}};
-  tables.TwinOf(*entry).MustAnswerAlike(query, pulses, answers);
+  tables.TwinOf(*entry).MustAgree(query, pulses, answers);
 }
 
 }  // namespace

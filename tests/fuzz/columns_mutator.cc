@@ -1,4 +1,4 @@
-// Changes requests of columns field by field, so that most of them stay requests; some byte by byte.
+// Mutates requests in columns field by field, so that most of them stay valid messages; some byte by byte.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -14,31 +14,30 @@ namespace {
 
 using namespace albtpu;
 
-// Of a column: the usual is more than what the interpolator takes at a time; now and then it is more than one of
-// its blocks.
+// Bytes of a column: usually more than the interpolator processes in one vector, sometimes more than one of its blocks.
 constexpr std::size_t kUsualBytes = 96, kMostBytes = 2048;
-constexpr float kTelling[] = {0.0f,
-                              -0.0f,
-                              1.0f,
-                              3.0f,
-                              10.0f,
-                              25.0f,
-                              45.0f,
-                              90.0f,
-                              0.25f,
-                              2.0f,
-                              1000.f,
-                              100000.f,
-                              20.0f,
-                              -1.0f,
-                              1e-40f,
-                              std::numeric_limits<float>::max(),
-                              std::numeric_limits<float>::infinity(),
-                              std::numeric_limits<float>::quiet_NaN()};
+constexpr float kNotableValues[] = {0.0f,
+                                    -0.0f,
+                                    1.0f,
+                                    3.0f,
+                                    10.0f,
+                                    25.0f,
+                                    45.0f,
+                                    90.0f,
+                                    0.25f,
+                                    2.0f,
+                                    1000.f,
+                                    100000.f,
+                                    20.0f,
+                                    -1.0f,
+                                    1e-40f,
+                                    std::numeric_limits<float>::max(),
+                                    std::numeric_limits<float>::infinity(),
+                                    std::numeric_limits<float>::quiet_NaN()};
 
 void MutateBytes(std::mt19937& random, std::string& column) {
   switch (random() % 4) {
-    case 0:  // Any bytes.
+    case 0:  // Arbitrary bytes.
       column.resize(std::max(column.size(), kUsualBytes));
       column.resize(
           LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(column.data()), column.size() / 2, column.size()));
@@ -47,10 +46,10 @@ void MutateBytes(std::mt19937& random, std::string& column) {
       column.resize(random() % 64 == 0 ? random() % kMostBytes
                                        : sizeof(float) * (random() % (kUsualBytes / sizeof(float))));
       return;
-    default: {  // A number that means something.
+    default: {  // A notable value.
       if (column.size() < sizeof(float)) column.resize(sizeof(float));
       const std::size_t at = random() % (column.size() / sizeof(float)) * sizeof(float);
-      const float number = kTelling[random() % std::size(kTelling)];
+      const float number = kNotableValues[random() % std::size(kNotableValues)];
       std::memcpy(column.data() + at, &number, sizeof number);
     }
   }

@@ -1,5 +1,5 @@
-// Any text as a CSV file: from the file come the records that come from memory, and it is annotated such that
-// every record stays as it was, with the cells of its answer behind it; or refused, and nothing is written.
+// Arbitrary text as a CSV file: reading the file gives the same records as reading from memory. The file is annotated
+// such that every record is kept and followed by the cells of its answer; or it is rejected and nothing is written.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -28,7 +28,7 @@ struct Record {
   bool operator==(const Record&) const = default;
 };
 
-// The records of a text; `status` of the first that is wrong.
+// The records of a text up to the first malformed one, whose error is `status`.
 std::vector<Record> Records(const CsvBlock& block, absl::Status& status) {
   std::vector<Record> records;
   CsvRecords reader("file", block);
@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   FixedCoordinates fixed;
   if (!absl::StrContains(block.text, "wind_speed")) fixed[Index(AxisId::kWindSpeed)] = 5.0f;
-  Progress progress("pulses", 1, 0);
+  FileProgress progress("pulses", 1, 0);
   progress.NextFile();
   {
     absl::StatusOr<AnnotatedCsv> annotated =

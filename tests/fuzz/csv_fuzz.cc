@@ -1,4 +1,4 @@
-// Any text as CSV records of pulses: refused with a reason that names a line, or read without losing a byte.
+// Arbitrary text as CSV records of pulses is rejected with a message that names a line, or read without losing a byte.
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -19,14 +19,14 @@ void MustNameALine(const absl::Status& status) {
   ALBTPU_MUST(absl::IsInvalidArgument(status) && absl::StrContains(status.message(), " line "));
 }
 
-std::string Quoted(std::string_view meant) {
+std::string Quoted(std::string_view value) {
   std::string quoted = "\"";
-  for (const char character : meant) quoted.append(character == '"' ? 2 : 1, character);
+  for (const char character : value) quoted.append(character == '"' ? 2 : 1, character);
   return quoted + '"';
 }
 
-// The cells of a record are the record: they follow each other, a comma between each two, and what a quoted
-// one means is what it was quoted from.
+// The cells make up the whole record: they follow each other with a comma between them, and quoting the value of a
+// quoted cell again gives the cell.
 void CheckCells(const CsvRecord& record) {
   const std::size_t first = record.cell_begins.front();
   ALBTPU_MUST(record.text.substr(0, first) == kByteOrderMark.substr(0, first));
@@ -43,8 +43,8 @@ void CheckCells(const CsvRecord& record) {
   }
 }
 
-// The records stand in the block one behind the other, from its beginning to its end or to the one that is
-// wrong.
+// The records follow each other without gaps from the beginning of the block to its end, or to the first malformed
+// record.
 void CheckRecords(const CsvBlock& block) {
   CsvRecords records("file", block);
   CsvRecord record;
@@ -68,7 +68,7 @@ void CheckRecords(const CsvBlock& block) {
   ALBTPU_MUST(next == end);
 }
 
-// A number of a file is written such that it is read as the same number.
+// A number from the file, written and read again, is the same number.
 void CheckNumbers(const PulseBatch& pulses) {
   for (const std::vector<float>& column : pulses.axis) {
     for (const float number : column) {
@@ -78,7 +78,7 @@ void CheckNumbers(const PulseBatch& pulses) {
   }
 }
 
-// Every record that is not blank becomes one pulse, up to the one that is wrong.
+// Every record that is not blank becomes one pulse, up to the first malformed record.
 void CheckPulses(const CsvBlock& block) {
   CsvRecords records("file", block);
   CsvRecord header, record;

@@ -1,4 +1,4 @@
-// What all fuzz targets have in common: how one ends that found something.
+// Shared by all fuzz targets: the entry point, and how a target reports a fault.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-// Called with any bytes; it is for the target to say what must hold of them.
+// Called with arbitrary bytes. The target checks what must hold for all of them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace albtpu::fuzz {
 
-// Ends the program where something does not hold, whether assertions are compiled or not.
+// Aborts if the condition is false, also in builds without assertions.
 #define ALBTPU_MUST(condition)                                                            \
   do {                                                                                    \
     if (!(condition)) {                                                                   \

@@ -1,5 +1,5 @@
-// Any bytes as a LAS file: refused with a reason, or annotated such that every byte of it stays, and that
-// what is written is a LAS file which names its uncertainties.
+// Arbitrary bytes as a LAS file are rejected with a reason, or annotated such that every byte is kept and the output
+// is a LAS file that describes its uncertainties.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -30,7 +30,7 @@ LasAnnotation Annotation() {
   return annotation;
 }
 
-void MustSayWhatIsWrong(const absl::Status& status) {
+void MustExplain(const absl::Status& status) {
   ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status));
   ALBTPU_MUST(status.message().size() > 20);
 }
@@ -87,13 +87,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   input.Write(file);
   const absl::StatusOr<LasReader> reader = LasReader::Open(input.path());
   if (!reader.ok()) {
-    MustSayWhatIsWrong(reader.status());
+    MustExplain(reader.status());
     return 0;
   }
   ALBTPU_MUST(FindFeet(*reader).ok());
   const absl::StatusOr<std::string> head = AnnotatedHead(*reader, Coverage::kTwoSigma);
   if (!head.ok()) {
-    MustSayWhatIsWrong(head.status());
+    MustExplain(head.status());
     return 0;
   }
   const std::string annotated = Annotated(file, *reader, *head);

@@ -1,5 +1,5 @@
-// Any bytes as what a LAS file has besides points, from memory: refused with a reason, or places that lie in
-// the file and descriptions that can be repeated.
+// Arbitrary bytes as everything in a LAS file except the points, read from memory, are rejected with a reason; or all
+// offsets lie in the file, and the extra bytes can be described.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ using namespace albtpu::client;
 
 const std::string kName = "file";
 
-void MustSayWhatIsWrong(const absl::Status& status) {
+void MustExplain(const absl::Status& status) {
   ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status));
   ALBTPU_MUST(status.message().size() > 20);
 }
@@ -37,12 +37,12 @@ void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
   ALBTPU_MUST(std::isfinite(header.offset_z) && std::isfinite(header.scale_z) && header.scale_z != 0);
 }
 
-// Described again, the same bytes with two more entries of 192 bytes and more, which are ours.
+// The result starts with the existing description and ends with our two entries of 192 bytes.
 void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   constexpr std::size_t kEntry = 192, kNameField = 4;
   const absl::StatusOr<std::string> ours =
       DescribeUncertainty(kName, described, extra_bytes, Coverage::kTwoSigma);
-  if (!ours.ok()) return MustSayWhatIsWrong(ours.status());
+  if (!ours.ok()) return MustExplain(ours.status());
   ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + 2 * kEntry);
   ALBTPU_MUST(ours->size() <= kLargestExtraBytesRecord);
   ALBTPU_MUST(ours->substr(0, described.size()) == described);
@@ -64,7 +64,7 @@ void CheckData(const VlrEntry& entry, std::string_view data, const LasHeader& he
 
 void CheckVlrs(std::string_view head, const LasHeader& header) {
   const absl::StatusOr<std::vector<VlrEntry>> entries = ListVlrs(kName, header, head);
-  if (!entries.ok()) return MustSayWhatIsWrong(entries.status());
+  if (!entries.ok()) return MustExplain(entries.status());
   ALBTPU_MUST(entries->size() == header.vlr_count);
   std::uint64_t next = header.header_size;
   bool described = false;
@@ -83,7 +83,7 @@ void CheckEvlrs(std::string_view file, const LasHeader& header) {
   for (std::uint32_t i = 0; i < header.evlr_count && file.size() - next >= kEvlrHeaderSize; ++i) {
     const std::string bytes(file.substr(next, kEvlrHeaderSize));
     const absl::StatusOr<VlrEntry> entry = ParseEvlr(kName, bytes, next, file.size());
-    if (!entry.ok()) return MustSayWhatIsWrong(entry.status());
+    if (!entry.ok()) return MustExplain(entry.status());
     ALBTPU_MUST(entry->data_offset == next + kEvlrHeaderSize && entry->data_size <= file.size());
     ALBTPU_MUST(entry->end() <= file.size());
     CheckData(*entry, file.substr(entry->data_offset, entry->data_size), header);
@@ -98,11 +98,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string beginning = file.substr(0, kLargestLasHeader);
   const absl::StatusOr<LasHeader> header = ParseLasHeader(kName, beginning, size);
   if (!header.ok()) {
-    MustSayWhatIsWrong(header.status());
+    MustExplain(header.status());
     return 0;
   }
   CheckHeader(*header, size);
-  CheckVlrs(file.substr(0, header->offset_to_points), *header);  // Of its own memory: its end is the end.
+  CheckVlrs(file.substr(0, header->offset_to_points),
+            *header);  // A copy, so that sanitizers detect reads beyond it.
   CheckEvlrs(file, *header);
   return 0;
 }

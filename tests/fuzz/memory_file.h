@@ -1,4 +1,4 @@
-// A file in memory with a path, for readers that want one.
+// A file in memory that has a path, for readers that need one.
 #pragma once
 
 #include <sys/mman.h>
@@ -19,7 +19,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  // All that it then holds.
+  // Replaces the contents.
   void Write(std::string_view bytes) {
     ALBTPU_MUST(pwrite(descriptor_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()));
     ALBTPU_MUST(ftruncate(descriptor_, static_cast<off_t>(bytes.size())) == 0);

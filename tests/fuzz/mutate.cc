@@ -6,9 +6,9 @@
 namespace albtpu::fuzz {
 namespace {
 
-// At which lengths, counts and offsets go wrong.
-constexpr std::uint32_t kTelling[] = {0,      1,      0x7f,       0x80,       0xff,
-                                      0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xffffffff};
+// Values at which lengths, counts and offsets tend to fail.
+constexpr std::uint32_t kBoundaryValues[] = {0,      1,      0x7f,       0x80,       0xff,
+                                             0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xffffffff};
 
 }  // namespace
 
@@ -34,13 +34,13 @@ void Mutator::ChangeOnce(std::string& input) {
     case 2:
       input.insert(begin, 1 + Below(8), static_cast<char>(Below(256)));
       return;
-    case 3: {  // From another input, in the same place or a new one.
+    case 3: {  // A piece of another input.
       const std::string& other = inputs_[Below(inputs_.size())];
       input.replace(begin, size, other, Below(other.size() + 1), Below(64));
       return;
     }
     case 4: {
-      const std::uint32_t number = kTelling[Below(std::size(kTelling))];
+      const std::uint32_t number = kBoundaryValues[Below(std::size(kBoundaryValues))];
       const std::size_t bytes = std::min(input.size() - begin, std::size_t{1} << Below(3));
       std::memcpy(input.data() + begin, &number, bytes);
       return;

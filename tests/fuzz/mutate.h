@@ -1,4 +1,4 @@
-// New inputs out of old ones, byte by byte: what libFuzzer does, without its knowledge of what an input reached.
+// Mutates inputs byte by byte, like libFuzzer but without coverage feedback.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace albtpu::fuzz {
 
 class Mutator {
  public:
-  // The same inputs and seed give the same changes. There must be an input.
+  // Equal inputs and seeds give equal mutations. `inputs` must not be empty.
   Mutator(std::vector<std::string> inputs, unsigned int seed);
 
   const std::string& AnyInput() { return inputs_[Below(inputs_.size())]; }
 
-  // `input` with one to four changes, at most `most` bytes of it.
+  // `input` with one to four changes, truncated to `most` bytes.
   std::string Mutate(std::string input, std::size_t most);
 
   unsigned int Number() { return static_cast<unsigned int>(random_()); }

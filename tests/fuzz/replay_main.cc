@@ -1,9 +1,9 @@
 // NAME_fuzz SECONDS FOLDER...
 //
-// Gives every file of the folders to a fuzz target, once, to see that what was found stays mended; then, for so many
-// seconds, what the target's mutator makes of them: always the same inputs, as far as the time goes. For compilers
-// without libFuzzer. A folder that is not there has no files. The input that a target fails on is left in the file
-// `failed_input` of the working directory.
+// Runs a fuzz target once on every file in the folders, so that faults found earlier stay fixed; then, for SECONDS, on
+// mutations of these files: always the same sequence, as far as the time allows. For compilers without libFuzzer. A
+// missing folder counts as empty. An input on which the target fails is written to `failed_input` in the working
+// directory.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -22,10 +22,10 @@
 #include "tests/fuzz/mutate.h"
 
 extern "C" {
-// Of a target that has one; else bytes are changed.
+// Defined by targets that have a mutator; for others, bytes are mutated.
 __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                           std::size_t max_size, unsigned int seed);
-// What such a mutator asks libFuzzer for.
+// Such a mutator expects this function from libFuzzer.
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 }
 
@@ -36,9 +36,9 @@ using albtpu::fuzz::Mutator;
 constexpr unsigned int kSeed = 1;
 
 std::optional<Mutator> mutator;
-std::string input;  // That the target is given.
+std::string input;  // The input that the target is running on.
 
-// By what a handler of signals may call.
+// A signal handler: calls only async-signal-safe functions.
 extern "C" void LeaveInput(int signal) {
   const int file = open("failed_input", O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (write(file, input.data(), input.size()) < 0) _exit(1);
@@ -56,7 +56,7 @@ std::vector<std::string> ReadInputs(const std::vector<std::filesystem::path>& fo
       inputs.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     }
   }
-  std::sort(inputs.begin(), inputs.end());  // Folders have no order.
+  std::sort(inputs.begin(), inputs.end());  // Directory entries come in any order.
   return inputs;
 }
 
@@ -99,5 +99,5 @@ int main(int argc, char** argv) {
   std::size_t made = 0;
   for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; ++made)
     Try(NewInput(2 * longest));
-  std::cout << inputs.size() << " inputs, " << made << " made of them\n";
+  std::cout << inputs.size() << " inputs, " << made << " mutations of them\n";
 }

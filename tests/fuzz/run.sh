@@ -1,34 +1,34 @@
 #!/usr/bin/env bash
-# Fuzzes every target, one after the other, and says how many inputs each was given.
+# Fuzzes the targets one after the other, and prints how many inputs each was given.
 #
-# Usage: run.sh SECONDS [TARGET...]    SECONDS for each target; all targets unless some are named
+# Usage: run.sh SECONDS [TARGET...]    SECONDS for each target; all targets unless some are given
 #
-# Inputs that reached something new are kept in build/fuzz/corpus, for the next time. An input that a target fails on is
-# left beside them: mended, it belongs to tests/fuzz/found/TARGET, where every test run tries it again. The few inputs
-# that get further than the seeds, by three branches or more each, are in tests/fuzz/reached/TARGET.
+# Inputs that reached new code are kept in build/fuzz/corpus for the next run. An input on which a target fails is left
+# beside them; when the fault is fixed, add the input to tests/fuzz/found/TARGET, so that every test run tries it again.
+# tests/fuzz/reached/TARGET has the few inputs that get further than the seeds, by three branches or more each.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 if (($# < 1)) || [[ ! $1 =~ ^[0-9]+$ ]]; then
-  echo "$0: '${1-}' is no number of seconds: run.sh SECONDS [TARGET...]" >&2
+  echo "$0: '${1-}' is not a number of seconds; usage: run.sh SECONDS [TARGET...]" >&2
   exit 2
 fi
 seconds=$1
 shift
 targets=("$@")
 
-# The longest input of each target: room for what it is about, and no more, since short ones run faster.
+# The longest input of each target, in bytes: enough for its format and no more, because short inputs run faster.
 declare -A longest=([campaign]=2048 [columns]=2400 [csv]=300 [csv_file]=300 [las]=1500 [las_head]=1500 [seal]=600
                     [table]=131072)
 (($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
 for target in "${targets[@]}"; do
   if [[ -z ${longest[$target]-} ]]; then
-    echo "$0: '$target' is no target: ${!longest[*]} are" >&2
+    echo "$0: '$target' is not a target; choose from ${!longest[*]}" >&2
     exit 2
   fi
 done
 if ! command -v clang++-14 >/dev/null; then
-  echo "$0: there is no clang++-14: apt-get install clang-14 libclang-rt-14-dev" >&2
+  echo "$0: clang++-14 is missing; apt-get install clang-14 libclang-rt-14-dev" >&2
   exit 2
 fi
 
@@ -38,21 +38,22 @@ cmake --build --preset fuzz -j "$(nproc)" --target albtpu_fuzz_seeds "${targets[
 folder=build/fuzz/tests/fuzz
 "$folder/albtpu_fuzz_seeds" build/fuzz/seeds
 
-# Leaks are looked for once, when a target ends: libraries keep memory from input to input (HDF5 its free lists, gRPC
-# its slices), which looks like a leak after one and makes libFuzzer search all memory each time. Short call stacks of
-# allocations and a small quarantine take a tenth less time and an eighth of the memory; what is found tells its whole
-# story when it is run again without them. The time limit is generous: on a busy machine it passes without work.
+# Leaks are searched once, when a target ends: libraries keep memory from input to input (HDF5 its free lists, gRPC
+# its slices), which looks like a leak after one input and would make libFuzzer search all memory each time. Short
+# call stacks of allocations and a small quarantine take a tenth less time and an eighth of the memory; run a failing
+# input again without these options for a full report. The time limit is generous, because on a busy machine a target
+# may wait.
 export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=8
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=tests/sanitizers/lsan.supp:print_suppressions=0
-[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm  # Files of targets stay in memory.
+[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm  # Keeps the files of targets in memory.
 status=0
 figure() { sed -n "s/^stat::$1: *//p" "$log"; }
 for target in "${targets[@]}"; do
   corpus=build/fuzz/corpus/$target
   mkdir -p "$corpus"
   options=(-max_len="${longest[$target]}" -detect_leaks=0)
-  dictionary=tests/fuzz/${target%%_*}.dict  # Of the format: csv and csv_file have one.
+  dictionary=tests/fuzz/${target%%_*}.dict  # One per format: csv and csv_file share one.
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
   known=("build/fuzz/seeds/$target")
   for kind in found reached; do

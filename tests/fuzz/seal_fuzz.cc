@@ -1,5 +1,5 @@
-// Any bytes as a table file, as far as its seal: refused with a reason, or sealed as FORMAT.md says; and what is
-// sealed is refused with one bit of it changed.
+// Arbitrary bytes as a table file, checked up to its seal, are rejected with a reason, or have a seal as in
+// FORMAT.md. A sealed file with one bit changed is rejected.
 #include <cstring>
 #include <string>
 
@@ -13,7 +13,7 @@ using namespace albtpu;
 template <typename Integer>
 Integer NumberAt(const std::string& file, std::size_t offset) {
   Integer number;
-  std::memcpy(&number, file.data() + offset, sizeof number);  // Little-endian, as this program is.
+  std::memcpy(&number, file.data() + offset, sizeof number);  // The file is little-endian, like this machine.
   return number;
 }
 

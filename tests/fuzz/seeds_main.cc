@@ -1,20 +1,136 @@
 // albtpu_fuzz_seeds FOLDER
 //
-// Writes FOLDER/TARGET/NUMBER, the inputs that each fuzz target begins with.
+// Writes FOLDER/TARGET/NUMBER, the inputs with which fuzzing of each target begins. The builders of the tests make
+// them, so they follow the formats.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
+#include <string>
+#include <vector>
 
+#include "albtpu/v1/uncertainty_service.pb.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
-#include "tests/fuzz/seeds.h"
+#include "tests/survey/las/las_builder.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace {
 
+using namespace albtpu;
+
+std::vector<std::string> CampaignSeeds() {
+  const std::string axes = R"([axes]
+wind_speed = [3, 6]
+fetch = [1000, inf]
+incidence = [0, 20]
+azimuth = [0, 90]
+footprint = [0.1, 1]
+depth = [0, 10]
+)";
+  return {"id = \"small\"\nversion = \"1\"\ntitle = \"Two seas\"\nseed = 7\n" + axes +
+              "[effort]\nrealizations = 50\n",
+          "id = \"a\"\nversion = \"1\"\ntitle = \"b\"\n" + axes + R"([beam]
+profile = "gaussian"
+source_height = 4.0
+[water]
+refractive_index = 1.34
+[sea]
+spectrum = "elfouhaily"
+corrected_above = 30
+[effort]
+realizations = 100
+most_realizations = 1000
+relative_error = 0.02
+estimator = "plain"
+rays = 1000
+[interpolation]
+nodes = "balanced"
+checked_pulses = 4
+)",
+          "id = \"s\"\nversion = \"1\"\ntitle = \"t\"\n" + axes + "[sea]\nspreading = 2\n",
+          "axes.wind_speed = [1, 2, nan]\naxes.fetch = [-inf, 1e400]\nid = 'x'\n"};
+}
+
+std::vector<std::string> CsvSeeds() {
+  const std::string header = "wind_speed,fetch,incidence,azimuth,footprint,depth";
+  return {header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
+          "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
+          "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
+          header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
+          "a;b;c\n1;2;3\n",
+          "incidence,footprint,depth,thu\n1,2,3,4\n",
+          "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
+}
+
+std::vector<std::string> LasSeeds() {
+  std::vector<std::string> seeds;
+  for (const auto& [version, format] : {std::pair(2, 0), {2, 3}, {3, 4}, {4, 1}, {4, 6}, {4, 10}}) {
+    for (const std::size_t extra : {0, 6}) {
+      testing::LasSpec spec;
+      spec.version_minor = version;
+      spec.point_format = format;
+      spec.extra_bytes = extra;
+      spec.points = {{1, 2, -5000, 26, 12}, {3, 4, 100, 2, -3}, {5, 6, -800, 30, 0}};
+      if (extra > 0) {
+        const std::string geo_keys("\1\0\1\0\0\0\1\0\x04\x0c\0\0\1\0\x29\x23", 16);  // 3076: metre
+        spec.vlrs = {{"LASF_Projection", 34735, geo_keys},
+                     {"LASF_Spec", 4, testing::ExtraBytesEntry(4, 0, "echo width")},
+                     {"someone", 3, "last"}};
+        spec.header_tail = "more";
+        spec.gap = "between";
+        if (version >= 3) spec.waveform_packet = "samples";
+        if (version >= 4) spec.evlrs = {{"someone", 7, "behind"}, {"LASF_Projection", 2112, "UNIT[\"m\",1]"}};
+      }
+      seeds.push_back(BuildLas(spec));
+    }
+  }
+  testing::LasSpec feet;
+  feet.points = {{1, 2, -5000, 26, 12}};
+  feet.vlrs = {{"LASF_Projection", 2112, "PROJCS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
+  seeds.push_back(BuildLas(feet));
+  return seeds;
+}
+
+std::string Column(const std::vector<float>& numbers) {
+  return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
+}
+
+v1::QueryColumnsRequest Request() {
+  v1::QueryColumnsRequest request;
+  v1::PulseColumns& pulses = *request.mutable_pulses();
+  pulses.set_wind_speed(Column({4, 5, 9.5f}));
+  pulses.set_fetch(Column({2000, std::numeric_limits<float>::infinity(), 1e4f}));
+  pulses.set_incidence(Column({0, 12.5f, 24}));
+  pulses.set_azimuth(Column({0, 200, -45}));
+  pulses.set_footprint(Column({0.25f}));
+  pulses.set_depth(Column({0, 7.5f, 19}));
+  return request;
+}
+
+std::vector<std::string> ColumnSeeds() {
+  std::vector<v1::QueryColumnsRequest> requests(5, Request());
+  v1::QueryOptions& options = *requests[1].mutable_options();
+  options.set_table("survey");
+  options.set_coverage(v1::COVERAGE_P95);
+  options.set_standard_errors(true);
+  options.set_best_s44_order(true);
+  options.set_s44_order(v1::S44_ORDER_1A);
+  requests[2].mutable_pulses()->clear_azimuth();
+  requests[2].mutable_pulses()->clear_fetch();
+  requests[2].add_quantities(v1::QUANTITY_THU);
+  requests[3].mutable_options()->set_table("tiny");
+  requests[3].mutable_options()->set_coverage(v1::COVERAGE_P95);
+  requests[4].mutable_options()->set_table("published");
+  requests[4].mutable_pulses()->set_depth(Column({std::numeric_limits<float>::quiet_NaN()}));
+  std::vector<std::string> seeds;
+  for (const v1::QueryColumnsRequest& request : requests) seeds.push_back(request.SerializeAsString());
+  return seeds;
+}
+
 std::vector<std::string> TableSeeds() {
-  using namespace albtpu;
   std::vector<std::string> seeds;
   for (const UncertaintyTable& table :
        {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear)}) {
@@ -23,16 +139,16 @@ std::vector<std::string> TableSeeds() {
   return seeds;
 }
 
-// Sealed files that hold next to nothing, and what is none: the seal cares for no more.
+// Sealed files with arbitrary content, and files without a valid seal: the seal does not depend on the content.
 std::vector<std::string> SealSeeds() {
-  using albtpu::seal::kSize;
+  using seal::kSize;
   std::vector<std::string> seeds;
   for (const std::string content : {"x", "\x89HDF\r\n\x1a\n and so on"}) {
     std::string file = std::string(kSize, '\0') + content;
-    albtpu::seal::Apply(file);
+    seal::Apply(file);
     seeds.push_back(file);
     seeds.push_back(file.substr(0, kSize / 4));
-    file[albtpu::seal::kVersionOffset] = 2;
+    file[seal::kVersionOffset] = 2;
     seeds.push_back(file);
     seeds.push_back(content);
   }
@@ -43,10 +159,9 @@ std::vector<std::string> SealSeeds() {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "albtpu_fuzz_seeds: no folder: name the one to write to\n";
+    std::cerr << "albtpu_fuzz_seeds: no folder; give the folder to write to\n";
     return 2;
   }
-  using namespace albtpu::fuzz;
   const std::map<std::string, std::vector<std::string>> seeds = {
       {"campaign", CampaignSeeds()}, {"columns", ColumnSeeds()}, {"csv", CsvSeeds()},
       {"csv_file", CsvSeeds()},      {"las", LasSeeds()},        {"las_head", LasSeeds()},

@@ -1,5 +1,5 @@
-// Any bytes as a table file: refused with a reason, or a table of which both interpolators answer alike.
-// Either way HDF5 has as much open as before.
+// Arbitrary bytes as a table file are rejected with a reason, or are a table for which both interpolators agree. In
+// either case HDF5 has no more objects open than before.
 #include <hdf5.h>
 
 #include <array>
@@ -19,10 +19,10 @@ namespace {
 
 using namespace albtpu;
 
-constexpr std::size_t kMostValues = 100'000;  // of tables that are asked: of larger ones, that they are valid
+constexpr std::size_t kMostValues = 100'000;  // Larger tables are only decoded, not interpolated.
 
-// Pulses on nodes, between them and outside, and one without azimuth.
-void Ask(const UncertaintyTable& table) {
+// Queries pulses on nodes, between them and outside the table, with and without azimuth.
+void CheckAnswers(const UncertaintyTable& table) {
   constexpr std::size_t kPulses = 8;
   std::array<std::vector<float>, kAxisCount> columns;
   PulseColumns pulses{.size = kPulses, .axis = {}};
@@ -51,15 +51,15 @@ void Ask(const UncertaintyTable& table) {
   for (const bool azimuth_absent : {false, true}) {
     if (azimuth_absent) pulses.axis[Index(AxisId::kAzimuth)] = {};
     interpolator.Answer({}, pulses, 0, kPulses, answers);
-    twin.MustAnswerAlike({}, pulses, answers);
+    twin.MustAgree({}, pulses, answers);
   }
 }
 
-// Of a file that was refused HDF5 keeps nothing that the next one meets: another is read as what it is.
+// HDF5 keeps nothing of a rejected file that affects the next one: another table is read correctly.
 void ReadAnother() {
   static const UncertaintyTable table = testing::TinyTable();
   static const std::string sealed = EncodeTable(table).value();
-  const std::string file = sealed;  // In the memory, as likely as not, that was of the file before.
+  const std::string file = sealed;  // Likely in the memory of the previous file.
   const absl::StatusOr<UncertaintyTable> another = DecodeTable(file);
   ALBTPU_MUST(another.ok() && another->digest() == table.digest());
 }
@@ -82,6 +82,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (seal::Check(file).ok()) ReadAnother();
     return 0;
   }
-  if (ValueCount(table->axes(), Quantity::kThu) <= kMostValues) Ask(*table);
+  if (ValueCount(table->axes(), Quantity::kThu) <= kMostValues) CheckAnswers(*table);
   return 0;
 }

@@ -10,8 +10,8 @@
 namespace albtpu::fuzz {
 namespace {
 
-constexpr double kTolerance = 1e-5;  // relative, as ColumnInterpolator promises
-constexpr double kCancelled = 1e-6;  // of the largest number of a quantity: record_blend.h
+constexpr double kTolerance = 1e-5;     // Relative; promised by ColumnInterpolator.
+constexpr double kCancellation = 1e-6;  // Of the largest magnitude of a quantity: record_blend.h.
 
 double Largest(const std::vector<float>& numbers) {
   double largest = 0;
@@ -23,7 +23,7 @@ void MustBeNear(float ours, float twin, double largest) {
   ALBTPU_MUST(std::isnan(ours) == std::isnan(twin));
   if (std::isnan(twin)) return;
   const double difference = std::abs(static_cast<double>(ours) - twin);
-  ALBTPU_MUST(difference <= kTolerance * std::abs(twin) + kCancelled * largest);
+  ALBTPU_MUST(difference <= kTolerance * std::abs(twin) + kCancellation * largest);
 }
 
 }  // namespace
@@ -37,8 +37,7 @@ Twin::Twin(const UncertaintyTable& table) : table_(table) {
   }
 }
 
-void Twin::MustAnswerAlike(const Query& query, const PulseColumns& pulses,
-                           const AnswerColumns& answers) const {
+void Twin::MustAgree(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) const {
   for (std::size_t i = 0; i < pulses.size; ++i) {
     const PulseUncertainty twin = WithCoverage(Interpolate(table_, PulseAt(pulses, i)), query.coverage);
     const bool inside = twin.outcome == Outcome::kInterpolated;

@@ -1,4 +1,4 @@
-// Answers held against those of the slow twin, `Interpolate`, pulse by pulse.
+// Compares answers with those of the slow twin, `Interpolate`, pulse by pulse.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@ namespace albtpu::fuzz {
 
 class Twin {
  public:
-  explicit Twin(const UncertaintyTable& table);  // Which must outlive it.
+  explicit Twin(const UncertaintyTable& table);  // The table must outlive the twin.
 
-  // Ends the program unless the columns of `answers` that are not null hold the outcomes and axes of the twin,
-  // its numbers within the tolerance that `ColumnInterpolator` promises, and not-a-number where there is none.
-  void MustAnswerAlike(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) const;
+  // Aborts unless the columns of `answers` that are not null have the outcomes and axes of the twin, its numbers within
+  // the tolerance that `ColumnInterpolator` promises, and NaN where the twin has no number.
+  void MustAgree(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) const;
 
  private:
   const UncertaintyTable& table_;
-  std::array<double, kQuantityCount> largest_{}, largest_error_{};  // Sizes of the numbers of a quantity.
+  std::array<double, kQuantityCount> largest_{}, largest_error_{};  // Largest magnitudes, by quantity.
 };
 
 }  // namespace albtpu::fuzz

@@ -1,8 +1,8 @@
-// Tells ThreadSanitizer what the locks of Abseil order, which gRPC takes.
+// Tells ThreadSanitizer about the synchronization by Abseil's locks, which gRPC uses.
 //
-// Debian's Abseil and gRPC are not compiled for it, and their locks are atomic numbers, not pthreads': it would not
-// see that what one thread wrote before it handed a call to gRPC is there for the thread that gRPC calls us on. Linked
-// into a program, these functions stand before those of the libraries, which they call.
+// Debian's Abseil and gRPC are not compiled for ThreadSanitizer, and their locks use atomics rather than pthreads.
+// Without this it would not know that what one thread wrote before handing a call to gRPC is visible to the thread on
+// which gRPC calls us. Linked into a program, these functions replace those of the libraries and call them.
 #include <absl/synchronization/mutex.h>
 #include <sanitizer/tsan_interface.h>
 

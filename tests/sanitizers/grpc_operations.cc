@@ -1,8 +1,8 @@
-// Tells ThreadSanitizer what gRPC orders: what a thread did before it asked for an operation is there for the thread
-// that gets the operation's tag back from a queue, and what a call did for the thread that destroys the server.
+// Tells ThreadSanitizer about the synchronization by gRPC: what a thread did before it started an operation happens
+// before the operation's tag is returned from a queue, and what a call did happens before the server is destroyed.
 //
-// Debian's gRPC is not compiled for it, and hands operations on by atomic numbers within the library. Linked into a
-// program, these functions stand before those of the library, which they call.
+// Debian's gRPC is not compiled for ThreadSanitizer and passes operations on through atomics inside the library. Linked
+// into a program, these functions replace those of the library and call them.
 #include <grpc/grpc.h>
 #include <grpcpp/support/server_callback.h>
 #include <sanitizer/tsan_interface.h>
@@ -13,10 +13,10 @@ namespace {
 
 using albtpu::sanitizers::NextFunction;
 
-char ended_calls;  // By its address.
+char ended_calls;  // Only its address is used.
 
-// An event that a queue gave back.
-grpc_event Seen(const grpc_event& event) {
+// Passes on an event that a queue returned.
+grpc_event Acquired(const grpc_event& event) {
   if (event.type == GRPC_OP_COMPLETE) __tsan_acquire(event.tag);
   return event;
 }
@@ -47,13 +47,13 @@ void grpc_server_shutdown_and_notify(grpc_server* server, grpc_completion_queue*
 
 grpc_event grpc_completion_queue_next(grpc_completion_queue* queue, gpr_timespec deadline, void* reserved) {
   static const auto next = NextFunction<decltype(grpc_completion_queue_next)>("grpc_completion_queue_next");
-  return Seen(next(queue, deadline, reserved));
+  return Acquired(next(queue, deadline, reserved));
 }
 
 grpc_event grpc_completion_queue_pluck(grpc_completion_queue* queue, void* tag, gpr_timespec deadline,
                                        void* reserved) {
   static const auto next = NextFunction<decltype(grpc_completion_queue_pluck)>("grpc_completion_queue_pluck");
-  return Seen(next(queue, tag, deadline, reserved));
+  return Acquired(next(queue, tag, deadline, reserved));
 }
 
 void grpc_call_unref(grpc_call* call) {
@@ -68,7 +68,8 @@ void grpc_server_destroy(grpc_server* server) {
   __tsan_acquire(&ended_calls);
 }
 
-// Comes after all that was called for the call: each counted down what is under way, some within the library.
+// Happens after all callbacks of the call: each decremented the counter of outstanding callbacks, some of them inside
+// the library.
 void grpc::internal::ServerCallbackCall::ScheduleOnDone(bool within) {
   static const auto next = NextFunction<void(ServerCallbackCall*, bool)>(
       "_ZN4grpc8internal18ServerCallbackCall14ScheduleOnDoneEb");

@@ -1,4 +1,4 @@
-// The function of a library behind one of ours that stands before it.
+// Finds the library function that one of our functions replaces.
 #pragma once
 
 #include <dlfcn.h>
@@ -8,13 +8,13 @@
 
 namespace albtpu::sanitizers {
 
-// That of the next library that has a function with this (mangled) name. Ends the program where none has: a report
-// of ThreadSanitizer would mean nothing then.
+// The function with this (mangled) name in the next library that has one. Aborts if there is none: the reports of
+// ThreadSanitizer would then be meaningless.
 template <typename Function>
 Function* NextFunction(const char* name) {
   void* const function = dlsym(RTLD_NEXT, name);
   if (function == nullptr) {
-    std::fprintf(stderr, "tests/sanitizers: no library has %s: those of Debian 12 are right\n", name);
+    std::fprintf(stderr, "tests/sanitizers: no library has %s; expected the libraries of Debian 12\n", name);
     std::abort();
   }
   return reinterpret_cast<Function*>(function);

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# All tests but the validations, which repeat the generator's code for minutes and here for hours, under
-# AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer. Says how many ran under each, and what
-# was found: also by programs that a test ended, or whose exit code it did not look at.
+# Runs all tests except the validations under AddressSanitizer with UndefinedBehaviorSanitizer, and under
+# ThreadSanitizer. The validations repeat the generator's code for minutes, here for hours. Prints how many tests ran
+# under each, and all findings: also of programs that a test killed or whose exit code it did not check.
 #
-# Usage: run.sh [PRESET [CTEST OPTION...]]    of the presets asan and tsan; for example run.sh tsan -R '^serve_test$'
+# Usage: run.sh [PRESET [CTEST OPTION...]]    PRESET is asan or tsan; for example run.sh tsan -R '^serve_test$'
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# ThreadSanitizer of g++ 12 knows where memory lies with 28 random bits of addresses at most.
+# ThreadSanitizer of g++ 12 supports at most 28 bits of address space randomization.
 if (($(</proc/sys/vm/mmap_rnd_bits) > 28)) && [[ -z ${ALBTPU_FIXED_ADDRESSES-} ]]; then
   ALBTPU_FIXED_ADDRESSES=yes exec setarch --addr-no-randomize "$0" "$@"
 fi

@@ -1,8 +1,8 @@
-// The memory of oneTBB, from where sanitizers see it.
+// Lets oneTBB allocate its memory where sanitizers see it.
 //
-// Its own allocator, tbbmalloc, gives memory that one thread freed to another unseen, and what is read or written
-// beside it, or after it was freed, goes unnoticed. Linked into a program, these functions stand before those of the
-// library, which calls them too.
+// Its own allocator, tbbmalloc, passes memory freed by one thread to another without the sanitizers' knowledge, and
+// they do not detect accesses beyond a block or after it was freed. Linked into a program, these functions replace
+// those of the library; the library itself calls them, too.
 #include <oneapi/tbb/cache_aligned_allocator.h>
 
 #include <new>
@@ -14,7 +14,7 @@ extern "C" void AnnotateIgnoreWritesEnd(const char* file, int line);
 
 namespace {
 
-// While ThreadSanitizer looks away: much of this memory is the library's own, and used by it in an order unseen.
+// Makes ThreadSanitizer ignore writes: much of this memory is the library's own, which synchronizes its use invisibly.
 struct Unwatched {
 #ifdef _GLIBCXX_TSAN
   Unwatched() { AnnotateIgnoreWritesBegin(__FILE__, __LINE__); }
@@ -24,7 +24,8 @@ struct Unwatched {
 #endif
 };
 
-constexpr std::align_val_t kLine{128};  // As in the library: two lines of the cache, which come together.
+// As in the library: two adjacent cache lines, which are fetched together.
+constexpr std::align_val_t kLine{128};
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// Tells ThreadSanitizer what a pipeline of oneTBB orders, as tbb_tasks.cc does for tasks: what a filter does to an
-// item comes after what the filter before it did; what a serial filter does, after what it did with the item before;
-// and what follows the pipeline, after all of it.
+// Tells ThreadSanitizer about the synchronization by a oneTBB pipeline, as tbb_tasks.cc does for tasks: a filter's
+// work on an item happens after the work of the previous filter on it; a serial filter's work on an item happens
+// after its work on the previous item; and what follows the pipeline happens after all of it.
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <sanitizer/tsan_interface.h>
 
@@ -22,12 +22,12 @@ unsigned int ModeOf(base_filter& filter) {
   return mode;
 }
 
-// A filter in place of another.
-class SeenFilter final : public base_filter {
+// Wraps a filter.
+class WatchedFilter final : public base_filter {
  public:
-  SeenFilter(base_filter* filter, const void* pipeline)
+  WatchedFilter(base_filter* filter, const void* pipeline)
       : base_filter(ModeOf(*filter)), filter_(filter), pipeline_(const_cast<void*>(pipeline)) {}
-  ~SeenFilter() override {
+  ~WatchedFilter() override {
     filter_->~base_filter();
     tbb::detail::r1::deallocate_memory(filter_);
   }
@@ -51,15 +51,15 @@ class SeenFilter final : public base_filter {
   base_filter* filter_;
   void* pipeline_;
 };
-thread_local base_filter* SeenFilter::running = nullptr;
+thread_local base_filter* WatchedFilter::running = nullptr;
 
-// The node of such a filter.
-class SeenLeaf final : public filter_node {
+// The node of a wrapped filter.
+class WatchedLeaf final : public filter_node {
  public:
-  SeenLeaf(const filter_node& leaf, const void* pipeline) : leaf_(leaf), pipeline_(pipeline) {}
+  WatchedLeaf(const filter_node& leaf, const void* pipeline) : leaf_(leaf), pipeline_(pipeline) {}
   base_filter* create_filter() const override {
-    return new (tbb::detail::r1::allocate_memory(sizeof(SeenFilter)))
-        SeenFilter(leaf_.create_filter(), pipeline_);
+    return new (tbb::detail::r1::allocate_memory(sizeof(WatchedFilter)))
+        WatchedFilter(leaf_.create_filter(), pipeline_);
   }
 
  private:
@@ -67,11 +67,11 @@ class SeenLeaf final : public filter_node {
   const void* pipeline_;
 };
 
-filter_node* Seen(const filter_node& node, const void* pipeline) {
+filter_node* Watched(const filter_node& node, const void* pipeline) {
   using tbb::detail::r1::allocate_memory;
-  if (!node.left) return new (allocate_memory(sizeof(SeenLeaf))) SeenLeaf(node, pipeline);
+  if (!node.left) return new (allocate_memory(sizeof(WatchedLeaf))) WatchedLeaf(node, pipeline);
   return new (allocate_memory(sizeof(filter_node)))
-      filter_node(Seen(*node.left, pipeline), Seen(*node.right, pipeline));
+      filter_node(Watched(*node.left, pipeline), Watched(*node.right, pipeline));
 }
 
 }  // namespace
@@ -81,15 +81,15 @@ namespace tbb::detail::r1 {
 void parallel_pipeline(task_group_context& context, std::size_t tokens, const filter_node& filters) {
   static const auto next = NextFunction<void(task_group_context&, std::size_t, const filter_node&)>(
       "_ZN3tbb6detail2r117parallel_pipelineERNS0_2d118task_group_contextEmRKNS2_11filter_nodeE");
-  const d1::filter_node_ptr seen(Seen(filters, &filters));
-  next(context, tokens, *seen);
+  const d1::filter_node_ptr watched(Watched(filters, &filters));
+  next(context, tokens, *watched);
   __tsan_acquire(const_cast<filter_node*>(&filters));
 }
 
 void set_end_of_input(base_filter&) {
   static const auto next =
       NextFunction<void(base_filter&)>("_ZN3tbb6detail2r116set_end_of_inputERNS0_2d111base_filterE");
-  next(*SeenFilter::running);
+  next(*WatchedFilter::running);
 }
 
 }  // namespace tbb::detail::r1
