@@ -157,17 +157,6 @@ absl::Status CheckTable(const Campaign& campaign) {
 
 }  // namespace
 
-std::string_view Name(BeamProfile profile) {
-  return profile == BeamProfile::kUniform ? "uniform" : "gaussian";
-}
-
-std::optional<BeamProfile> FindBeamProfile(std::string_view name) {
-  for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
-    if (name == Name(profile)) return profile;
-  }
-  return std::nullopt;
-}
-
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (text.size() > kMostBytes) {
     return absl::InvalidArgumentError(

@@ -82,7 +82,4 @@ inline constexpr std::uint32_t kCellOfTables = 0;
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
 
-std::string_view Name(BeamProfile profile);  // "uniform", "gaussian"
-std::optional<BeamProfile> FindBeamProfile(std::string_view name);
-
 }  // namespace albtpu

@@ -49,9 +49,7 @@ class Prediction {
              const std::optional<KnownSlopes>& known)
       : known_(known), azimuth_(std::cos(beam.azimuth), std::sin(beam.azimuth)) {
     if (!known) return;
-    const SlopeGain gain = SmallSlopeGain(beam.incidence, refractive_index);
-    const Eigen::Matrix2d answer = gain.out_of_plane * Eigen::Matrix2d::Identity() +
-                                   (gain.in_plane - gain.out_of_plane) * azimuth_ * azimuth_.transpose();
+    const Eigen::Matrix2d answer = TangentResponse(beam.incidence, beam.azimuth, refractive_index);
     expectation_ = answer * known->mean;
     covariance_ = answer * known->footprint_covariance * answer.transpose();
     offset_covariance_ = answer * known->height_slope_covariance * answer.transpose();

@@ -39,7 +39,6 @@ Eigen::ArrayXXd Centred(const std::vector<double>& grid, int size, int reach) {
 }
 
 // The share of the beam's power that falls on each point's cell, by an even sample of the cell.
-// With radii in diameters: even within 1/2, or exp(-8 r^2), which is 1/e^2 there (BeamProfile).
 Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
   constexpr int kSamples = 5;  // a side
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
@@ -52,9 +51,7 @@ Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
         const Eigen::Vector2d at = spacing / beam.footprint * (Eigen::Vector2d(x, y) + within);
         const double squared_radius =
             std::pow(at.dot(along) * std::cos(beam.incidence), 2) + std::pow(at.dot(across), 2);
-        shares(x + reach, y + reach) += beam.profile == BeamProfile::kGaussian
-                                            ? std::exp(-8 * squared_radius)
-                                            : (squared_radius < 0.25 ? 1 : 0);
+        shares(x + reach, y + reach) += RelativeIrradiance(beam.profile, squared_radius);
       }
     }
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "generator/math/fast_size.h"
@@ -65,13 +64,6 @@ class Sums {
   double form_squares_ = 0;
 };
 
-// How much of the footprint lies over itself moved by a vector, over what it does unmoved: by `apart`, the
-// length of the vector across the beam in diameters.
-double Overlap(BeamProfile profile, double apart) {
-  if (profile == BeamProfile::kGaussian) return std::exp(-4 * apart * apart);
-  return apart < 1 ? 2 / std::numbers::pi * (std::acos(apart) - apart * std::sqrt(1 - apart * apart)) : 0;
-}
-
 }  // namespace
 
 Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, const BeamOptions& beam,
@@ -79,7 +71,8 @@ Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, 
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());
   const auto overlap = [&](double x, double y) {
     const Eigen::Vector2d lag = spacing / beam.footprint * Eigen::Vector2d(x, y);
-    return Overlap(beam.profile, std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
+    return FootprintOverlap(beam.profile,
+                            std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
   };
   double xx = 0, xy = 0, yy = 0, weights = 0, half_a_cell_away = 0;
   for (int x = -correlation.reach(); x <= correlation.reach(); ++x) {

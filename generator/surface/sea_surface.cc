@@ -27,13 +27,6 @@ CrossFade PatchShare(double patch_length) {
   return CrossFade(kAllLong * dk, kAllPatch * dk);
 }
 
-// The width on the water of the longer axis of a beam's footprint, m. All but exp(-8) = 3e-4 of a
-// gaussian beam is within twice its diameter.
-double WidthOnWater(const BeamOptions& beam) {
-  const double width = beam.profile == BeamProfile::kGaussian ? 2 * beam.footprint : beam.footprint;
-  return width / std::cos(beam.incidence);
-}
-
 // How far from its axis the rays of a beam meet the water, m: half the footprint, and the shift of rays that
 // meet waves as much as six standard deviations above or below the point on the axis.
 double Reach(const SeaState& sea, const BeamOptions& widest) {

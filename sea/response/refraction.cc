@@ -10,7 +10,14 @@ SlopeGain SmallSlopeGain(double incidence, double n) {
   return {g / (cos_refracted * cos_refracted), g};
 }
 
-// By central differences: the fourth order is some 1e-6 of the second.
+Eigen::Matrix2d TangentResponse(double incidence, double azimuth, double n) {
+  const SlopeGain gain = SmallSlopeGain(incidence, n);
+  const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth));
+  return gain.out_of_plane * Eigen::Matrix2d::Identity() +
+         (gain.in_plane - gain.out_of_plane) * along * along.transpose();
+}
+
+// By central differences, whose error is some 1e-6 of the result.
 Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n) {
   constexpr double kStep = 1e-3;
   const Eigen::Vector3d incident(std::sin(incidence) * std::cos(azimuth),

@@ -10,9 +10,8 @@
 namespace albtpu {
 namespace {
 
-// Gauss and Hermite's nodes and weights of seven points for the standard normal distribution (Abramowitz and
-// Stegun, table 25.10, nodes times sqrt 2, weights over sqrt pi): exact for polynomials up to the 13th
-// degree.
+// Gauss-Hermite nodes and weights of seven points for the standard normal distribution (Abramowitz and
+// Stegun, table 25.10, nodes times sqrt 2, weights over sqrt pi): exact for polynomials up to degree 13.
 constexpr std::array<double, 7> kHermiteNodes = {
     -3.750439717725742, -2.366759410734541, -1.154405394739968, 0,
     1.154405394739968,  2.366759410734541,  3.750439717725742};
@@ -43,7 +42,7 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
       for (int j = 0; j < 7; ++j) {
         const Eigen::Vector2d tilted =
             slope + deviation * Eigen::Vector2d(kHermiteNodes[i], kHermiteNodes[j]);
-        const double facing_area = std::max(0.0, 1 + facing.dot(tilted));  // none if turned away
+        const double facing_area = std::max(0.0, 1 + facing.dot(tilted));  // 0 if turned away
         const double weight = kHermiteWeights[i] * kHermiteWeights[j] * facing_area;
         sum += weight * tangents_and_secant(tilted);
         weights += weight;
@@ -52,7 +51,7 @@ UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refracti
     return Eigen::Vector3d(sum / weights - tangents_and_secant(slope));
   };
 
-  constexpr double kStep = 0.05;  // of slope: within what the resolved waves do, far above rounding
+  constexpr double kStep = 0.05;  // of slope: within the range of the resolved slopes, far above rounding
   UnresolvedWaves effect;
   effect.offset = change(Eigen::Vector2d::Zero());
   const Eigen::Vector2d x = kStep * Eigen::Vector2d::UnitX(), y = kStep * Eigen::Vector2d::UnitY();

@@ -27,7 +27,7 @@ TEST(Refraction, ObeysTheScalarLaw) {
   }
 }
 
-TEST(Refraction, StaysInThePlaneOfIncidenceAndOfUnitLength) {
+TEST(Refraction, KeepsThePlaneOfIncidenceAndUnitLength) {
   for (const Eigen::Vector2d& slope : {Eigen::Vector2d(0.4, 0.1), {-0.2, 0.5}, {0, -1}}) {
     const Eigen::Vector3d incident = Incident(0.35);
     const Eigen::Vector3d normal = NormalOfSlope(slope);
@@ -38,7 +38,7 @@ TEST(Refraction, StaysInThePlaneOfIncidenceAndOfUnitLength) {
   }
 }
 
-TEST(Refraction, AtASlopeIsTheVectorForm) {
+TEST(Refraction, AtASlopeAgreesWithTheVectorForm) {
   for (const double incidence : {0.0, 0.2, 0.45}) {
     for (const Eigen::Vector2d& slope : {Eigen::Vector2d(0, 0), {0.4, 0.1}, {-0.2, 0.5}, {0, -1}}) {
       const Eigen::Vector3d direction = Refract(Incident(incidence), NormalOfSlope(slope), kN);
@@ -55,7 +55,7 @@ TEST(Refraction, BendsTowardTheNormal) {
   EXPECT_GT(Refract(incident, normal, kN).dot(-normal), incident.dot(-normal));
 }
 
-TEST(Refraction, OnATiltedPlaneIsSnellsLawByHand) {
+TEST(Refraction, OnATiltedPlaneAgreesWithSnellsLawByHand) {
   // A vertical ray on a plane that rises to +x by 30 degrees meets it at 30 degrees and leaves it at
   // asin(0.5 / 1.33) = 22.082 degrees from its normal: 7.918 degrees from the vertical, towards +x.
   const double degree = std::acos(-1.0) / 180;
@@ -65,7 +65,7 @@ TEST(Refraction, OnATiltedPlaneIsSnellsLawByHand) {
   EXPECT_EQ(refracted.y(), 0);
 }
 
-TEST(Refraction, InStillWaterIsThePapersAngle) {
+TEST(Refraction, InStillWaterIsTheAngleOfThePaper) {
   const double degree = std::acos(-1.0) / 180;
   EXPECT_NEAR(StillWaterRefraction(20 * degree, kN) / degree, 14.90, 0.005);  // Birkebak et al. (2018), 4.3
 }
@@ -91,6 +91,38 @@ TEST(SlopeGain, AtNadirIsOneMinusOneOverN) {
   const SlopeGain gain = SmallSlopeGain(0, kN);
   EXPECT_DOUBLE_EQ(gain.in_plane, 1 - 1 / kN);
   EXPECT_DOUBLE_EQ(gain.out_of_plane, 1 - 1 / kN);
+}
+
+// Slopes along and across the azimuth, turned into x and y.
+TEST(TangentResponse, IsTheGainsInTheAxesOfTheBeam) {
+  for (const double incidence : {0.0, 0.3}) {
+    const SlopeGain gain = SmallSlopeGain(incidence, kN);
+    for (const double azimuth : {0.0, 0.7, -2.0}) {
+      const Eigen::Matrix2d response = TangentResponse(incidence, azimuth, kN);
+      const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth)), across(-along.y(), along.x());
+      EXPECT_LT((response * along - gain.in_plane * along).norm(), 1e-15);
+      EXPECT_LT((response * across - gain.out_of_plane * across).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(TangentResponse, IsTheDerivativeOfTheRefractedTangentAtAnyAzimuth) {
+  constexpr double kStep = 1e-5, kIncidence = 0.35, kAzimuth = 0.8;
+  const Eigen::Vector3d incident(std::sin(kIncidence) * std::cos(kAzimuth),
+                                 std::sin(kIncidence) * std::sin(kAzimuth), -std::cos(kIncidence));
+  Eigen::Matrix2d derivative;
+  for (const int axis : {0, 1}) {
+    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
+    derivative.col(axis) =
+        (RefractAtSlope(incident, step, kN).tangent - RefractAtSlope(incident, -step, kN).tangent) /
+        (2 * kStep);
+  }
+  EXPECT_LT((derivative - TangentResponse(kIncidence, kAzimuth, kN)).norm(), 1e-8);
+}
+
+TEST(SecantCurvature, AtNadirIsTheSquareOfOneMinusOneOverN) {
+  const double g = 1 - 1 / kN;
+  EXPECT_LT((SecantCurvature(0, 0.4, kN) - g * g * Eigen::Matrix2d::Identity()).norm(), 1e-5);
 }
 
 }  // namespace

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <random>
 
-#include "generator/math/random_stream.h"
 #include "sea/response/refraction.h"
 
 namespace albtpu {
@@ -16,7 +15,7 @@ constexpr double kN = kRefractiveIndex;
 
 Eigen::Matrix2d Diagonal(double x, double y) { return Eigen::Vector2d(x, y).asDiagonal(); }
 
-// Tangents and secant of the ray that a facet of `slope` refracts.
+// Tangents and secant of a ray refracted by a facet of `slope`.
 Eigen::Vector3d Refracted(const BeamOptions& beam, const Eigen::Vector2d& slope) {
   const Eigen::Vector3d incident(std::sin(beam.incidence) * std::cos(beam.azimuth),
                                  std::sin(beam.incidence) * std::sin(beam.azimuth),
@@ -25,15 +24,15 @@ Eigen::Vector3d Refracted(const BeamOptions& beam, const Eigen::Vector2d& slope)
   return Eigen::Vector3d(r.x(), r.y(), 1) / -r.z();
 }
 
-TEST(UnresolvedWaves, ThatAreNoneChangeNothing) {
+TEST(UnresolvedWaves, OfZeroSlopeChangeNothing) {
   const UnresolvedWaves none =
       EffectOfUnresolvedWaves({.incidence = 0.3, .azimuth = 0.5}, kN, Diagonal(0, 0));
   EXPECT_LT(none.offset.norm(), 1e-15);
   EXPECT_LT(none.gain.norm(), 1e-13);
 }
 
-// The tangent is g times the slope to first order, g = 1 - 1/n, so the secant is longer by half of g^2 mss.
-// The next order is the square of the mean square slope: a tenth of mss changes the ratio a tenth as much.
+// To first order the tangent is g times the slope, g = 1 - 1/n, so the secant is longer by half of g^2 mss.
+// The next order is the square of mss: with a tenth of the mss the ratio departs a tenth as much.
 TEST(UnresolvedWaves, LengthenThePathAtNadirByHalfOfGSquaredTimesTheirMeanSquareSlope) {
   const double g = 1 - 1 / kN;
   const auto departure = [&](double mss) {
@@ -44,28 +43,26 @@ TEST(UnresolvedWaves, LengthenThePathAtNadirByHalfOfGSquaredTimesTheirMeanSquare
   EXPECT_NEAR(departure(1e-2) / departure(1e-3), 10, 1.5);
 }
 
-TEST(UnresolvedWaves, AtNadirFavourNoSide) {
+TEST(UnresolvedWaves, AtNadirHaveNoPreferredDirection) {
   const UnresolvedWaves waves = EffectOfUnresolvedWaves({}, kN, Diagonal(0.02, 0.01));
   EXPECT_LT(waves.offset.head<2>().norm(), 1e-15);
   EXPECT_LT(waves.gain.row(2).norm(), 1e-13);
 }
 
-// The tangent rises less than in proportion to the slope, so a slope that is smeared out bends the beam less.
-TEST(UnresolvedWaves, TakeFromTheAnswerToTheResolvedOnes) {
+// The tangent grows less than in proportion to the slope, so unresolved slopes make the mean response smaller.
+TEST(UnresolvedWaves, ReduceTheResponseToTheResolvedWaves) {
   const UnresolvedWaves waves = EffectOfUnresolvedWaves({}, kN, Diagonal(0.02, 0.02));
   EXPECT_LT(waves.gain(0, 0), 0);
   EXPECT_LT(waves.gain(1, 1), 0);
   EXPECT_GT(waves.gain(0, 0), -(1 - 1 / kN));
 }
 
-// The slow twin: slopes drawn one by one, each weighing as the area that it turns to the beam.
-TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatTheBeamSees) {
+// The slow twin: random slopes, each weighted by the area that it turns towards the beam.
+TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatFaceTheBeam) {
   const BeamOptions beam{.incidence = 0.35, .azimuth = 0.6};
   const Eigen::Matrix2d covariance = Diagonal(0.012, 0.008);
   const UnresolvedWaves waves = EffectOfUnresolvedWaves(beam, kN, covariance);
   constexpr int kDraws = 500000;
-  std::vector<double> normals(2 * kDraws);
-  NormalStream(1, 0, 0).Fill(normals);
   const Eigen::Vector2d facing =
       std::tan(beam.incidence) * Eigen::Vector2d(std::cos(beam.azimuth), std::sin(beam.azimuth));
   // The weights average to 1 (+ facing . m), so the ratio estimator's error is that of weight (value - mean).
@@ -74,9 +71,12 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatTheBeamSees) {
     const Eigen::Array3d expected =
         (Refracted(beam, m) + waves.offset + waves.gain * m + waves.curvature * SlopeSquares(m)).array();
     double weights = 0;
+    std::mt19937_64 bits(1);
+    std::normal_distribution<double> normal;
     for (int i = 0; i < kDraws; ++i) {
-      const Eigen::Vector2d slope = m + Eigen::Vector2d(std::sqrt(covariance(0, 0)) * normals[2 * i],
-                                                        std::sqrt(covariance(1, 1)) * normals[2 * i + 1]);
+      const double x = std::sqrt(covariance(0, 0)) * normal(bits),
+                   y = std::sqrt(covariance(1, 1)) * normal(bits);
+      const Eigen::Vector2d slope = m + Eigen::Vector2d(x, y);
       const double weight = std::max(0.0, 1 + facing.dot(slope));
       const Eigen::Array3d departure = weight * (Refracted(beam, slope).array() - expected);
       weights += weight;
@@ -88,7 +88,7 @@ TEST(UnresolvedWaves, AreTheMeanOverRandomSlopesThatTheBeamSees) {
     }
   };
   check({0, 0}, 0);
-  // What the expansion to second order in the resolved slope leaves out, mss m^3.
+  // The error of the expansion to second order in the resolved slope is of the order of mss m^3.
   check({0.05, -0.03}, 0.02 * 0.05 * 0.05 * 0.05);
 }
 
