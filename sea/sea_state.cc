@@ -6,9 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sea/spectra/apel_spectrum.h"
-#include "sea/spectra/elfouhaily_spectrum.h"
-
 namespace albtpu {
 namespace {
 
@@ -34,45 +31,17 @@ Value IntegrateOverWavenumbers(const SeaState& sea, Value sum, const Integrand& 
     const double k = lowest * std::exp(i * step);
     if (sea.spectrum().spreading_varies_with_wavenumber()) spreading = FrozenSpreadings(sea, k);
     const double trapezoid = i == 0 || i == steps ? 0.5 : 1.0;
-    const double ring = 2 * k * sea.S(k) * step * d_psi * trapezoid;  // S/k times k dk, both half planes
+    const double ring = 2 * k * sea.S(k) * step * d_psi * trapezoid;  // S/k times k dk, for both half planes
     for (int j = 0; j < kDirections; ++j) sum += ring * spreading[j] * integrand(k, (j + 0.5) * d_psi);
   }
   return sum;
 }
 
-std::shared_ptr<const WaveSpectrum> MakeSpectrum(const SeaOptions& options) {
-  switch (options.spectrum) {
-    case SpectrumKind::kApel:
-      return std::make_shared<ApelSpectrum>(options.wind_speed_10m, options.fetch,
-                                            Cosine2sSpreading(options.spreading));
-    case SpectrumKind::kElfouhaily:
-      return std::make_shared<ElfouhailySpectrum>(options.wind_speed_10m, options.fetch);
-  }
-  assert(false);
-  return nullptr;
-}
-
 }  // namespace
-
-std::string_view Name(SpectrumKind spectrum) {
-  return spectrum == SpectrumKind::kApel ? "apel" : "elfouhaily";
-}
-
-std::optional<SpectrumKind> FindSpectrum(std::string_view name) {
-  for (const SpectrumKind spectrum : {SpectrumKind::kApel, SpectrumKind::kElfouhaily}) {
-    if (name == Name(spectrum)) return spectrum;
-  }
-  return std::nullopt;
-}
-
-double FullyDevelopedFetch(SpectrumKind spectrum, double wind_speed_10m) {
-  return spectrum == SpectrumKind::kApel ? ApelSpectrum::FullyDevelopedFetch(wind_speed_10m)
-                                         : ElfouhailySpectrum::FullyDevelopedFetch(wind_speed_10m);
-}
 
 SeaState::SeaState(const SeaOptions& options)
     : options_(options),
-      spectrum_(MakeSpectrum(options)),
+      spectrum_(MakeSpectrum(options.waves)),
       longest_wave_(2 * std::numbers::pi / options.corrected_above),
       height_scale_squared_(options.height_scale * options.height_scale) {
   assert(options.corrected_above > 0 && options.height_scale > 0);
@@ -80,7 +49,7 @@ SeaState::SeaState(const SeaOptions& options)
 }
 
 SeaState::SeaState(double wind_speed_10m, double fetch)
-    : SeaState(SeaOptions{.wind_speed_10m = wind_speed_10m, .fetch = fetch}) {}
+    : SeaState(SeaOptions{.waves = WindSea{.wind_speed_10m = wind_speed_10m, .fetch = fetch}}) {}
 
 double SeaState::FrozenSpreading(double k, double psi) const {
   return 0.5 * (spectrum_->Spreading(k, psi) + spectrum_->Spreading(k, psi + std::numbers::pi));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "generator/campaign/toml_reader.h"
 #include "sea/angle.h"
 #include "sea/response/refraction.h"
@@ -37,14 +38,14 @@ double FloatNotBelow(double x) {
 
 // `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
 // there the seas of all winds are, and beyond it nothing changes.
-absl::Status ResolveFetch(SpectrumKind spectrum, std::vector<double>& fetch,
+absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
                           const std::vector<double>& wind_speed) {
   if (fetch.empty() || fetch.back() != kInfinity) {
     return absl::InvalidArgumentError(
         "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
   }
   const double developed =
-      FloatNotBelow(FullyDevelopedFetch(spectrum, *std::max_element(wind_speed.begin(), wind_speed.end())));
+      FloatNotBelow(model.fully_developed_fetch(*std::max_element(wind_speed.begin(), wind_speed.end())));
   fetch.back() = developed;
   if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
     return absl::InvalidArgumentError(
@@ -65,24 +66,28 @@ Nodes ReadNodes(TomlReader& toml) {
   return nodes;
 }
 
-SeaOptions ReadSea(TomlReader& toml) {
-  constexpr double kShortestCorrected = 0.1;  // m
-  SeaOptions sea;
-  const std::string name = toml.Text("sea", "spectrum", Name(sea.spectrum));
-  if (const std::optional<SpectrumKind> spectrum = FindSpectrum(name)) {
-    sea.spectrum = *spectrum;
+// "apel" or "elfouhaily", for messages.
+std::string SpectrumKeys() {
+  return absl::StrJoin(kSpectrumModels, " or ", [](std::string* keys, const SpectrumModel* model) {
+    absl::StrAppend(keys, "\"", std::string(model->key), "\"");
+  });
+}
+
+WindSea ReadWindSea(TomlReader& toml) {
+  WindSea sea;
+  const std::string key = toml.Text("sea", "spectrum", sea.model->key);
+  if (const SpectrumModel* model = FindSpectrumModel(key)) {
+    sea.model = model;
   } else {
-    toml.Fail("'sea.spectrum' must be \"apel\" or \"elfouhaily\"");
+    toml.Fail(absl::StrCat("'sea.spectrum' must be ", SpectrumKeys()));
   }
   constexpr double kNotGiven = 0;
   const double spreading = toml.Number("sea", "spreading", 0.5, 30, kNotGiven);
   if (spreading != kNotGiven) sea.spreading = spreading;
-  if (spreading != kNotGiven && sea.spectrum != SpectrumKind::kApel) {
-    toml.Fail(absl::StrCat("'sea.spreading' is that of Apel's sea; \"", name,
-                           "\" has a spreading of its own: leave it out"));
+  if (spreading != kNotGiven && !sea.model->takes_spreading) {
+    toml.Fail(absl::StrCat("'sea.spreading' is not taken by \"", key,
+                           "\", which has a spreading of its own: leave it out"));
   }
-  sea.corrected_above =
-      toml.Number("sea", "corrected_above", kShortestCorrected, kInfinity, sea.corrected_above);
   return sea;
 }
 
@@ -106,7 +111,7 @@ Effort ReadEffort(TomlReader& toml) {
 }
 
 // Beyond the rules of all axes, those of a sea that can be simulated.
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(SpectrumKind spectrum, Nodes nodes) {
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
   for (const AxisId axis : kAxes) {
     if (nodes[Index(axis)].empty()) {
       return absl::InvalidArgumentError(
@@ -127,7 +132,7 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(SpectrumKind spectrum, Nodes nod
         "modelled");
   }
   const absl::Status fetch =
-      ResolveFetch(spectrum, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+      ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
   if (!fetch.ok()) return fetch;
 
   std::vector<Axis> axes;
@@ -176,7 +181,10 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (!profile) toml.Fail("'beam.profile' must be \"uniform\" or \"gaussian\"");
   const double source_height = toml.Number("beam", "source_height", 0.1, kInfinity, kInfinity);
   const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, kRefractiveIndex);
-  const SeaOptions sea = ReadSea(toml);
+  constexpr double kShortestCorrected = 0.1;  // m
+  const WindSea wind_sea = ReadWindSea(toml);
+  const double corrected_above =
+      toml.Number("sea", "corrected_above", kShortestCorrected, kInfinity, kInfinity);
   const Effort effort = ReadEffort(toml);
   const auto rays = toml.Integer("effort", "rays", 100, kMostRays);
   const std::string node_values = toml.Text("interpolation", "nodes", "exact");
@@ -186,7 +194,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const auto checked_pulses = toml.Integer("interpolation", "checked_pulses", 1, 10'000);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(sea.spectrum, nodes);
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(*wind_sea.model, nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = std::string(text),
                     .id = id,
@@ -197,7 +205,8 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .profile = *profile,
                     .source_height = source_height,
                     .refractive_index = refractive_index,
-                    .sea = sea,
+                    .wind_sea = wind_sea,
+                    .corrected_above = corrected_above,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
   campaign.balanced_nodes = node_values == "balanced";
@@ -233,9 +242,8 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
   const std::size_t fetches = campaign.nodes(AxisId::kFetch).size();
   SeaCase sea_case;
   const std::size_t fetch = index / footprints % fetches;
-  sea_case.sea = campaign.sea;
-  sea_case.sea.wind_speed_10m = campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches];
-  sea_case.sea.fetch = fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity;
+  sea_case.sea = SeaOf(campaign, campaign.nodes(AxisId::kWindSpeed)[index / footprints / fetches],
+                       fetch + 1 < fetches ? campaign.nodes(AxisId::kFetch)[fetch] : kInfinity);
   sea_case.refractive_index = campaign.refractive_index;
   sea_case.depths = campaign.nodes(AxisId::kDepth);
   sea_case.rays = campaign.rays;
@@ -249,6 +257,13 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
     }
   }
   return sea_case;
+}
+
+SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch) {
+  WindSea waves = campaign.wind_sea;
+  waves.wind_speed_10m = wind_speed;
+  waves.fetch = fetch;
+  return {.waves = waves, .corrected_above = campaign.corrected_above};
 }
 
 }  // namespace albtpu

@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/beam.h"
+#include "sea/sea_state.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
@@ -56,7 +57,8 @@ struct Campaign {
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;
-  SeaOptions sea;  // wind and fetch aside, which are axes
+  WindSea wind_sea;                                                  // wind and fetch aside, which are axes
+  double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
   std::optional<int> rays;
   bool balanced_nodes = false;      // see node_balance.h
@@ -81,5 +83,8 @@ inline constexpr std::uint32_t kCellOfTables = 0;
 // Their order is wind, fetch, footprint, the last fastest.
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
+
+// The campaign's sea at a wind [m/s] and a fetch [m].
+SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch);
 
 }  // namespace albtpu

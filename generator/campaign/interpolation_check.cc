@@ -60,8 +60,7 @@ Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
 
 std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse) {
   SeaCase sea_case = SeaCaseOf(campaign, 0);  // for what all have in common
-  sea_case.sea.wind_speed_10m = pulse.wind_speed;
-  sea_case.sea.fetch = pulse.fetch;
+  sea_case.sea = SeaOf(campaign, pulse.wind_speed, pulse.fetch);
   sea_case.depths = {pulse.depth};
   const BeamOptions beam{.incidence = RadiansOfDegrees(pulse.incidence),
                          .azimuth = RadiansOfDegrees(*pulse.azimuth),

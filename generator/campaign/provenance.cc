@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <memory>
 
 #include "absl/strings/str_cat.h"
 #include "generator/math/instruction_set.h"
 #include "generator/math/rounding.h"
+#include "sea/wave_state.h"
 #include "tables/version.h"
 
 namespace albtpu {
@@ -27,43 +29,20 @@ std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaC
   return range;
 }
 
-// What is known of a spectrum: its name, its source, and where it departs from the sea.
-struct SpectrumDescription {
-  std::string name, reference, departures;
-};
-
-SpectrumDescription ApelsDescription() {
-  return {"Apel (1994) with the fetch law of JONSWAP, cosine-2S spreading",
-          "Apel (1994), doi:10.1029/94JC00846",
-          "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz (0.0214 s2/m times the "
-          "square of the wind at 10 m), the mean square slope 1.6 to 2.7 times Cox and Munk (1954). Below "
-          "some 10 km of fetch waves are 2 to 3 times "
-          "lower than JONSWAP: values at short fetch are not conservative."};
-}
-
-SpectrumDescription ElfouhailysDescription() {
-  return {"Elfouhaily et al. (1997) with its own spreading, drag law of Wu (1982)",
-          "Elfouhaily et al. (1997), doi:10.1029/97JC00467; Wu (1982), doi:10.1029/JC087iC12p09704",
-          "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz (0.0214 s2/m "
-          "times the square of the wind at 10 m), the mean square slope 1.0 to 1.25 times Cox and Munk "
-          "(1954) from 3 m/s on, 1.5 times at 2 m/s and 2.2 "
-          "times at 1 m/s. Below 2.75 m/s the model has no short waves: all slope is in its long ones."};
-}
-
-SpectrumDescription Describe(const SeaOptions& sea) {
-  SpectrumDescription description =
-      sea.spectrum == SpectrumKind::kApel ? ApelsDescription() : ElfouhailysDescription();
-  if (std::isfinite(sea.corrected_above)) {
-    description.name += absl::StrCat("; waves longer than ", sea.corrected_above,
-                                     " m left out, as corrected for by the local slope of the surface");
+// The name of a spectrum, with the waves that are left out.
+std::string NameOf(const WaveSpectrum& spectrum, double corrected_above) {
+  std::string name = spectrum.name();
+  if (std::isfinite(corrected_above)) {
+    absl::StrAppend(&name, "; waves longer than ", corrected_above,
+                    " m left out, as corrected for by the local slope of the surface");
   }
-  return description;
+  return name;
 }
 
 }  // namespace
 
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results) {
-  const SpectrumDescription spectrum = Describe(campaign.sea);
+  const std::shared_ptr<const WaveSpectrum> spectrum = MakeSpectrum(SeaCaseOf(campaign, 0).sea.waves);
   Provenance provenance;
   provenance.id = campaign.id;
   provenance.version = campaign.version;
@@ -71,7 +50,7 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
   provenance.campaign = campaign.text;
   provenance.attributes = {
       {"source", "Monte Carlo ray tracing through a random sea surface, albtpu-generate"},
-      {"references", "Birkebak et al. (2018), doi:10.3390/rs10030453; " + spectrum.reference},
+      {"references", "Birkebak et al. (2018), doi:10.3390/rs10030453; " + spectrum->reference()},
       {"component", "sea surface only: no water column, air side, platform or system"},
       {"program_version", std::string(Version())},
       {"commit", std::string(Commit())},
@@ -80,8 +59,8 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"seed", static_cast<std::int64_t>(campaign.seed)},
       {"refractive_index", campaign.refractive_index},
       {"beam_profile", std::string(Name(campaign.profile))},
-      {"spectrum", spectrum.name},
-      {"spectrum_departures", spectrum.departures},
+      {"spectrum", NameOf(*spectrum, campaign.corrected_above)},
+      {"spectrum_departures", spectrum->departures()},
       {"discretization",
        "Short waves by FFT on a periodic grid, longer ones as plane waves; waves shorter than the grid by "
        "the mean "

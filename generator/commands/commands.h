@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "sea/wave_state.h"
 
 namespace albtpu {
 
@@ -42,7 +43,7 @@ absl::Status RunPlan(const PlanOptions& options);
 struct PointOptions {
   double wind_speed = 0;                                             // m/s
   double fetch = std::numeric_limits<double>::infinity();            // m
-  std::string spectrum = "apel";                                     // or "elfouhaily"
+  std::string spectrum{WindSea().model->key};                        // of kSpectrumModels
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   double incidence = 0;                                              // degree
   std::optional<double> azimuth;                                     // degree; absent: the worse of 0 and 90

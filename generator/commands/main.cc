@@ -13,8 +13,10 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "generator/commands/commands.h"
+#include "sea/wave_state.h"
 #include "tables/version.h"
 
 namespace {
@@ -113,8 +115,13 @@ void AddPoint(CLI::App& point, PointOptions& options) {
       ->required()
       ->check(NumberIn(0, 50, true));
   point.add_option("--fetch", options.fetch, "m, or inf: fully developed (default)")->check(Fetch());
-  point.add_option("--spectrum", options.spectrum, "of the waves: apel (default) or elfouhaily")
-      ->check(CLI::IsMember({"apel", "elfouhaily"}));
+  const std::vector<std::string> spectra(albtpu::kSpectrumKeys.begin(), albtpu::kSpectrumKeys.end());
+  std::string described;  // "apel (default) or elfouhaily"
+  for (const std::string& key : spectra) {
+    described += (described.empty() ? "" : " or ") + key + (key == options.spectrum ? " (default)" : "");
+  }
+  point.add_option("--spectrum", options.spectrum, "of the waves: " + described)
+      ->check(CLI::IsMember(spectra));
   point
       .add_option("--corrected-above", options.corrected_above,
                   "m; longer waves are corrected for by the local slope and left out")

@@ -8,6 +8,7 @@
 #include "generator/commands/commands.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "sea/angle.h"
+#include "sea/wave_state.h"
 
 namespace albtpu {
 namespace {
@@ -17,9 +18,9 @@ constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
 SeaCase SeaCaseAt(const PointOptions& options) {
   SeaCase sea_case;
-  sea_case.sea = {.wind_speed_10m = options.wind_speed,
-                  .fetch = options.fetch,
-                  .spectrum = *FindSpectrum(options.spectrum),
+  sea_case.sea = {.waves = WindSea{.wind_speed_10m = options.wind_speed,
+                                   .fetch = options.fetch,
+                                   .model = FindSpectrumModel(options.spectrum)},
                   .corrected_above = options.corrected_above};
   sea_case.refractive_index = options.refractive_index;
   sea_case.depths = options.depth;

@@ -12,8 +12,9 @@ namespace {
 using namespace albtpu;
 
 void CheckSeaCase(const SeaCase& sea_case) {
-  ALBTPU_MUST(std::isfinite(sea_case.sea.wind_speed_10m) && sea_case.sea.wind_speed_10m > 0);
-  ALBTPU_MUST(sea_case.sea.fetch > 0);
+  const WindSea& waves = std::get<WindSea>(sea_case.sea.waves);
+  ALBTPU_MUST(std::isfinite(waves.wind_speed_10m) && waves.wind_speed_10m > 0);
+  ALBTPU_MUST(waves.fetch > 0);
   ALBTPU_MUST(sea_case.refractive_index > 1 && std::isfinite(sea_case.refractive_index));
   ALBTPU_MUST(!sea_case.depths.empty() && sea_case.depths.front() >= 0);
   for (const BeamOptions& beam : sea_case.beams) {

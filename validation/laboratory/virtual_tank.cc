@@ -97,9 +97,8 @@ double OwnTankWaveHeight(double wind_speed_10m) {
 }
 
 SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
-  SeaOptions options{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch};
-  options.height_scale = significant_wave_height / OwnTankWaveHeight(wind_speed_10m);
-  return SeaState(options);
+  return SeaState({.waves = WindSea{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch},
+                   .height_scale = significant_wave_height / OwnTankWaveHeight(wind_speed_10m)});
 }
 
 WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,

@@ -16,8 +16,7 @@ Estimate InDegrees(const Estimate& radians) {
 
 SeaCase SeaCaseAt(const GridOptions& options, double wind_speed) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = wind_speed;
-  sea_case.sea.height_scale = options.height_scale;
+  sea_case.sea = {.waves = WindSea{.wind_speed_10m = wind_speed}, .height_scale = options.height_scale};
   for (const double incidence : options.incidences)
     sea_case.beams.push_back({.incidence = RadiansOfDegrees(incidence), .footprint = options.footprint});
   return sea_case;

@@ -44,8 +44,7 @@ std::vector<MapPart> MakeMap(const Domain& domain, std::uint64_t seed) {
     for (const double fetch : domain.fetches) {
       for (const double footprint : domain.footprints) {
         SeaCase sea_case;
-        sea_case.sea.wind_speed_10m = wind_speed;
-        sea_case.sea.fetch = fetch;
+        sea_case.sea.waves = WindSea{.wind_speed_10m = wind_speed, .fetch = fetch};
         sea_case.depths = {kDepth};
         for (const Direction& direction : kDirections) {
           sea_case.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),

@@ -26,12 +26,13 @@ constexpr double kIncidence = 20;                                               
 constexpr double kCorrectedAbove[] = {kNothing, 1000, 300, 100, 50, 30, 20, 10, 5, 3, 2, 1, 0.5};  // m
 
 struct Case {
-  SpectrumKind spectrum;
+  const SpectrumModel* model;
   double wind_speed, footprint;  // m/s, m
 };
 
 SeaOptions SeaOf(const Case& c, double corrected_above) {
-  return {.wind_speed_10m = c.wind_speed, .spectrum = c.spectrum, .corrected_above = corrected_above};
+  return {.waves = WindSea{.wind_speed_10m = c.wind_speed, .model = c.model},
+          .corrected_above = corrected_above};
 }
 
 BeamOptions BeamOf(const Case& c) {
@@ -48,9 +49,9 @@ Cell LengthCell(double metres) {
 
 DataTable InClosedForm() {
   std::vector<Case> cases;
-  for (const SpectrumKind spectrum : {SpectrumKind::kApel, SpectrumKind::kElfouhaily})
+  for (const SpectrumModel* model : {&kApelModel, &kElfouhailyModel})
     for (const double wind_speed : {3.0, 6.0, 10.0, 15.0})
-      for (const double footprint : {0.25, 0.5, 2.0}) cases.push_back({spectrum, wind_speed, footprint});
+      for (const double footprint : {0.25, 0.5, 2.0}) cases.push_back({model, wind_speed, footprint});
   constexpr std::size_t kLengths = std::size(kCorrectedAbove);
   std::vector<SmallSlopeUncertainty> results(cases.size() * kLengths);
   tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
@@ -71,7 +72,7 @@ DataTable InClosedForm() {
     const SmallSlopeUncertainty& whole = results[i / kLengths * kLengths];
     const SmallSlopeUncertainty& left = results[i];
     table.rows.push_back(
-        {std::string(Name(c.spectrum)), c.wind_speed, c.footprint, LengthCell(kCorrectedAbove[i % kLengths]),
+        {std::string(c.model->key), c.wind_speed, c.footprint, LengthCell(kCorrectedAbove[i % kLengths]),
          DegreesOfRadians(left.refraction_along_wind), DegreesOfRadians(left.refraction_cross_wind),
          left.thu_per_depth, left.tvu_per_depth, left.thu_per_depth / whole.thu_per_depth});
   }
@@ -90,7 +91,7 @@ DataTable Summary() {
       .rows = {}};
   for (const double wind_speed : {3.0, 6.0, 10.0, 15.0}) {
     for (const double footprint : {0.25, 0.5, 2.0}) {
-      const Case c{SpectrumKind::kApel, wind_speed, footprint};
+      const Case c{&kApelModel, wind_speed, footprint};
       std::vector<Cell> row = {wind_speed, footprint};
       for (const double length : {100.0, 30.0, 10.0, 3.0, 1.0})
         row.push_back(ClosedFormOf(c, length).thu_per_depth / ClosedFormOf(c, kNothing).thu_per_depth);
@@ -109,7 +110,7 @@ struct SimulatedSea {
   double closed_form_thu, closed_form_tvu;    // m, at kIncidence
 };
 
-constexpr Case kSimulated{SpectrumKind::kApel, 6, 0.25};
+constexpr Case kSimulated{&kApelModel, 6, 0.25};
 constexpr double kDepth = 20;  // m
 
 // The first is the whole sea.
@@ -217,7 +218,7 @@ absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options) {
   for (const SimulatedSea& sea : simulated) study.comparisons.push_back(CompareThu(sea));
   const std::string by_monte_carlo = SimulationParagraph(simulated, study.comparisons);
 
-  const Case survey{SpectrumKind::kApel, 6, 0.5};
+  const Case survey{&kApelModel, 6, 0.5};
   const auto left = [&](double length) {
     return 100 * ClosedFormOf(survey, length).thu_per_depth / ClosedFormOf(survey, kNothing).thu_per_depth;
   };

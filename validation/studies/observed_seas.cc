@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sea/spectra/wave_spectrum.h"
-#include "sea/spectra/wind_profile.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {

@@ -15,24 +15,23 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-SeaState Sea(SpectrumKind spectrum, double wind_speed, double fetch = kFullyDeveloped) {
-  return SeaState({.wind_speed_10m = wind_speed, .fetch = fetch, .spectrum = spectrum});
+SeaState Sea(const SpectrumModel& model, double wind_speed, double fetch = kFullyDeveloped) {
+  return SeaState({.waves = WindSea{.wind_speed_10m = wind_speed, .fetch = fetch, .model = &model}});
 }
 
 double WaveHeight(const SeaState& sea) { return 4 * std::sqrt(ElevationVariance(sea)); }
 
-const char* Title(SpectrumKind spectrum) { return spectrum == SpectrumKind::kApel ? "Apel" : "Elfouhaily"; }
-
-constexpr SpectrumKind kSpectra[] = {SpectrumKind::kApel, SpectrumKind::kElfouhaily};
+// In the order of the tables' columns.
+constexpr const SpectrumModel* kSpectra[] = {&kApelModel, &kElfouhailyModel};
 
 // The winds of Cox and Munk, and that from which on Elfouhaily's sea has short waves: m/s.
 constexpr int kLeastObserved = 1, kGreatestObserved = 14, kShortWavesFrom = 3;
 
 // Of the total mean square slope from Cox and Munk's line, over every m/s of their winds from `first` on.
-double RmsDepartureOfSlope(SpectrumKind spectrum, int first) {
+double RmsDepartureOfSlope(const SpectrumModel& model, int first) {
   double squares = 0;
   for (int wind = first; wind <= kGreatestObserved; ++wind) {
-    const double departure = SlopeCovariance(Sea(spectrum, wind)).trace() - CoxMunkTotal(wind).mean_square;
+    const double departure = SlopeCovariance(Sea(model, wind)).trace() - CoxMunkTotal(wind).mean_square;
     squares += departure * departure;
   }
   return std::sqrt(squares / (kGreatestObserved - first + 1));
@@ -44,10 +43,11 @@ void CompareSlopes(Study& study) {
                   .columns = {"wind_speed_m_s", "cox_munk_along", "apel_along", "elfouhaily_along",
                               "cox_munk_cross", "apel_cross", "elfouhaily_cross"},
                   .rows = {}};
-  const auto compare = [&](SpectrumKind spectrum, double wind, const char* direction, double ours,
+  const auto compare = [&](const SpectrumModel& model, double wind, const char* direction, double ours,
                            const ObservedSlope& observed) {
     study.comparisons.push_back(
-        {.quantity = absl::StrFormat("Mean square slope %s, %g m/s, %s", direction, wind, Title(spectrum)),
+        {.quantity =
+             absl::StrFormat("Mean square slope %s, %g m/s, %s", direction, wind, std::string(model.author)),
          .unit = "1",
          .published = observed.mean_square,
          .ours = ours,
@@ -61,13 +61,13 @@ void CompareSlopes(Study& study) {
   for (int wind = 1; wind <= 15; ++wind) {
     const ObservedSlope along = CoxMunkAlongWind(wind), cross = CoxMunkCrossWind(wind);
     std::vector<Cell> row_along = {along.mean_square}, row_cross = {cross.mean_square};
-    for (const SpectrumKind spectrum : kSpectra) {
-      const Eigen::Matrix2d slopes = SlopeCovariance(Sea(spectrum, wind));
+    for (const SpectrumModel* model : kSpectra) {
+      const Eigen::Matrix2d slopes = SlopeCovariance(Sea(*model, wind));
       row_along.push_back(slopes(0, 0));
       row_cross.push_back(slopes(1, 1));
       if (wind == 1 || wind == 2 || wind == 5 || wind == 10 || wind == 14) {
-        compare(spectrum, wind, "along the wind", slopes(0, 0), along);
-        compare(spectrum, wind, "across the wind", slopes(1, 1), cross);
+        compare(*model, wind, "along the wind", slopes(0, 0), along);
+        compare(*model, wind, "across the wind", slopes(1, 1), cross);
       }
     }
     std::vector<Cell> row = {static_cast<double>(wind)};
@@ -76,18 +76,18 @@ void CompareSlopes(Study& study) {
     table.rows.push_back(std::move(row));
   }
   study.tables.push_back(std::move(table));
-  for (const SpectrumKind spectrum : kSpectra) {
+  for (const SpectrumModel* model : kSpectra) {
     const double scatter = CoxMunkTotal(1).scatter;
     for (const auto& [first, winds] :
          {std::pair{kLeastObserved, "all winds that were observed, those too below 3 m/s"},
           std::pair{
               kShortWavesFrom,
               "only from 3 m/s on: in lighter wind Elfouhaily's sea has no short waves and is too steep"}}) {
-      const double rms = RmsDepartureOfSlope(spectrum, first);
+      const double rms = RmsDepartureOfSlope(*model, first);
       study.comparisons.push_back(
           {.quantity =
                absl::StrFormat("Mean square slope, rms departure from Cox and Munk over %d-%d m/s, %s", first,
-                               kGreatestObserved, Title(spectrum)),
+                               kGreatestObserved, std::string(model->author)),
            .unit = "1",
            .published = scatter,
            .ours = rms,
@@ -110,13 +110,13 @@ void CompareHeights(Study& study) {
   for (int wind = 1; wind <= 15; ++wind) {
     const double observed = PiersonMoskowitzWaveHeightOf(wind);
     std::vector<Cell> row = {static_cast<double>(wind), observed, PiersonMoskowitzWaveHeight(wind)};
-    for (const SpectrumKind spectrum : kSpectra) {
-      const double height = WaveHeight(Sea(spectrum, wind));
+    for (const SpectrumModel* model : kSpectra) {
+      const double height = WaveHeight(Sea(*model, wind));
       row.push_back(height);
       if (wind == 5 || wind == 10) {
         study.comparisons.push_back(
             {.quantity = absl::StrFormat("Significant wave height, %d m/s, fully developed, %s", wind,
-                                         Title(spectrum)),
+                                         std::string(model->author)),
              .unit = "m",
              .published = observed,
              .ours = height,
@@ -137,13 +137,13 @@ void CompareHeightsByFetch(Study& study) {
     for (const double kilometres : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
       const double observed = JonswapWaveHeight(wind, 1e3 * kilometres);
       std::vector<Cell> row = {wind, kilometres, observed};
-      for (const SpectrumKind spectrum : kSpectra) {
-        const double height = WaveHeight(Sea(spectrum, wind, 1e3 * kilometres));
+      for (const SpectrumModel* model : kSpectra) {
+        const double height = WaveHeight(Sea(*model, wind, 1e3 * kilometres));
         row.push_back(height);
         if (wind == 10 && (kilometres == 1 || kilometres == 10 || kilometres == 100)) {
           study.comparisons.push_back(
               {.quantity = absl::StrFormat("Significant wave height, 10 m/s, fetch %g km, %s", kilometres,
-                                           Title(spectrum)),
+                                           std::string(model->author)),
                .unit = "m",
                .published = observed,
                .ours = height,
@@ -179,8 +179,8 @@ absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options) {
           "of the short ones, are steeper than what was seen, most along the wind. So it is the range of "
           "winds that decides whether it is within their scatter, %.4f: the rms departure of its total mean "
           "square slope is %.4f from %d m/s on and %.4f over all winds from %d m/s.",
-          CoxMunkTotal(1).scatter, RmsDepartureOfSlope(SpectrumKind::kElfouhaily, kShortWavesFrom),
-          kShortWavesFrom, RmsDepartureOfSlope(SpectrumKind::kElfouhaily, kLeastObserved), kLeastObserved),
+          CoxMunkTotal(1).scatter, RmsDepartureOfSlope(kElfouhailyModel, kShortWavesFrom), kShortWavesFrom,
+          RmsDepartureOfSlope(kElfouhailyModel, kLeastObserved), kLeastObserved),
       "Heights: Pierson and Moskowitz (1964), Hs = 0.21 U^2 / g with the wind at 19.5 m, and by fetch "
       "JONSWAP, Hs = 1.6e-3 (g x / U^2)^(1/2) U^2 / g with the wind at 10 m, to where it meets the fully "
       "developed sea. At short fetch Apel's waves are 2-3 times too low, because its level A does not depend "

@@ -36,12 +36,12 @@ std::vector<Point> SurveyDomain() {
   return points;
 }
 
-SeaOptions SeaOf(const Point& point, SpectrumKind spectrum) {
-  return {.wind_speed_10m = point.wind_speed, .fetch = point.fetch, .spectrum = spectrum};
+SeaOptions SeaOf(const Point& point, const SpectrumModel& model) {
+  return {.waves = WindSea{.wind_speed_10m = point.wind_speed, .fetch = point.fetch, .model = &model}};
 }
 
-SmallSlopeUncertainty ClosedFormAt(const Point& point, SpectrumKind spectrum) {
-  return ClosedForm(SeaState(SeaOf(point, spectrum)),
+SmallSlopeUncertainty ClosedFormAt(const Point& point, const SpectrumModel& model) {
+  return ClosedForm(SeaState(SeaOf(point, model)),
                     {.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint},
                     kRefractiveIndex);
 }
@@ -65,8 +65,8 @@ RatioSummary CompareInClosedForm(Study& study) {
   const std::vector<Point> points = SurveyDomain();
   std::vector<SmallSlopeUncertainty> apel(points.size()), elfouhaily(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    apel[i] = ClosedFormAt(points[i], SpectrumKind::kApel);
-    elfouhaily[i] = ClosedFormAt(points[i], SpectrumKind::kElfouhaily);
+    apel[i] = ClosedFormAt(points[i], kApelModel);
+    elfouhaily[i] = ClosedFormAt(points[i], kElfouhailyModel);
   });
   DataTable table{
       .name = "spectra_closed_form",
@@ -140,20 +140,19 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
                              {10, kFullyDeveloped, 20, 0.5},
                              {10, 1e4, 20, 2}}) {
     BeamUncertainty by_spectrum[2];
-    for (const SpectrumKind spectrum : {SpectrumKind::kApel, SpectrumKind::kElfouhaily}) {
+    for (const SpectrumModel* model : {&kApelModel, &kElfouhailyModel}) {
       SeaCase sea_case;
-      sea_case.sea = SeaOf(point, spectrum);
+      sea_case.sea = SeaOf(point, *model);
       sea_case.beams = {{.incidence = RadiansOfDegrees(point.incidence), .footprint = point.footprint}};
       sea_case.depths = {kDepth};
-      by_spectrum[spectrum == SpectrumKind::kElfouhaily] =
-          Simulate(sea_case, effort, options.seed, cell++).beams[0];
+      by_spectrum[model == &kElfouhailyModel] = Simulate(sea_case, effort, options.seed, cell++).beams[0];
     }
     const auto& [apel, elfouhaily] = by_spectrum;
     const double ratio = elfouhaily.thu[0].value / apel.thu[0].value;
     const double ratio_error = ratio * std::hypot(elfouhaily.thu[0].standard_error / elfouhaily.thu[0].value,
                                                   apel.thu[0].standard_error / apel.thu[0].value);
-    const double closed_form = ClosedFormAt(point, SpectrumKind::kElfouhaily).thu_per_depth /
-                               ClosedFormAt(point, SpectrumKind::kApel).thu_per_depth;
+    const double closed_form =
+        ClosedFormAt(point, kElfouhailyModel).thu_per_depth / ClosedFormAt(point, kApelModel).thu_per_depth;
     table.rows.push_back({point.wind_speed, FetchCell(point.fetch), point.incidence, point.footprint,
                           apel.thu[0].value, apel.thu[0].standard_error, elfouhaily.thu[0].value,
                           elfouhaily.thu[0].standard_error, apel.tvu[0].value, apel.tvu[0].standard_error,

@@ -8,6 +8,7 @@
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
 #include "sea/sea_state.h"
+#include "sea/spectra/apel_spectrum.h"
 #include "validation/laboratory/frequency_spectrum.h"
 #include "validation/published/published_table.h"
 #include "validation/studies/beam_picture.h"
@@ -130,7 +131,7 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
                       "enhancement (Eq. 7), which is held at its end. The peak is at %.0f rad/m, a "
                       "wavelength of %.1f cm; the shoulder from there to some 1000 rad/m is the "
                       "capillary-gravity resonance of Eq. 11.",
-                      sea.spectrum().inverse_wave_age(), k_p, 200 * std::numbers::pi / k_p),
+                      ApelSpectrum::InverseWaveAge(kWind, kFetch), k_p, 200 * std::numbers::pi / k_p),
       "A frozen surface cannot tell a wave from the one that travels against it, so the surfaces of the "
       "Monte Carlo have the mean of both directions (dashed in Figure 2b). The curves of the printed figures "
       "are not available as numbers; what can be compared is the peak that the paper measured at that fetch "

@@ -66,7 +66,7 @@ TEST(InterpolationCheck, MeetsTheSurfacesOfTheNodes) {
   const Pulse pulse{
       .wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
   const SeaCase sea_case = SeaCaseOf(campaign, 4);  // the second wind, the first fetch and footprint
-  ASSERT_EQ(sea_case.sea.wind_speed_10m, 6);
+  ASSERT_EQ(std::get<WindSea>(sea_case.sea.waves).wind_speed_10m, 6);
   const SeaCaseResult node = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
   EXPECT_EQ(AnswerDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
 }

@@ -19,7 +19,7 @@ constexpr double kDegree = 0.017453292519943295;
 
 SeaCase ModerateSea(std::vector<BeamOptions> beams) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = 4;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 4};
   sea_case.beams = std::move(beams);
   sea_case.depths = {0, 5, 20};
   return sea_case;
@@ -159,9 +159,9 @@ TEST(MonteCarlo, SaysWhenTheErrorIsNotSmallEnough) {
 
 TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
   SeaCase laboratory = ModerateSea({{.footprint = 0.25, .source_height = 4}});
-  laboratory.sea.fetch = 1e4;
+  laboratory.sea.waves = WindSea{.wind_speed_10m = 4, .fetch = 1e4};
   SeaCase survey = ModerateSea({{.footprint = 0.25}});
-  survey.sea.fetch = 1e4;
+  survey.sea.waves = laboratory.sea.waves;
   const BeamUncertainty diverging = Simulate(laboratory, Exactly(1500), 1, 0).beams[0];
   const BeamUncertainty collimated = Simulate(survey, Exactly(1500), 1, 1).beams[0];
   // The mean direction answers to the mean slope alike; a divergence of 0.03 rad changes it in second order.

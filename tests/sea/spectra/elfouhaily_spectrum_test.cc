@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sea/spectra/wind_profile.h"
+#include "sea/spectra/wind_sea.h"
 
 namespace albtpu {
 namespace {

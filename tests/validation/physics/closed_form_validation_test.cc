@@ -45,8 +45,7 @@ const std::vector<Direction> kDirections = {{0, 0}, {10, 45}, {20, 0}, {20, 45},
 
 SeaCase SeaCaseOf(const Sea& sea) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = sea.wind_speed;
-  sea_case.sea.fetch = sea.fetch;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = sea.wind_speed, .fetch = sea.fetch};
   sea_case.depths = {10};
   for (const Direction& direction : kDirections) {
     sea_case.beams.push_back({.incidence = RadiansOfDegrees(direction.incidence),

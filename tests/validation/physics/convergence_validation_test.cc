@@ -66,8 +66,7 @@ Discretization WithTwiceTheRays(Discretization choice) {
 std::vector<BeamUncertainty> Simulated(const Case& c, const Discretization& discretization, int realizations,
                                        std::uint32_t cell) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = c.wind_speed;
-  sea_case.sea.fetch = c.fetch;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = c.wind_speed, .fetch = c.fetch};
   sea_case.beams = Beams(c);
   sea_case.depths = {10};
   sea_case.discretization = discretization;

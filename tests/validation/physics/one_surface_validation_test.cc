@@ -23,7 +23,7 @@ constexpr double kDepth = 10;  // m
 constexpr double kFootprint = 0.5, kPointsPerFootprint = 64;
 constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven of the longest waves' peaks
 constexpr int kSurfaces = 60, kPlaces = 36, kRays = 4000;
-const SeaOptions kSea{.wind_speed_10m = 4, .fetch = 2000};
+const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
 const std::vector<BeamOptions> kBeams = {
     {.footprint = kFootprint},

@@ -33,9 +33,10 @@ class Draws {
 
 SeaCase Draw(Draws& draws) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = draws.Between(1, 15);
+  const double wind_speed = draws.Between(1, 15);
   const double fetch = draws.LogBetween(100, 1e6);
-  sea_case.sea.fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = wind_speed,
+                               .fetch = draws.OneIn(4) ? std::numeric_limits<double>::infinity() : fetch};
   sea_case.beams = {{.incidence = RadiansOfDegrees(draws.Between(0, 25)),
                      .azimuth = RadiansOfDegrees(draws.Between(0, 360)),
                      .footprint = draws.LogBetween(0.1, 5),
@@ -46,8 +47,9 @@ SeaCase Draw(Draws& draws) {
 
 std::string Describe(const SeaCase& sea_case) {
   const BeamOptions& beam = sea_case.beams[0];
+  const WindSea& waves = std::get<WindSea>(sea_case.sea.waves);
   return absl::StrFormat("%g m/s, %g m of fetch, incidence %g, azimuth %g, %g m of footprint, depth %g m",
-                         sea_case.sea.wind_speed_10m, sea_case.sea.fetch, DegreesOfRadians(beam.incidence),
+                         waves.wind_speed_10m, waves.fetch, DegreesOfRadians(beam.incidence),
                          DegreesOfRadians(beam.azimuth), beam.footprint, sea_case.depths[0]);
 }
 

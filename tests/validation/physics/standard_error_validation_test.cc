@@ -47,7 +47,7 @@ const std::vector<Quantity> kQuantities = {
 
 std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, std::uint32_t cell) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = 5;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 5};
   sea_case.beams = {{.footprint = 0.5},
                     {.incidence = 20 * kDegree, .azimuth = 30 * kDegree, .footprint = 0.5}};
   sea_case.depths = {0, 0.1, 10};

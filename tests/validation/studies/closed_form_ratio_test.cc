@@ -30,7 +30,7 @@ TEST(Excess, AllowsOnlyTheDiscretizationAboveTheClosedForm) {
 
 TEST(ClosedFormRatio, IsNearOneAndLacksVerticalErrorsAtNadir) {
   SeaCase sea_case;
-  sea_case.sea.wind_speed_10m = 3;
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 3};
   sea_case.beams = {{.footprint = 0.5}, {.incidence = 0.35, .footprint = 0.5}};
   sea_case.depths = {5};
   const SeaCaseRatios ratios = CompareWithClosedForm(sea_case, 64, 1, 0);

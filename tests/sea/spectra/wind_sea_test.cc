@@ -1,4 +1,4 @@
-#include "sea/spectra/spreading.h"
+#include "sea/spectra/wind_sea.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace albtpu {
 namespace {
 
-// Equal steps over a full turn: exact for the trigonometric polynomials that integer s gives.
+// Equal steps over a full turn: exact for integer s, where the integrand is a trigonometric polynomial.
 template <typename Weight>
 double IntegralOverTurn(const Cosine2sSpreading& spreading, Weight weight) {
   constexpr int kSteps = 4096;
@@ -28,7 +28,7 @@ TEST(Cosine2sSpreading, IntegratesToOne) {
   EXPECT_NEAR(IntegralOverTurn(Cosine2sSpreading(2.5), [](double) { return 1.0; }), 1, 1e-9);
 }
 
-TEST(Cosine2sSpreading, SharesSlopeVarianceSevenToFiveAlongAndAcrossTheWind) {
+TEST(Cosine2sSpreading, HasSlopeVariancesAlongAndAcrossTheWindInTheRatioSevenToFive) {
   const Cosine2sSpreading spreading(2);
   EXPECT_NEAR(IntegralOverTurn(spreading, [](double psi) { return std::pow(std::cos(psi), 2); }), 7.0 / 12,
               1e-12);
@@ -41,6 +41,31 @@ TEST(Cosine2sSpreading, IsGreatestDownwindAndZeroUpwind) {
   EXPECT_NEAR(spreading(0), 4 / (3 * std::numbers::pi), 1e-15);  // 2^3 / pi * Gamma(3)^2 / Gamma(5)
   EXPECT_NEAR(spreading(std::numbers::pi), 0, 1e-60);
   EXPECT_DOUBLE_EQ(spreading(0.7), spreading(-0.7));
+}
+
+// At the peak the enhancement is gamma itself; far from it there is none. Between Omega 1 and 5 gamma follows the formula.
+TEST(JonswapPeak, EnhancesThePeakByGammaAndNothingElse) {
+  for (const double omega : {1.0, 2.0, 5.0})
+    EXPECT_DOUBLE_EQ(JonswapPeak(omega)(1), 1.7 + 6 * std::log10(omega));
+  EXPECT_NEAR(JonswapPeak(2)(10), 1, 1e-12);
+  EXPECT_NEAR(JonswapPeak(2)(0.05), 1, 1e-6);
+}
+
+TEST(JonswapPeak, KeepsGammaBeyondItsRange) {
+  EXPECT_EQ(JonswapPeak(0.84)(1), JonswapPeak(1)(1));
+  EXPECT_EQ(JonswapPeak(20)(1), JonswapPeak(5)(1));
+}
+
+TEST(WindProfile, HasTheDragCoefficientOfWu) {
+  EXPECT_NEAR(std::pow(FrictionVelocity(10) / 10, 2), 1.45e-3, 1e-9);
+  EXPECT_NEAR(std::pow(FrictionVelocity(3) / 3, 2), 0.995e-3, 1e-9);
+}
+
+TEST(WindProfile, IsLogarithmic) {
+  EXPECT_EQ(WindSpeedAt(10, 7), 7);
+  EXPECT_NEAR(WindSpeedAt(20, 7) - 7, 7 - WindSpeedAt(5, 7), 1e-12);
+  // u* / 0.4 for each factor of e in height.
+  EXPECT_NEAR(WindSpeedAt(10 * std::exp(1), 7) - 7, FrictionVelocity(7) / 0.4, 1e-12);
 }
 
 }  // namespace

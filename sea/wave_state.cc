@@ -1,0 +1,23 @@
+#include "sea/wave_state.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace albtpu {
+
+const SpectrumModel* FindSpectrumModel(std::string_view key) {
+  const auto found = std::find_if(kSpectrumModels.begin(), kSpectrumModels.end(),
+                                  [&](const SpectrumModel* model) { return model->key == key; });
+  return found == kSpectrumModels.end() ? nullptr : *found;
+}
+
+std::shared_ptr<const WaveSpectrum> WindSea::MakeSpectrum() const {
+  assert(model != nullptr);
+  return model->make(wind_speed_10m, fetch, Cosine2sSpreading(spreading));
+}
+
+std::shared_ptr<const WaveSpectrum> MakeSpectrum(const WaveState& waves) {
+  return std::visit([](const auto& known) { return known.MakeSpectrum(); }, waves);
+}
+
+}  // namespace albtpu
