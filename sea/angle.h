@@ -1,4 +1,4 @@
-// Degrees at the edges (tables, campaigns, flags), radians inside: crossed here.
+// Conversion between degrees, used at the edges (tables, campaigns, flags), and radians, used everywhere else.
 #pragma once
 
 #include <numbers>

@@ -54,9 +54,9 @@ class SeaState {
 
 // Integral of `weight(k, psi) k_i k_j Psi` over the plane, i and j in {x, y}: the covariance of the two slopes of the
 // sea after a filter whose power response is `weight`. With a weight of 1, its trace is the mean square slope.
-// Trapezoidal rule in log k (50 steps to a factor of e, finer than any footprint filter varies where it matters) and 32
-// directions of the half plane; the relative error is below 1e-4 if the filter passes at least 3e-5 of the mean square
-// slope.
+// Trapezoidal rule in log k (50 steps to a factor of e, finer than any footprint filter varies where it matters) and
+// 32 directions of the half plane; the relative error is below 1e-4 if the filter passes at least 3e-5 of the mean
+// square slope.
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea,
                                 const std::function<double(double k, double psi)>& weight);
 Eigen::Matrix2d SlopeCovariance(const SeaState& sea);

@@ -4,17 +4,11 @@
 #include "generator/commands/commands.h"
 #include "tables/default_tables.h"
 #include "tables/version.h"
-#include "validation/laboratory/laboratory_study.h"
-#include "validation/laboratory/wave_staff_study.h"
+#include "validation/laboratory/laboratory_studies.h"
 #include "validation/published/published_table.h"
-#include "validation/report/csv.h"
 #include "validation/report/report.h"
-#include "validation/studies/angle_method_study.h"
-#include "validation/studies/closed_form_map_study.h"
-#include "validation/studies/corrected_waves_study.h"
-#include "validation/studies/paper_monte_carlo_study.h"
-#include "validation/studies/real_sea_study.h"
-#include "validation/studies/spectrum_study.h"
+#include "validation/report/study.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {

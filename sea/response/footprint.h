@@ -23,29 +23,29 @@ struct BeamOptions {
       std::numeric_limits<double>::infinity();  // m above the water; infinity means collimated
 };
 
-// In the next three functions lengths are across the axis of the beam and in units of the footprint's diameter.
+// Lengths across the beam, in diameters, in the next three. See "The profile of a footprint" in docs/physics.md.
 
-// The irradiance over that at the centre, at the distance whose square is `squared_radius`: 1 within 1/2 and 0 beyond it
-// for a uniform beam, exp(-8 r^2) for a gaussian one.
+// The irradiance over that at the centre, at the distance whose square is `squared_radius`: 1 within 1/2 and 0 beyond
+// it for a uniform beam, exp(-8 r^2) for a gaussian one.
 double RelativeIrradiance(BeamProfile profile, double squared_radius);
 
-// The radius of the circle that holds the fraction `power` of the beam, from 0 to below 1: sqrt(power) / 2 for a uniform
-// beam, sqrt(-ln(1 - power) / 8) for a gaussian one.
+// The radius of the circle that holds the fraction `power` of the beam, from 0 to below 1: sqrt(power) / 2 for a
+// uniform beam, sqrt(-ln(1 - power) / 8) for a gaussian one.
 double RadiusOfPower(BeamProfile profile, double power);
 
 // The autocorrelation of the irradiance, the integral of I(x) I(x + a) over that of I(x)^2, at the distance |a| =
-// `apart`: how much of the footprint still lies over itself after a shift. 2/pi (acos a - a sqrt(1 - a^2)) for a uniform
-// beam, 0 from a = 1 on; exp(-4 a^2) for a gaussian one.
+// `apart`: how much of the footprint still lies over itself after a shift. 2/pi (acos a - a sqrt(1 - a^2)) for a
+// uniform beam, 0 from a = 1 on; exp(-4 a^2) for a gaussian one.
 double FootprintOverlap(BeamProfile profile, double apart);
 
-// The length [m] of the footprint on the water along its longer axis, 1 / cos(incidence) times its width: one diameter
-// for a uniform beam, two diameters for a gaussian one, which hold all but exp(-8) = 3e-4 of its power.
+// The length [m] of the footprint on the water along its longer axis, 1 / cos(incidence) times its width: one
+// diameter for a uniform beam, two diameters for a gaussian one, which hold all but exp(-8) = 3e-4 of its power.
 double WidthOnWater(const BeamOptions& beam);
 
-// The factor W by which averaging over the footprint reduces a wave of wavenumber `k` [rad/m] that travels towards `psi`
-// [rad] from downwind. The footprint on the water is an ellipse, longer by 1/cos(incidence) along the azimuth. With
-// kappa = sqrt((k_along / cos(incidence))^2 + k_across^2) and the diameter D, W = 2 J1(kappa D/2) / (kappa D/2) for a
-// uniform beam and exp(-kappa^2 D^2 / 32) for a gaussian one.
+// The factor W by which averaging over the footprint reduces a wave of wavenumber `k` [rad/m] that travels towards
+// `psi` [rad] from downwind. The footprint on the water is an ellipse, longer by 1/cos(incidence) along the azimuth.
+// With kappa = sqrt((k_along / cos(incidence))^2 + k_across^2) and the diameter D, W = 2 J1(kappa D/2) / (kappa D/2)
+// for a uniform beam and exp(-kappa^2 D^2 / 32) for a gaussian one.
 double FootprintAverage(const BeamOptions& beam, double k, double psi);
 
 // W^2, the fraction of the wave's power that remains.

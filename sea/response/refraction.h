@@ -55,8 +55,8 @@ SlopeGain SmallSlopeGain(double incidence, double n);
 // The same response as a matrix in x and y: small slopes m deflect the tangent by TangentResponse * m.
 Eigen::Matrix2d TangentResponse(double incidence, double azimuth, double n);
 
-// The second derivatives of the secant of the refracted direction by the slope of the surface: the response of the path
-// per depth to the squares of small slopes. At nadir (1 - 1/n)^2 times the identity.
+// The second derivatives of the secant of the refracted direction by the slope of the surface: the response of the
+// path per depth to the squares of small slopes. At nadir (1 - 1/n)^2 times the identity.
 Eigen::Matrix2d SecantCurvature(double incidence, double azimuth, double n);
 
 }  // namespace albtpu

@@ -1,9 +1,9 @@
 // The effect of waves shorter than the grid on the mean direction of a beam.
 //
 // Their slopes average out over the footprint, but refraction is not linear in slope. They shift the mean tangent and
-// the mean secant of the refracted rays (the biases; at nadir the path lengthens by 1/2 g^2 times their mean
-// square slope), and they change the response of a ray to the resolved waves by a few per cent in strong wind, in first
-// order and, for vertical errors near nadir, in second order.
+// the mean secant of the refracted rays (the biases; at nadir the path lengthens by 1/2 g^2 times their mean square
+// slope), and they change the response of a ray to the resolved waves by a few per cent in strong wind, in first
+// order and, for vertical errors near nadir, in second order. See "Waves shorter than the grid" in docs/physics.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +29,8 @@ inline Eigen::Vector3d SlopeSquares(const Eigen::Vector2d& slope) {
 // A facet of slope m stands for a patch of water with the slopes m + delta, where delta is normal with
 // `slope_covariance`: the covariance of the sea less that of the facets. (All cells are cut along the same diagonal,
 // which correlates the two slopes of the facets; the slopes of the sea have no such correlation, and the difference
-// removes it.) Rays see the slopes with the weight of the facing area, 1 + tan(theta) (m + delta) . phi. The mean over
-// delta is taken by quadrature; its difference from the value at delta = 0 is expanded to second order in m.
+// removes it.) Rays see the slopes with the weight of the facing area, 1 + tan(theta) (m + delta) . phi. The mean
+// over delta is taken by quadrature; its difference from the value at delta = 0 is expanded to second order in m.
 UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refractive_index,
                                         const Eigen::Matrix2d& slope_covariance);
 

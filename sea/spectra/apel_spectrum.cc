@@ -66,10 +66,9 @@ std::string ApelSpectrum::reference() const { return "Apel (1994), doi:10.1029/9
 
 std::string ApelSpectrum::departures() const {
   return "Fully developed, the significant wave height is 0.95 of Pierson-Moskowitz (0.0214 s2/m times the "
-         "square of "
-         "the wind at 10 m), the mean square slope 1.6 to 2.7 times Cox and Munk (1954). Below some 10 km of "
-         "fetch "
-         "waves are 2 to 3 times lower than JONSWAP: values at short fetch are not conservative.";
+         "square of the wind at 10 m), the mean square slope 1.6 to 2.7 times Cox and Munk (1954). Below "
+         "some 10 km of fetch waves are 2 to 3 times lower than JONSWAP: values at short fetch are not "
+         "conservative.";
 }
 
 }  // namespace albtpu

@@ -76,8 +76,8 @@ double ElfouhailySpectrum::Spreading(double k, double psi) const {
 }
 
 WavenumberRange ElfouhailySpectrum::energetic_range() const {
-  // Below 0.3 k_p Eq. 2 is under exp(-13.9). At the upper end Eq. 41 ends the short waves, exp(-16) at 9 k_m; in light
-  // wind, which raises no short waves, Eq. 32 ends the long ones, here at exp(-8).
+  // Below 0.3 k_p Eq. 2 is under exp(-13.9). At the upper end Eq. 41 ends the short waves, exp(-16) at 9 k_m; in
+  // light wind, which raises no short waves, Eq. 32 ends the long ones, here at exp(-8).
   const double end_of_long_waves = k_p_ * Square(1 + 8 * std::sqrt(10.0) / omega_);
   return {0.3 * k_p_, std::max(9 * kGravityCapillary, end_of_long_waves)};
 }
@@ -92,12 +92,9 @@ std::string ElfouhailySpectrum::reference() const {
 
 std::string ElfouhailySpectrum::departures() const {
   return "Fully developed, the significant wave height is 1.19 to 1.22 of Pierson-Moskowitz (0.0214 s2/m "
-         "times the "
-         "square of the wind at 10 m), the mean square slope 1.0 to 1.25 times Cox and Munk (1954) from 3 "
-         "m/s on, 1.5 "
-         "times at 2 m/s and 2.2 times at 1 m/s. Below 2.75 m/s the model has no short waves: all slope is "
-         "in its long "
-         "ones.";
+         "times the square of the wind at 10 m), the mean square slope 1.0 to 1.25 times Cox and Munk (1954) "
+         "from 3 m/s on, 1.5 times at 2 m/s and 2.2 times at 1 m/s. Below 2.75 m/s the model has no short "
+         "waves: all slope is in its long ones.";
 }
 
 }  // namespace albtpu

@@ -36,8 +36,8 @@ class ElfouhailySpectrum final : public WaveSpectrum {
   // Eq. 37.
   static double InverseWaveAge(double wind_speed_10m, double fetch);
 
-  // The fetch [m] beyond which the sea counts as fully developed. Eq. 37 reaches 0.84 only in the limit; at this fetch
-  // Omega is within 1 % of it.
+  // The fetch [m] beyond which the sea counts as fully developed. Eq. 37 reaches 0.84 only in the limit; at this
+  // fetch Omega is within 1 % of it.
   static double FullyDevelopedFetch(double wind_speed_10m);
 
  private:

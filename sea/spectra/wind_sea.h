@@ -32,8 +32,8 @@ struct SpectrumModel {
   // The shortest fetch [m] at which the model's sea counts as fully developed.
   double (*fully_developed_fetch)(double wind_speed_10m);
 
-  // The spectrum for a wind [m/s, above 0] and a fetch [m, above 0; infinity means fully developed]. A model that does
-  // not take a spreading ignores the one given.
+  // The spectrum for a wind [m/s, above 0] and a fetch [m, above 0; infinity means fully developed]. A model that
+  // does not take a spreading ignores the one given.
   std::shared_ptr<const WaveSpectrum> (*make)(double wind_speed_10m, double fetch,
                                               const Cosine2sSpreading& spreading);
 };
@@ -45,8 +45,9 @@ inline constexpr double kFullyDevelopedOmega = 0.84;
 // gamma^Gamma, the peak of a growing sea over that of a fully developed one: JONSWAP's enhancement with the widths of
 // Donelan et al. (1985), for a sea of inverse wave age Omega.
 //
-// Source: Birkebak et al. (2018), Eq. 6-9; Elfouhaily et al. (1997), Eq. 3. The logarithm is of base 10. The formula is
-// published for Omega from 1 to 5, but short fetches reach higher values: outside that range gamma keeps its end value.
+// Source: Birkebak et al. (2018), Eq. 6-9; Elfouhaily et al. (1997), Eq. 3. The logarithm is of base 10. The formula
+// is published for Omega from 1 to 5, but short fetches reach higher values: outside that range gamma keeps its end
+// value.
 class JonswapPeak {
  public:
   explicit JonswapPeak(double omega);

@@ -13,8 +13,8 @@
 namespace albtpu {
 namespace {
 
-// A made-up sea with the same curvature k^3 S = c at all wavenumbers from k1 to k2 and the same waves in all directions.
-// Its mean square slope is c ln(k2 / k1), its variance of elevation c (1 / k1^2 - 1 / k2^2) / 2.
+// A made-up sea with the same curvature k^3 S = c at all wavenumbers from k1 to k2 and the same waves in all
+// directions. Its mean square slope is c ln(k2 / k1), its variance of elevation c (1 / k1^2 - 1 / k2^2) / 2.
 class BandSpectrum final : public WaveSpectrum {
  public:
   static constexpr double kLevel = 0.01, kLowest = 1, kHighest = 100;

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "sea/spectra/wave_spectrum.h"
 
@@ -17,7 +18,7 @@ double AngularFrequency(double k) {
   return std::sqrt(kGravity * k + kTensionOverDensity * k * k * k);
 }
 
-// The one real root of k^3 + p k = q, by hyperbolic functions.
+// The only real root of k^3 + p k = q, by hyperbolic functions.
 double Wavenumber(double omega) {
   assert(omega >= 0);
   const double p = kGravity / kTensionOverDensity;
@@ -29,6 +30,27 @@ double Wavenumber(double omega) {
 double GroupSpeed(double k) {
   assert(k > 0);
   return (kGravity + 3 * kTensionOverDensity * k * k) / (2 * AngularFrequency(k));
+}
+
+double FrequencySpectrum(const SeaState& sea, double frequency) {
+  const double k = Wavenumber(2 * std::numbers::pi * frequency);
+  return 2 * std::numbers::pi * sea.S(k) / GroupSpeed(k);
+}
+
+double PeakFrequency(const SeaState& sea) {
+  constexpr double kStep = 1e-4;  // of the logarithm of the frequency
+  const auto [lowest, highest] = sea.energetic_range();
+  const double first = AngularFrequency(lowest) / (2 * std::numbers::pi);
+  const double last = AngularFrequency(highest) / (2 * std::numbers::pi);
+  double peak = first, height = 0;
+  for (double f = first; f <= last; f *= 1 + kStep) {
+    const double here = FrequencySpectrum(sea, f);
+    if (here > height) {
+      peak = f;
+      height = here;
+    }
+  }
+  return peak;
 }
 
 }  // namespace albtpu

@@ -24,20 +24,20 @@ EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const
       if (i == 0 && j == 0) continue;
       const double k = dk * std::hypot(i, j);
       const double psi = std::atan2(j, i);
-      // Half of an amplitude whose real and imaginary parts have the variance Psi dkx dky each.
-      const double forth = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi));
-      const double back = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi + std::numbers::pi));
+      // Half of an amplitude whose real and imaginary parts each have the variance Psi dkx dky.
+      const double forward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi));
+      const double backward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi + std::numbers::pi));
       const double* normal = &normals[4 * j];
-      modes_[static_cast<std::size_t>(row) * half + j] = {AngularFrequency(k),
-                                                          forth * std::complex<double>(normal[0], normal[1]),
-                                                          back * std::complex<double>(normal[2], normal[3])};
+      modes_[static_cast<std::size_t>(row) * half + j] = {
+          AngularFrequency(k), forward * std::complex<double>(normal[0], normal[1]),
+          backward * std::complex<double>(normal[2], normal[3])};
     }
   }
-  // Both halves of the column j = 0 are stored: what goes forth in one comes back in its mirror.
+  // Both halves of the column j = 0 are stored: each mode is the mirror of the one at -i.
   for (int i = 1; i < size / 2; ++i) {
     const Mode& upper = modes_[static_cast<std::size_t>(i) * half];
-    modes_[static_cast<std::size_t>(size - i) * half] = {upper.angular_frequency, std::conj(upper.back),
-                                                         std::conj(upper.forth)};
+    modes_[static_cast<std::size_t>(size - i) * half] = {upper.angular_frequency, std::conj(upper.backward),
+                                                         std::conj(upper.forward)};
   }
 }
 
@@ -45,7 +45,7 @@ std::vector<double> EvolvingPatch::HeightsAt(double time) const {
   InverseFft::Modes amplitudes = transform_.Allocate();
   for (std::size_t m = 0; m < modes_.size(); ++m) {
     const std::complex<double> turn = std::polar(1.0, -modes_[m].angular_frequency * time);
-    amplitudes[m] = modes_[m].forth * turn + modes_[m].back * std::conj(turn);
+    amplitudes[m] = modes_[m].forward * turn + modes_[m].backward * std::conj(turn);
   }
   return transform_(std::move(amplitudes));
 }

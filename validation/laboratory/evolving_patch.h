@@ -1,4 +1,4 @@
-// A patch of sea that evolves in time: random waves, each travelling by the dispersion of dispersion.h.
+// A patch of sea that evolves in time: random waves that travel by the dispersion of dispersion.h.
 #pragma once
 
 #include <complex>
@@ -12,21 +12,22 @@ namespace albtpu {
 
 // One realization of a periodic square patch. Immutable.
 //
-// The waves with the wavenumbers k and -k travel in opposite directions and are independent; with complex
-// amplitudes a(k) of power 2 Psi(k) dkx dky, Psi directional, the elevation is the real part of the sum of
-// a(k) exp(i (k . x - omega t)). At any instant that is a frozen surface with the spectrum SeaState::Psi.
+// The waves with the wavenumbers k and -k travel in opposite directions and are independent. With complex
+// amplitudes a(k) of power 2 Psi(k) dkx dky, where Psi is directional, the elevation is the real part of the sum of
+// a(k) exp(i (k . x - omega t)). At any instant this is a frozen surface with the spectrum SeaState::Psi.
 class EvolvingPatch {
  public:
-  // `length` [m] of a side, `size` points along it, even. Modes at half the sampling wavenumber stay empty.
+  // `length` [m] is that of a side, `size` the number of points along it, even. Modes at half the sampling wavenumber
+  // are zero.
   EvolvingPatch(const SeaState& sea, double length, int size, const NormalStream& stream);
 
-  // Elevations [m] at the points (ix, iy), ix slow, `time` [s] after the beginning.
+  // Elevations [m] at the points (ix, iy), iy varying fastest, `time` [s] after the start.
   std::vector<double> HeightsAt(double time) const;
 
  private:
-  struct Mode {  // of the half plane that an InverseFft stores
+  struct Mode {  // of the half plane of wavenumbers that is stored
     double angular_frequency;
-    std::complex<double> forth, back;  // half of a(k), and of the conjugate of a(-k)
+    std::complex<double> forward, backward;  // half of a(k), and of the conjugate of a(-k)
   };
 
   InverseFft transform_;

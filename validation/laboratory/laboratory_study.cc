@@ -1,5 +1,3 @@
-#include "validation/laboratory/laboratory_study.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "sea/sea_state.h"
+#include "validation/laboratory/laboratory_studies.h"
 #include "validation/laboratory/tank_frames.h"
 #include "validation/laboratory/tank_sensitivity.h"
 #include "validation/laboratory/virtual_tank.h"
@@ -20,8 +19,9 @@
 namespace albtpu {
 namespace {
 
-constexpr int kFrames = 400;  // of each cell: 20 s at 20 Hz
-// The scatter of a published 2 sigma: sqrt(1 / (2 (frames - 1))), frames independent and centroids normal.
+constexpr int kFrames = 400;  // for each cell: 20 s at 20 Hz
+// The relative scatter of a published 2 sigma: sqrt(1 / (2 (frames - 1))) for independent frames and normal
+// centroids.
 constexpr double kPublishedRelativeError = 0.0354;
 
 struct TankCell {                // of Table 4; 2 sigma in degrees
@@ -64,7 +64,7 @@ std::vector<double> WindsOf(const std::vector<TankCell>& cells) {
   return winds;
 }
 
-// Independent frames; the incidences of one wind look at the same water.
+// Independent frames; all incidences of one wind see the same waves.
 void Measure(std::vector<TankCell>& cells, std::uint64_t seed) {
   std::uint32_t draw = 0;
   for (const double wind : WindsOf(cells)) {
@@ -89,8 +89,8 @@ void Measure(std::vector<TankCell>& cells, std::uint64_t seed) {
 DataTable TableOfCells(const std::vector<TankCell>& cells) {
   DataTable table{
       "table_4",
-      "2 sigma of refraction by the array of photodiodes: published, ours, and the full beam of the same "
-      "frames",
+      "2 sigma refraction measured by the photodiode array: published, simulated, and of the full beam in "
+      "the same frames",
       {"wind_speed_m_s", "incidence_deg", "published_along_wind_deg", "along_wind_deg",
        "along_wind_standard_error_deg", "published_cross_wind_deg", "cross_wind_deg",
        "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg"},
@@ -104,7 +104,7 @@ DataTable TableOfCells(const std::vector<TankCell>& cells) {
   return table;
 }
 
-// The slope of a line through 2 sigma over wind at one incidence, degrees per m/s, by least squares.
+// The slope of the least-squares line through 2 sigma over wind at one incidence, degrees per m/s.
 Estimate Trend(const std::vector<double>& winds, const std::vector<Estimate>& angles) {
   double mean = 0, spread = 0;
   for (const double wind : winds) mean += wind / static_cast<double>(winds.size());
@@ -150,7 +150,7 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
     return comparisons.back();
   };
   const std::string basis =
-      "without a verdict: an order of magnitude, since aperture and profile are not published";
+      "no verdict: only the order of magnitude can be compared, since aperture and profile are not published";
   for (const TankCell& cell : cells) {
     const std::string where = absl::StrFormat("%g m/s, incidence %g deg", cell.wind_speed, cell.incidence);
     compare("photodiodes, 2 sigma along wind, " + where, cell.published_along, cell.array.along_wind, basis);
@@ -161,8 +161,8 @@ std::vector<Comparison> Comparisons(const std::vector<TankCell>& cells) {
     Comparison& trend = compare(
         absl::StrFormat("photodiodes, rise of 2 sigma along wind with wind, incidence %g deg", incidence),
         trends.published.value, trends.ours,
-        absl::StrFormat("within 3 standard errors of the difference, the published one from 400 frames a "
-                        "cell: %.2g deg/(m/s)",
+        absl::StrFormat("within 3 standard errors of the difference; that of the published slope follows "
+                        "from 400 frames a cell: %.2g deg/(m/s)",
                         trends.published.standard_error));
     trend.unit = "deg/(m/s)";
     const double error = std::hypot(trends.published.standard_error, trends.ours.standard_error);
@@ -194,13 +194,13 @@ std::string SizeParagraph(const std::vector<TankCell>& cells) {
   const Range shape =
       RangeOf(cells, [](const TankCell& c) { return c.array.along_wind.value / c.array.cross_wind.value; });
   return absl::StrFormat(
-      "The array's 2 sigma along the wind runs from %.1f to %.1f degrees over the cells; the paper "
-      "measured %.1f to %.1f. Along over cross wind it is %.2f to %.2f. The centroid of the whole beam in "
-      "the same frames moves by %.2f to %.2f degrees only: the array shows %.0f to %.0f times that. The "
-      "waves of the tank are shorter than the footprint and average out over it, but each of them focuses "
-      "light, and 36 small windows catch some of the bright patches and miss others. So the published angles "
-      "can be explained, in size and in isotropy, by the sampling of caustics, without a motion of the "
-      "beam.",
+      "The 2 sigma along the wind that the simulated array measures ranges from %.1f to %.1f degrees over "
+      "the cells; the paper measured %.1f to %.1f. The ratio of along wind to cross wind is %.2f to %.2f. In "
+      "the same frames the centroid of the whole beam moves by only %.2f to %.2f degrees: the array shows "
+      "%.0f to %.0f times that. The waves of the tank are shorter than the footprint and average out over "
+      "it, but each of them focuses light, and 36 small windows catch some of the bright patches and miss "
+      "others. The sampling of caustics can therefore explain the published angles, both their size and "
+      "their isotropy, without any motion of the beam.",
       ours.least, ours.most, published.least, published.most, shape.least, shape.most, beam.least, beam.most,
       excess.least, excess.most);
 }
@@ -218,24 +218,24 @@ std::string TrendParagraph(const std::vector<TankCell>& cells, const std::vector
   const Trends nadir = AlongWindTrends(cells, 0);
   const std::string own_height = "wind, waves of the spectrum's own height (m/s)";
   return absl::StrFormat(
-      "It does not rise with wind as Table 4 does. At nadir the published 2 sigma along the wind changes "
-      "by %+.2f +- %.2f degrees per m/s, ours by %+.2f +- %.2f. With one wave height at all winds, a "
-      "stronger wind only has longer waves. The array's 2 sigma has a maximum over wave height (last "
-      "figure), where the depth of the array is that of the sharpest caustics; beyond it the light is "
-      "evener again. With waves that grow with the wind, at the spectrum's own height of %.1f mm at 2 m/s "
-      "and %.1f mm at 5.25 m/s, it does rise, from %.2f to %.2f degrees. Table 2 gives heights at one "
-      "wind, which it does not state, so this stays open.",
+      "The simulated 2 sigma does not rise with wind as Table 4 does. At nadir the published 2 sigma along "
+      "the wind changes by %+.2f +- %.2f degrees per m/s, ours by %+.2f +- %.2f. With the same wave height "
+      "at all winds, a stronger wind only makes longer waves. As a function of wave height (last figure) the "
+      "array's 2 sigma has a maximum where the sharpest caustics form at the depth of the array; for higher "
+      "waves the light is more even again. If the waves grow with the wind, to the spectrum's own height of "
+      "%.1f mm at 2 m/s and %.1f mm at 5.25 m/s, the 2 sigma does rise, from %.2f to %.2f degrees. Table 2 "
+      "gives heights at one wind only and does not state that wind, so the question stays open.",
       nadir.published.value, nadir.published.standard_error, nadir.ours.value, nadir.ours.standard_error,
-      1000 * OwnTankWaveHeight(2), 1000 * OwnTankWaveHeight(5.25), Along(variations, own_height, 2),
+      1000 * UnscaledTankWaveHeight(2), 1000 * UnscaledTankWaveHeight(5.25), Along(variations, own_height, 2),
       Along(variations, own_height, 5.25));
 }
 
 std::string SensitivityParagraph(const std::vector<TankVariation>& variations) {
   return absl::StrFormat(
-      "It is an order of magnitude and no more. At nadir in 2 m/s the 2 sigma along the wind is %.2f "
-      "degrees with apertures of 0.4 cm, %.2f with 1 cm, %.2f with 2 cm and %.2f with windows that touch "
-      "each other; %.2f with 1 cm under a gaussian beam; %.2f with 15 x 15 detectors and %.2f with 30 x 30 "
-      "in the same square; %.2f with a quarter of the rays. All of these see the same waves. The scaled "
+      "The agreement is one of order of magnitude only. At nadir and 2 m/s the 2 sigma along the wind is "
+      "%.2f degrees with apertures of 0.4 cm, %.2f with 1 cm, %.2f with 2 cm and %.2f with windows that "
+      "touch each other; %.2f with 1 cm under a gaussian beam; %.2f with 15 x 15 detectors and %.2f with 30 "
+      "x 30 in the same square; %.2f with a quarter of the rays. All of these see the same waves. The scaled "
       "sea is steep, with a mean square slope of %.3f at 2 m/s.",
       Along(variations, "aperture (cm)", 0.4), Along(variations, "aperture (cm)", 1),
       Along(variations, "aperture (cm)", 2), Along(variations, "aperture (cm)", 5),
@@ -246,18 +246,18 @@ std::string SensitivityParagraph(const std::vector<TankVariation>& variations) {
 
 std::string GridParagraph(const std::vector<TankVariation>& variations) {
   return absl::StrFormat(
-      "The grid of 2 mm is not the limit: 4 mm makes %.2f degrees, 1 mm %.2f and 0.5 mm %.2f. A facet "
-      "refracts all its light alike, so that large ones make light of their own unevenness; and a finer "
-      "grid has shorter waves, which blur the caustics. Rays and patch are at their limits: four times the "
-      "rays make %.2f, twice the side of the patch %.2f, and three other draws of the waves %.2f, %.2f and "
-      "%.2f.",
+      "The result has not converged at the grid of 2 mm: 4 mm gives %.2f degrees, 1 mm %.2f and 0.5 mm %.2f. "
+      "A facet refracts all its light in the same direction, so large facets add unevenness of their own; "
+      "and a finer grid holds shorter waves, which blur the caustics. The number of rays and the size of the "
+      "patch have converged: four times the rays give %.2f, twice the side of the patch %.2f, and three "
+      "other random draws of the waves %.2f, %.2f and %.2f.",
       Along(variations, "grid (mm)", 4), Along(variations, "grid (mm)", 1),
       Along(variations, "grid (mm)", 0.5), Along(variations, "rays", 160000),
       Along(variations, "side of the patch (m)", 2.048), Along(variations, "other waves", 1),
       Along(variations, "other waves", 2), Along(variations, "other waves", 3));
 }
 
-// Over the independent frames of the same wind, at nadir.
+// The evolving sea over independent frames of the same wind, at nadir.
 std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const std::vector<TankCell>& cells) {
   double least = std::numeric_limits<double>::infinity(), most = 0, alike = 0;
   for (const EvolvingTank& tank : evolving) {
@@ -273,10 +273,10 @@ std::string EvolvingParagraph(const std::vector<EvolvingTank>& evolving, const s
   const std::string ratios = evolving.size() == 1 ? absl::StrFormat("%.2f", least)
                                                   : absl::StrFormat("between %.2f and %.2f", least, most);
   return absl::StrFormat(
-      "In a water that evolves in time, 20 frames a second for 20 s as in the laboratory, the 2 sigma "
-      "along the wind at nadir is %s of that of independent frames (winds in the "
-      "table). The centroid hardly remembers the frame before (correlation at most %.2f in magnitude): "
-      "within 50 ms the bright patches have moved from window to window.",
+      "With waves that evolve in time, at 20 frames per second for 20 s as in the laboratory, the 2 sigma "
+      "along the wind at nadir is %s of that of independent frames (the table has the winds). Successive "
+      "centroids are hardly correlated (at most %.2f in magnitude): within 50 ms the bright patches have "
+      "moved from window to window.",
       ratios, alike);
 }
 
@@ -294,31 +294,32 @@ absl::StatusOr<Study> LaboratoryStudy(const StudyOptions& options) {
   study.id = "table_4";
   study.title = "Table 4: the laboratory";
   study.paragraphs = {
-      "The virtual tank: a point source 4 m above the water makes a uniform beam of 0.25 m on it; 40 000 "
-      "rays refract through waves on a grid of 2 mm and fall on 6 x 6 photodiodes on a pitch of 5 cm, 0.25 "
-      "m below the mean surface, centred where still water would put the axis of the beam. The aperture is "
-      "not published: round windows of 1 cm are assumed. The waves are Apel's at 30 m of fetch, scaled to "
-      "the significant wave height of 9 mm that Table 2 measured. Of 400 independent frames the centroids "
-      "of the 36 samples (Eq. 20 and 21, read as first moments) become angles by Eq. 18 and 19, literally.",
+      "The virtual tank: a point source 4 m above the water makes a uniform beam, 0.25 m wide on the water. "
+      "40 000 rays are refracted by waves on a grid of 2 mm and fall on 6 x 6 photodiodes at a pitch of 5 "
+      "cm, 0.25 m below the mean surface, centred where the axis of the beam would arrive through still "
+      "water. The aperture is not published: round windows of 1 cm are assumed. The waves follow Apel's "
+      "spectrum at 30 m of fetch, scaled to the significant wave height of 9 mm measured in Table 2. In 400 "
+      "independent frames the centroids of the 36 samples (Eq. 20 and 21, read as first moments) are "
+      "converted to angles by Eq. 18 and 19 as printed.",
       SizeParagraph(*cells), TrendParagraph(*cells, variations), SensitivityParagraph(variations),
       EvolvingParagraph(evolving, *cells)};
   study.paragraphs.push_back(
-      options.quick ? "Quick: three of six winds and two of four incidences, the evolving water at "
-                      "one wind, no other grids, patches and draws; the full run has them."
+      options.quick ? "Quick run: three of six winds and two of four incidences, evolving waves at one wind, "
+                      "no other grids, patches and draws; the full run has them."
                     : GridParagraph(variations));
   study.comparisons = Comparisons(*cells);
   study.tables = {TableOfCells(*cells), TableOf(variations), TableOf(evolving),
                   LightUnderWaves(options.seed)};
   study.figures = {
       {"table_4",
-       "2 sigma of refraction by wind, along and across: measured, the virtual array, and the full beam "
-       "in the same frames."},
+       "2 sigma refraction over wind, along and across the wind: measured, by the virtual array, and of the "
+       "full beam in the same frames."},
       {"table_4_light",
-       "The light of one frame 0.25 m below the surface, and the windows through which 36 "
-       "photodiodes of 1 cm see it."},
+       "The light of one frame 0.25 m below the surface, and the windows of the 36 photodiodes of 1 cm that "
+       "sample it."},
       {"table_4_sensitivity",
-       "The virtual array at nadir: how its 2 sigma along the wind moves with aperture and "
-       "profile, number of detectors and wave height."}};
+       "The virtual array at nadir: its 2 sigma along the wind as a function of aperture and profile, number "
+       "of detectors and wave height."}};
   return study;
 }
 

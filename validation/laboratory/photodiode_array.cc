@@ -15,7 +15,7 @@ PhotodiodeArray::PhotodiodeArray(const PhotodiodeArrayOptions& options, const Ei
 
 std::optional<Eigen::Vector2d> PhotodiodeArray::Centroid(const std::vector<Eigen::Vector2d>& spots) const {
   const double radius = 0.5 * options_.aperture;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the centres of the photodiodes that were hit
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the centre of the photodiode of each hit
   long hits = 0;
   for (const Eigen::Vector2d& spot : spots) {
     const Eigen::Array2d nearest = ((spot - corner_) / options_.pitch).array().round();

@@ -1,6 +1,6 @@
-// The laboratory's detector: a square array of photodiodes under water, and the centroid of what they see.
+// The detector of the laboratory: a square array of photodiodes under water, and the centroid of their signals.
 //
-// Source: Birkebak et al. (2018), section 2.2. The paper does not tell the aperture: 1 cm is assumed.
+// Source: Birkebak et al. (2018), section 2.2. The paper does not state the aperture: 1 cm is assumed.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,23 +18,23 @@ struct PhotodiodeArrayOptions {
   double aperture = 0.01;  // m, diameter of the round window of one photodiode, at most the pitch
 };
 
-// Immutable. Its rows lie along x and y.
+// Immutable. Rows and columns are along x and y.
 class PhotodiodeArray {
  public:
   PhotodiodeArray(const PhotodiodeArrayOptions& options, const Eigen::Vector2d& centre);
 
-  // The centroid of the samples, sum(x I) / sum(I), the intensity I of a photodiode being the number of
-  // spots within its aperture. (Eq. 20 and 21 as M10 / M00 and M01 / M00: as printed, the denominator is a
-  // signed sum that can vanish.) None in the dark.
+  // The centroid of the samples, sum(x I) / sum(I), where the intensity I of a photodiode is the number of spots
+  // within its aperture. (Eq. 20 and 21 are read as M10 / M00 and M01 / M00: as printed, the denominator is a signed
+  // sum that can vanish.) None if no photodiode is lit.
   std::optional<Eigen::Vector2d> Centroid(const std::vector<Eigen::Vector2d>& spots) const;
 
  private:
   PhotodiodeArrayOptions options_;
-  Eigen::Vector2d corner_;  // the centre of the photodiode of least x and y
+  Eigen::Vector2d corner_;  // the centre of the photodiode with the least x and y
 };
 
-// Where the rays, refracted by the water, pass the plane `depth` [m] below the mean surface. Rays, water
-// and spots are in the same coordinates. Every ray carries the same power.
+// The points where the refracted rays cross the plane `depth` [m] below the mean surface. Rays, water and spots are
+// in the same coordinates. Every ray carries the same power.
 std::vector<Eigen::Vector2d> SpotsAtDepth(const std::vector<Ray>& rays, const HeightField& water,
                                           double refractive_index, double depth);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFrameRate = 20;  // Hz
 
-// The correlation of a sample with itself one frame later.
+// The correlation of a series with itself one frame later.
 double CorrelationWithNext(const Eigen::ArrayXd& sample) {
   const Eigen::Index n = sample.size();
   const Eigen::ArrayXd deviation = sample - sample.mean();
@@ -23,7 +23,7 @@ DataTable LightUnderWaves(std::uint64_t seed) {
   constexpr int kBins = 150;
   TankExperiment experiment;
   experiment.rays = 1'000'000;
-  experiment.grid.size = 2048;  // 0.5 mm: facets that do not show
+  experiment.grid.size = 2048;  // 0.5 mm, so that single facets do not show
   const WaterOfFrame water = IndependentFrames(TankSea(2, kTankWaveHeight), experiment.grid, seed, 0);
   std::vector<double> light(kBins * kBins, 0.0);
   for (const Eigen::Vector2d& spot : LightOfFrame(experiment, water(0))) {
@@ -31,13 +31,12 @@ DataTable LightUnderWaves(std::uint64_t seed) {
     if ((bin < 0).any() || (bin >= kBins).any()) continue;
     light[static_cast<int>(bin.x()) * kBins + static_cast<int>(bin.y())] += 1;
   }
-  DataTable table{
-      "table_4_light",
-      "Where the light of one frame falls at the depth of the array, 2 m/s, nadir; irradiance over its mean "
-      "on the water",
-      {"along_wind_m", "cross_wind_m", "irradiance"},
-      {},
-      false};
+  DataTable table{"table_4_light",
+                  "Light of one frame at the depth of the array, 2 m/s, nadir: irradiance relative to its "
+                  "mean on the water",
+                  {"along_wind_m", "cross_wind_m", "irradiance"},
+                  {},
+                  false};
   const double footprint = experiment.beams.front().footprint;
   const double rays_of_bin =
       experiment.rays * kBin * kBin / (0.25 * std::numbers::pi * footprint * footprint);
@@ -71,8 +70,8 @@ std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, in
 DataTable TableOf(const std::vector<EvolvingTank>& tanks) {
   DataTable table{
       "table_4_evolving",
-      "The array at nadir in a water that evolves in time, 20 frames a second: standard errors as if "
-      "frames were independent, and how alike one is to the next",
+      "The array at nadir under waves that evolve in time, 20 frames per second: standard errors as if "
+      "frames were independent, and the correlation of each frame with the next",
       {"wind_speed_m_s", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
        "cross_wind_standard_error_deg", "full_beam_along_wind_deg", "full_beam_cross_wind_deg",
        "array_correlation_with_next_frame", "full_beam_correlation_with_next_frame"},

@@ -1,4 +1,4 @@
-// Frames of the virtual tank one by one: what the light under the waves looks like, and how it goes on.
+// Single frames of the virtual tank: the pattern of light under the waves, and its change from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace albtpu {
 
-// Where the light of one frame falls at the depth of the array, 2 m/s, nadir.
+// The light of one frame at the depth of the array, 2 m/s, nadir.
 DataTable LightUnderWaves(std::uint64_t seed);
 
-// What the array at nadir says of one water as it evolves, 20 frames a second as in the laboratory.
+// The readings of the array at nadir over one sea as it evolves, at 20 frames per second as in the laboratory.
 struct EvolvingTank {
   double wind_speed;  // m/s
   CentroidScatter array, full_beam;
-  double array_correlation, full_beam_correlation;  // of the angle along the wind with that of the next frame
+  double array_correlation, full_beam_correlation;  // of the along-wind angle with that of the next frame
 };
 std::vector<EvolvingTank> WatchEvolvingTank(const std::vector<double>& winds, int frames, std::uint64_t seed);
 

@@ -11,7 +11,7 @@ constexpr double kWind = 2;  // m/s
 constexpr double kStrongWind = 5.25;
 constexpr double kSide = 0.3;  // m, of the array: detectors times pitch
 
-// What is varied between the arrays of one light.
+// One of several arrays under the same light.
 struct VariedArray {
   std::string parameter;
   double value;
@@ -39,7 +39,7 @@ std::vector<VariedArray> PitchesAndDetectors() {
   return varied;
 }
 
-// Runs experiments and keeps what came out. All see the same random waves, but for `draw`.
+// Runs experiments and collects their results. Experiments with the same `draw` see the same random waves.
 class Variations {
  public:
   explicit Variations(std::uint64_t seed) : seed_(seed) {}
@@ -82,7 +82,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
   variations.Run(gaussian, sea, Apertures("aperture, gaussian beam (cm)"));
 
   for (const double wind : {kWind, kStrongWind}) {
-    variations.Run(TankExperiment(), TankSea(wind, OwnTankWaveHeight(wind)),
+    variations.Run(TankExperiment(), TankSea(wind, UnscaledTankWaveHeight(wind)),
                    "wind, waves of the spectrum's own height (m/s)", wind);
   }
   const std::vector<double> heights =
@@ -117,7 +117,7 @@ std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed) {
 
 DataTable TableOf(const std::vector<TankVariation>& variations) {
   DataTable table{"table_4_sensitivity",
-                  "The array at nadir in 2 m/s and waves of 9 mm, with one thing changed at a time",
+                  "The array at nadir, 2 m/s, wave height 9 mm, with one parameter changed at a time",
                   {"parameter", "value", "along_wind_deg", "along_wind_standard_error_deg", "cross_wind_deg",
                    "cross_wind_standard_error_deg", "full_beam_along_wind_deg"},
                   {}};

@@ -1,4 +1,4 @@
-// How the refraction that the laboratory's array measures depends on what the paper does not tell.
+// The sensitivity of the refraction measured by the laboratory's array to what the paper does not state.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct TankVariation {
   CentroidScatter array, full_beam;
 };
 
-// The array of Table 4 at nadir in 2 m/s and waves of 9 mm with one thing changed at a time: aperture,
-// pitch, number of detectors, profile, wave height (also at 5.25 m/s), and what is ours: rays, grid, patch,
-// other random waves.
+// The array of Table 4 at nadir, at 2 m/s and a wave height of 9 mm, with one parameter changed at a time: aperture,
+// pitch, number of detectors, profile and wave height (also at 5.25 m/s), and of the simulation itself the number of
+// rays, the grid, the patch and the random waves.
 std::vector<TankVariation> TankSensitivity(bool quick, std::uint64_t seed);
 
 DataTable TableOf(const std::vector<TankVariation>& variations);

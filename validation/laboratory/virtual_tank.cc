@@ -18,7 +18,7 @@
 namespace albtpu {
 namespace {
 
-// What the detectors say of one frame.
+// The readings of the detectors in one frame.
 struct Frame {
   Eigen::Vector2d full_beam;
   std::vector<std::optional<Eigen::Vector2d>> arrays;
@@ -44,7 +44,7 @@ struct PreparedBeam {
     }
   }
 
-  Frame Photograph(const HeightField& water, const TankExperiment& experiment) const {
+  Frame Observe(const HeightField& water, const TankExperiment& experiment) const {
     const auto spots = SpotsAtDepth(rays, water, experiment.refractive_index, experiment.depth);
     Frame frame{MeanOf(spots), {}};
     for (const PhotodiodeArray& array : arrays) frame.arrays.push_back(array.Centroid(spots));
@@ -52,7 +52,7 @@ struct PreparedBeam {
   }
 };
 
-// The patch about the origin as far as `points` reach; the patch repeats.
+// The part of the periodic patch about the origin that `points` along each side cover.
 HeightField WindowOf(const std::vector<double>& patch, const TankGrid& grid, int points) {
   std::vector<double> heights(static_cast<std::size_t>(points) * points);
   for (int i = 0; i < points; ++i) {
@@ -64,7 +64,7 @@ HeightField WindowOf(const std::vector<double>& patch, const TankGrid& grid, int
   return HeightField(std::move(heights), points, grid.length / grid.size);
 }
 
-// Points along a window that holds every ray, an odd number. Waves of a few centimetres move the meeting by
+// The odd number of points along a window that holds every ray. Waves of a few centimetres shift the intersections by
 // less than the margin.
 int PointsToHold(const std::vector<PreparedBeam>& beams, double spacing) {
   constexpr double kMargin = 0.02;  // m
@@ -92,18 +92,18 @@ CentroidAngles AnglesOf(const std::vector<std::optional<Eigen::Vector2d>>& centr
 
 }  // namespace
 
-double OwnTankWaveHeight(double wind_speed_10m) {
+double UnscaledTankWaveHeight(double wind_speed_10m) {
   return 4 * std::sqrt(ElevationVariance(SeaState(wind_speed_10m, kTankFetch)));
 }
 
 SeaState TankSea(double wind_speed_10m, double significant_wave_height) {
   return SeaState({.waves = WindSea{.wind_speed_10m = wind_speed_10m, .fetch = kTankFetch},
-                   .height_scale = significant_wave_height / OwnTankWaveHeight(wind_speed_10m)});
+                   .height_scale = significant_wave_height / UnscaledTankWaveHeight(wind_speed_10m)});
 }
 
 WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
                                std::uint32_t cell) {
-  // The tank's waves are much shorter than the patch, so it takes all of them.
+  // The waves of the tank are much shorter than the patch, so the patch takes all of them.
   const double longer_than_all = 0.5 * sea.energetic_range().lowest;
   const auto model = std::make_shared<const WavePatchModel>(
       sea, grid.length, grid.size, CrossFade(0.5 * longer_than_all, longer_than_all));
@@ -135,12 +135,12 @@ std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const Wat
   std::vector<std::vector<Frame>> frames(experiment.frames);  // of each beam
   tbb::parallel_for(0, experiment.frames, [&](int f) {
     const HeightField window = WindowOf(water(f), experiment.grid, points);
-    for (const PreparedBeam& beam : beams) frames[f].push_back(beam.Photograph(window, experiment));
+    for (const PreparedBeam& beam : beams) frames[f].push_back(beam.Observe(window, experiment));
   });
 
   std::vector<TankReading> readings;
   for (std::size_t b = 0; b < beams.size(); ++b) {
-    const Frame still = beams[b].Photograph(still_water, experiment);
+    const Frame still = beams[b].Observe(still_water, experiment);
     const auto angles_of = [&](auto&& centroid_of) {
       std::vector<std::optional<Eigen::Vector2d>> centroids;
       for (const std::vector<Frame>& frame : frames) centroids.push_back(centroid_of(frame[b]));

@@ -1,4 +1,4 @@
-// The laboratory of Birkebak et al. (2018), section 2.2: a laser above a wave tank, photodiodes in its water.
+// The laboratory of Birkebak et al. (2018), section 2.2: a laser above a wave tank and photodiodes under its water.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,35 +14,35 @@
 
 namespace albtpu {
 
-// The sea that the paper fitted to its tank, Apel's, with all waves scaled to a significant wave height [m].
-inline constexpr double kTankFetch = 30;          // m, of the spectrum of Fig. 7
+// The sea that the paper fitted to its tank, of Apel's spectrum, scaled to a significant wave height [m].
+inline constexpr double kTankFetch = 30;          // m, of the spectrum in Fig. 7
 inline constexpr double kTankWaveHeight = 0.009;  // m, Table 2 at 6.5 to 8.5 m from the fan
 SeaState TankSea(double wind_speed_10m, double significant_wave_height);
-double OwnTankWaveHeight(double wind_speed_10m);  // m, the spectrum's own
+double UnscaledTankWaveHeight(double wind_speed_10m);  // m, of the spectrum before scaling
 
-// The elevations of the water in one frame: a periodic square patch, ix slow.
+// The elevations of the water in one frame: a periodic square patch, iy varying fastest.
 using WaterOfFrame = std::function<std::vector<double>(int frame)>;
 
 struct TankGrid {
   double length = 1.024;  // m, side of the patch
-  int size = 512;         // points along it, even: 2 mm apart
+  int size = 512;         // points along it, even; 2 mm apart
 };
 
-// Frames of water that have nothing to do with each other.
+// Frames of independent waves.
 WaterOfFrame IndependentFrames(const SeaState& sea, const TankGrid& grid, std::uint64_t seed,
                                std::uint32_t cell);
-// Frames of one evolving water, `rate` [Hz] of them in a second.
+// Frames of one sea that evolves in time, at `rate` [Hz].
 WaterOfFrame SuccessiveFrames(const SeaState& sea, const TankGrid& grid, double rate, std::uint64_t seed,
                               std::uint32_t cell);
 
-// A uniform beam of 0.25 m on the water, from a point 4 m above it. (60 mrad make 0.24 m.)
+// A uniform beam, 0.25 m wide on the water, from a point 4 m above it. (60 mrad make 0.24 m.)
 inline BeamOptions LaboratoryBeam(double incidence) {  // rad
   return {.incidence = incidence, .footprint = 0.25, .source_height = 4};
 }
 
 struct TankExperiment {
   std::vector<BeamOptions> beams = std::vector<BeamOptions>(1, LaboratoryBeam(0));
-  std::vector<PhotodiodeArrayOptions> arrays =  // each in the same light
+  std::vector<PhotodiodeArrayOptions> arrays =  // all in the same light
       std::vector<PhotodiodeArrayOptions>(1);
   double depth = 0.25;  // m, of the arrays below the mean surface
   int rays = 40000;
@@ -51,28 +51,28 @@ struct TankExperiment {
   int frames = 400;  // 20 s at 20 Hz
 };
 
-// Eq. 18 and 19 to the letter, atan(shift of a centroid / depth) against still water: rad, frame by frame.
-// Frames in which nothing was lit are left out.
+// Eq. 18 and 19 as printed, atan(shift of a centroid from still water / depth): rad, one value for each frame. Frames
+// in which no photodiode is lit are left out.
 struct CentroidAngles {
   Eigen::ArrayXd along_wind, cross_wind;
 };
 
-// 2 sigma, in degrees, as tables have it; standard errors hold for independent frames.
+// 2 sigma in degrees, as in tables; the standard errors hold for independent frames.
 struct CentroidScatter {
   Estimate along_wind, cross_wind;
 };
 CentroidScatter ScatterOf(const CentroidAngles& angles);
 
 struct TankReading {                   // of one beam
-  CentroidAngles full_beam;            // of all its light
-  std::vector<CentroidAngles> arrays;  // of the samples of each array
+  CentroidAngles full_beam;            // of the centroid of all its light
+  std::vector<CentroidAngles> arrays;  // of the centroid of each array's samples
 };
 
-// The arrays lie where still water would put the axis of the beam. Runs on all threads of the current TBB
-// arena.
+// The arrays are centred where the axis of the beam would arrive through still water. Runs on all threads of the
+// current TBB arena.
 std::vector<TankReading> ObserveTank(const TankExperiment& experiment, const WaterOfFrame& water);
 
-// Where the light of the first beam falls in one frame: the picture that its arrays sample.
+// The spots of the first beam in one frame: the pattern of light that its arrays sample.
 std::vector<Eigen::Vector2d> LightOfFrame(const TankExperiment& experiment, const std::vector<double>& water);
 
 }  // namespace albtpu

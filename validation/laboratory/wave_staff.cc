@@ -1,15 +1,24 @@
 #include "validation/laboratory/wave_staff.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <unsupported/Eigen/FFT>
 
 #include "validation/laboratory/dispersion.h"
-#include "validation/laboratory/frequency_spectrum.h"
 
 namespace albtpu {
+namespace {
+
+double MeanOf(const double* first, std::size_t count) {
+  return std::accumulate(first, first + count, 0.0) / static_cast<double>(count);
+}
+
+}  // namespace
 
 WaveStaff::WaveStaff(const SeaState& sea, int samples, double rate)
     : samples_(samples), power_(2 * static_cast<std::size_t>(samples), 0.0) {
@@ -34,6 +43,57 @@ std::vector<double> WaveStaff::Draw(NormalStream stream) const {
   std::vector<double> record(samples_);
   for (int n = 0; n < samples_; ++n) record[n] = elevation[n].real();
   return record;
+}
+
+double RecordSpectrum::PeakFrequency() const {
+  return resolution * static_cast<double>(std::max_element(density.begin(), density.end()) - density.begin());
+}
+
+double RecordSpectrum::SignificantWaveHeight() const {
+  return 4 * std::sqrt(resolution * std::accumulate(density.begin(), density.end(), 0.0));
+}
+
+RecordSpectrum WelchSpectrum(const std::vector<double>& record, double rate, int segment) {
+  assert(segment >= 2 && record.size() >= static_cast<std::size_t>(segment));
+  std::vector<double> window(segment);
+  for (int n = 0; n < segment; ++n) window[n] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * n / segment);
+  const double window_power = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);
+
+  RecordSpectrum spectrum{rate / segment, std::vector<double>(segment / 2 + 1, 0.0)};
+  Eigen::FFT<double> fft;
+  std::vector<double> piece(segment);
+  std::vector<std::complex<double>> modes;
+  int segments = 0;
+  for (std::size_t first = 0; first + segment <= record.size(); first += segment / 2, ++segments) {
+    const double mean = MeanOf(&record[first], segment);
+    for (int n = 0; n < segment; ++n) piece[n] = window[n] * (record[first + n] - mean);
+    fft.fwd(modes, piece);
+    for (int m = 0; m <= segment / 2; ++m) {
+      const double sides = m == 0 || m == segment / 2 ? 1 : 2;
+      spectrum.density[m] += sides * std::norm(modes[m]) / (rate * window_power);
+    }
+  }
+  for (double& density : spectrum.density) density /= segments;
+  return spectrum;
+}
+
+double HighestThird(const std::vector<double>& record) {
+  const double mean = MeanOf(record.data(), record.size());
+  std::vector<double> heights;
+  bool in_a_wave = false;
+  double crest = 0, trough = 0;
+  for (std::size_t n = 1; n < record.size(); ++n) {
+    if (record[n - 1] < mean && record[n] >= mean) {
+      if (in_a_wave) heights.push_back(crest - trough);
+      in_a_wave = true;
+      crest = trough = mean;
+    }
+    crest = std::max(crest, record[n]);
+    trough = std::min(trough, record[n]);
+  }
+  assert(heights.size() >= 3);
+  std::sort(heights.begin(), heights.end(), std::greater<>());
+  return MeanOf(heights.data(), heights.size() / 3);
 }
 
 }  // namespace albtpu

@@ -1,5 +1,3 @@
-#include "validation/laboratory/wave_staff_study.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,20 +11,19 @@
 #include "sea/sea_state.h"
 #include "sea/spectra/wave_spectrum.h"
 #include "validation/laboratory/dispersion.h"
-#include "validation/laboratory/frequency_spectrum.h"
-#include "validation/laboratory/wave_record.h"
+#include "validation/laboratory/laboratory_studies.h"
 #include "validation/laboratory/wave_staff.h"
 #include "validation/published/published_table.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kWind = 5.25;                          // m/s: Table 2 does not state its own
+constexpr double kWind = 5.25;                          // m/s; Table 2 does not state its wind
 constexpr double kWinds[] = {2, 2.5, 3, 3.5, 4, 5.25};  // m/s, Table 1
 constexpr double kModelFetch = 30;                      // m, of the spectrum fitted in Fig. 7
 
-// Section 2.2: 30 Hz for five minutes. How the spectrum was estimated is not told; segments of 8.5 s resolve
-// 0.12 Hz, about what Table 2 prints.
+// Section 2.2: 30 Hz for five minutes. The paper does not say how the spectrum was estimated; segments of 8.5 s
+// resolve 0.12 Hz, about the precision of Table 2.
 constexpr double kRate = 30;  // Hz
 constexpr int kSamples = 5 * 60 * 30;
 constexpr int kSegment = 256;
@@ -52,7 +49,7 @@ absl::StatusOr<Table2> ReadTable2(const std::filesystem::path& published) {
   return result;
 }
 
-// The spectrum's own numbers.
+// Computed from the spectrum.
 struct Waves {
   double peak_wavelength;          // m, 2 pi / k_p
   double peak_frequency;           // Hz, of the spectrum over frequency
@@ -64,7 +61,7 @@ Waves WavesOf(const SeaState& sea) {
           4 * std::sqrt(ElevationVariance(sea))};
 }
 
-// What a staff makes of the same sea: means over records.
+// Measured by a staff in the same sea: means over records.
 struct StaffReading {
   Estimate peak_frequency, significant_wave_height, highest_third;
   RecordSpectrum spectrum;
@@ -93,7 +90,7 @@ StaffReading Measure(const SeaState& sea, int records, std::uint64_t seed, std::
 DataTable TableOfFetches(const Table2& published, const std::vector<Waves>& ours) {
   DataTable table{
       "table_2",
-      "Waves by fetch: published, and Apel's spectrum at 5.25 m/s",
+      "Waves by fetch: published, and by Apel's spectrum at 5.25 m/s",
       {"fetch_m", "published_peak_wavelength_m", "peak_wavelength_m", "published_peak_frequency_hz",
        "peak_frequency_hz", "published_significant_wave_height_m", "significant_wave_height_m"},
       {}};
@@ -108,8 +105,8 @@ DataTable TableOfFetches(const Table2& published, const std::vector<Waves>& ours
 DataTable TableOfWinds(const Table2& published) {
   DataTable table{
       "table_2_winds",
-      "Apel's spectrum at the winds of the paper, at the fetches of Table 2 and at the 30 m that were "
-      "fitted to it",
+      "Apel's spectrum at the winds of the paper, for the fetches of Table 2 and for the 30 m that the paper "
+      "fitted",
       {"wind_speed_m_s", "fetch_m", "peak_wavelength_m", "peak_frequency_hz", "significant_wave_height_m"},
       {}};
   std::vector<double> fetches = published.fetch;
@@ -124,7 +121,7 @@ DataTable TableOfWinds(const Table2& published) {
   return table;
 }
 
-// The wavelength of waves of a frequency by gravity alone, g / (2 pi f^2), m.
+// The wavelength [m] at a frequency with gravity alone, g / (2 pi f^2).
 double GravityWavelength(double frequency) {
   return kGravity / (2 * std::numbers::pi * frequency * frequency);
 }
@@ -134,11 +131,12 @@ double CapillaryGravityWavelength(double frequency) {
 }
 
 DataTable TableOfDispersion(const Table2& published) {
-  DataTable table{"table_2_dispersion",
-                  "The wavelength of the published peak frequency, by gravity alone and with surface tension",
-                  {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
-                   "with_surface_tension_m"},
-                  {}};
+  DataTable table{
+      "table_2_dispersion",
+      "The wavelength at the published peak frequency, with gravity alone and with surface tension",
+      {"fetch_m", "published_peak_frequency_hz", "published_peak_wavelength_m", "gravity_alone_m",
+       "with_surface_tension_m"},
+      {}};
   for (std::size_t i = 0; i < published.fetch.size(); ++i) {
     const double f = published.peak_frequency[i];
     table.rows.push_back({published.fetch[i], f, published.peak_wavelength[i], GravityWavelength(f),
@@ -150,7 +148,7 @@ DataTable TableOfDispersion(const Table2& published) {
 DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
                        const std::vector<StaffReading>& staffs) {
   DataTable table{"table_2_staff",
-                  "A virtual staff in the sea of 5.25 m/s beside the spectrum that the sea was made from",
+                  "A virtual staff in the sea of 5.25 m/s, beside the spectrum from which the sea was made",
                   {"fetch_m", "spectrum_peak_frequency_hz", "staff_peak_frequency_hz",
                    "staff_peak_frequency_standard_error_hz", "spectrum_significant_wave_height_m",
                    "staff_significant_wave_height_m", "staff_significant_wave_height_standard_error_m",
@@ -167,11 +165,12 @@ DataTable TableOfStaff(const Table2& published, const std::vector<Waves>& ours,
 }
 
 DataTable TableOfSpectra(const Table2& published, const std::vector<StaffReading>& staffs) {
-  DataTable table{"table_2_spectrum",
-                  "The spectrum of elevation over frequency at 5.25 m/s, and as the virtual staff finds it",
-                  {"fetch_m", "frequency_hz", "spectrum_m2_per_hz", "staff_m2_per_hz"},
-                  {},
-                  false};
+  DataTable table{
+      "table_2_spectrum",
+      "The spectrum of elevation over frequency at 5.25 m/s, and as measured by the virtual staff",
+      {"fetch_m", "frequency_hz", "spectrum_m2_per_hz", "staff_m2_per_hz"},
+      {},
+      false};
   for (std::size_t i = 0; i < staffs.size(); ++i) {
     const SeaState sea(kWind, published.fetch[i]);
     const RecordSpectrum& spectrum = staffs[i].spectrum;
@@ -184,7 +183,7 @@ DataTable TableOfSpectra(const Table2& published, const std::vector<StaffReading
 }
 
 std::vector<Comparison> Comparisons(const Table2& published, const std::vector<Waves>& ours) {
-  const std::string basis = "ours at 5.25 m/s; without a verdict, because Table 2 does not state its wind";
+  const std::string basis = "ours at 5.25 m/s; no verdict, because Table 2 does not state its wind";
   std::vector<Comparison> comparisons;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const auto compare = [&](const char* quantity, const char* unit, double theirs, double own) {
@@ -208,7 +207,7 @@ struct Range {
   double least, most;
 };
 
-// Of value(i) over the rows of the table.
+// The range of value(i) over the rows of the table.
 template <typename Value>
 Range RangeOf(std::size_t rows, const Value& value) {
   Range range{value(0), value(0)};
@@ -219,7 +218,7 @@ Range RangeOf(std::size_t rows, const Value& value) {
   return range;
 }
 
-// Whether gravity alone makes the published wavelength of the published frequency: rounding hides 0.05 Hz
+// Whether gravity alone gives the published wavelength at the published frequency, within their rounding of 0.05 Hz
 // and 0.5 mm.
 bool GravityExplains(double wavelength, double frequency) {
   return wavelength + 0.0005 >= GravityWavelength(frequency + 0.05) &&
@@ -249,30 +248,30 @@ std::vector<std::string> Paragraphs(const Table2& published, const std::vector<W
     explained += GravityExplains(published.peak_wavelength[i], published.peak_frequency[i]);
   }
   return {
-      absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest of the paper, the peak "
-                      "wavelengths of Apel's spectrum are %+.0f to %+.0f %% off the published ones; weaker "
-                      "winds make shorter waves (second table).",
+      absl::StrFormat("Table 2 does not state its wind. At 5.25 m/s, the strongest wind of the paper, the "
+                      "peak wavelengths of Apel's spectrum differ from the published ones by %+.0f to %+.0f "
+                      "%%; weaker winds make shorter waves (second table).",
                       100 * length.least, 100 * length.most),
       absl::StrFormat(
-          "Its significant wave heights at 5.25 m/s are only %.2f to %.2f of the measured: this spectrum "
-          "has one level of saturation for all fetches, as mature seas have, and young waves are steeper. "
-          "But the measured heights are %.2f to %.2f of the measured wavelengths, and a gravity wave "
-          "breaks at 0.14 (Michell 1893): at the short fetches they cannot be the height of the peak's "
-          "waves alone. Something else, longer waves or the noise that the paper mentions, is in that "
-          "record.",
+          "At 5.25 m/s the significant wave heights of the spectrum are only %.2f to %.2f of the measured "
+          "ones: the spectrum has the saturation level of mature seas at all fetches, and young waves are "
+          "steeper. The measured heights, however, are %.2f to %.2f of the measured wavelengths, and a "
+          "gravity wave breaks at 0.14 (Michell 1893): at the short fetches they cannot be the height of the "
+          "waves at the peak alone. The records must contain something else, such as longer waves or the "
+          "noise that the paper mentions.",
           height.least, height.most, steepness.least, steepness.most),
-      absl::StrFormat("The published wavelengths follow from the published frequencies by gravity alone, g "
-                      "/ (2 pi f^2), in %d of %d rows within the rounding of both. With surface tension "
-                      "the wavelengths of these frequencies are %.0f to %.0f %% longer.",
+      absl::StrFormat("The published wavelengths follow from the published frequencies with gravity alone, g "
+                      "/ (2 pi f^2): %d of %d rows agree within the rounding of both. With surface tension "
+                      "the wavelengths at these frequencies are %.0f to %.0f %% longer.",
                       explained, static_cast<int>(rows), 100 * lengthening.least, 100 * lengthening.most),
       absl::StrFormat(
-          "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the "
-          "paper's did (means of %d records). Waves above 15 Hz fold into its record. The paper does not "
-          "tell how its spectrum was estimated; here it is the mean of periodograms of 8.5 s under Hann's "
-          "window, half overlapping, 0.12 Hz apart. The significant wave height is four times the root of "
-          "the spectrum's integral. The paper takes the mean of the highest third of the waves: on the "
-          "same records %.2f to %.2f of that. In a narrow spectrum both are one; short waves on longer "
-          "ones, and five samples to a period, part them.",
+          "The virtual staff samples the evolving sea of 5.25 m/s at 30 Hz for five minutes, as the paper's "
+          "staff did (means of %d records). Waves above 15 Hz alias into its record. The paper does not say "
+          "how its spectrum was estimated; here it is the mean of half-overlapping periodograms of 8.5 s "
+          "under a Hann window, 0.12 Hz apart. The significant wave height is four times the root of the "
+          "integral of the spectrum. The paper uses the mean of the highest third of the waves, which on the "
+          "same records is %.2f to %.2f of that. For a narrow spectrum the two are equal; short waves on "
+          "longer ones, and a sampling of five points a period, make them differ.",
           records, highest_third.least, highest_third.most)};
 }
 
@@ -300,11 +299,11 @@ absl::StatusOr<Study> WaveStaffStudy(const StudyOptions& options) {
                   TableOfStaff(*published, ours, staffs), TableOfSpectra(*published, staffs)};
   study.figures = {
       {"table_2",
-       "Peak wavelength and significant wave height by fetch: measured, and Apel's spectrum at the winds "
-       "of the paper."},
+       "Peak wavelength and significant wave height over fetch: measured, and by Apel's spectrum at the "
+       "winds of the paper."},
       {"table_2_spectrum",
-       "The spectrum over frequency at 5.25 m/s, and as a staff finds it at 30 Hz in five "
-       "minutes. Its floor is waves above 15 Hz that fold into the record. The dashed lines are "
+       "The spectrum over frequency at 5.25 m/s, and as measured by a staff at 30 Hz in five minutes. The "
+       "floor of the measured spectrum is waves above 15 Hz that alias into the record. The dashed lines are "
        "the measured peak frequencies."}};
   return study;
 }

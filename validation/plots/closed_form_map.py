@@ -12,7 +12,7 @@ def closed_form_map(read):
     panels = figure.subplots(2, 1)
     for axes, column, title, colours in zip(
             panels, ("thu_ratio", "thu_ratio_se"),
-            ("THU, Monte Carlo / closed form", "its standard error"), ("RdBu", "Greys")):
+            ("THU, Monte Carlo / closed form", "standard error of the ratio"), ("RdBu", "Greys")):
         values = table[column].reshape(len(winds), len(incidences)).T
         limits = {"vmin": 0.9, "vmax": 1.1} if column == "thu_ratio" else {"vmin": 0, "vmax": 2 * values.max()}
         image = axes.imshow(values, origin="lower", aspect="auto", cmap=colours, **limits)
@@ -38,9 +38,9 @@ def closed_form_departure(read):
         rows = rows[numpy.argsort(rows["mean_square_slope"])]
         slope = rows["mean_square_slope"]
         axes.fill_between(slope, rows["least_ratio"], rows["most_ratio"], color="tab:green",
-                          alpha=0.15, label="what Snell's law and the grid explain")
+                          alpha=0.15, label="explained by Snell's law and the grid")
         axes.errorbar(slope, rows["thu_ratio"], rows["thu_ratio_se"], fmt="o", markersize=3,
-                      label="a sea and a footprint, ± 1 standard error")
+                      label="each sea and footprint, ± 1 standard error")
         axes.axhline(1, color="tab:gray")
         axes.set(title=f"incidence {incidence}°", ylabel="THU, Monte Carlo / closed form")
     panels[0].legend()

@@ -1,13 +1,13 @@
-"""What is left if waves longer than a length are corrected for."""
+"""The uncertainty that remains if waves longer than a length are corrected for."""
 
 import numpy
 from matplotlib.figure import Figure
 
-WHOLE = 2000  # m, where the whole sea is drawn
+WHOLE = 2000  # m, the abscissa of the uncorrected sea
 
 
 def length(column):
-    """Lengths in m; a column without the word "nothing" has come as numbers."""
+    """Lengths in m. A column without the word "nothing" has been read as numbers."""
     return numpy.array([WHOLE if cell == "nothing" else float(cell) for cell in column])
 
 
@@ -42,7 +42,7 @@ def corrected_waves(read):
         finish(axes)
         axes.set_title(title)
         axes.legend(title=legend, fontsize="small")
-    left.set_ylabel("THU over that of the whole sea")
+    left.set_ylabel("THU relative to the whole sea")
     return figure
 
 

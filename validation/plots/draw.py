@@ -2,9 +2,9 @@
 
     python3 draw.py CSV_FOLDER SVG_FOLDER FIGURE...
 
-A figure is a function of the same name in one of the modules beside this file. It gets `read`, which gives a CSV
-file by its name without ending as a NumPy record array (numbers where a column holds numbers, text elsewhere), and
-returns a matplotlib Figure. One that fails keeps none of the others from being drawn.
+Each figure is drawn by the function of that name in one of the modules beside this file. The function receives `read`,
+which reads a CSV file by its name without suffix into a NumPy record array (numbers where a column holds only numbers,
+text otherwise), and returns a matplotlib Figure. If one figure fails, the others are still drawn.
 """
 
 import csv
@@ -18,7 +18,7 @@ matplotlib.use("svg")
 import numpy
 
 STYLE = {
-    "svg.hashsalt": "albtpu",  # the same bytes from the same numbers
+    "svg.hashsalt": "albtpu",  # so that the same numbers give the same bytes
     "font.size": 10,
     "axes.grid": True,
     "grid.alpha": 0.3,
@@ -61,7 +61,7 @@ def main(csv_folder, svg_folder, figures):
         try:
             drawn = drawers[figure](read)
             drawn.savefig(pathlib.Path(svg_folder) / f"{figure}.svg", metadata={"Date": None})
-        except Exception as error:  # whatever it is, the others are drawn
+        except Exception as error:  # of any kind: the other figures are still drawn
             failed.append(f"{figure}: {error!r}")
     if failed:
         sys.exit("draw.py: " + "; ".join(failed))

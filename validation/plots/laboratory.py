@@ -22,7 +22,7 @@ def table_4(read):
         row[0].set_ylabel("2σ (degrees)")
     for axes in rows[-1]:
         axes.set_xlabel("wind (m/s)")
-    rows[0][0].set_ylim(bottom=0)  # of all: the axis is shared, and fits what is drawn until it is set
+    rows[0][0].set_ylim(bottom=0)  # last, because setting one end of the shared axis stops its automatic scaling
     rows[0][0].legend(loc=(0.02, 0.1), fontsize=8)
     return figure
 

@@ -1,4 +1,4 @@
-"""The spectra beside what was measured of real seas, and what they do to a beam."""
+"""The spectra compared with measurements of real seas, and their effect on a beam."""
 
 from matplotlib.figure import Figure
 
@@ -31,7 +31,7 @@ def real_sea_heights(read):
     left.plot(by_wind["wind_speed_m_s"], by_wind["pierson_moskowitz_m"], color="black",
               label="Pierson, Moskowitz (1964)")
     left.plot(by_wind["wind_speed_m_s"], by_wind["pierson_moskowitz_wind_as_it_is_m"], ":", color="black",
-              label="same, wind of 10 m as it is")
+              label="same, wind unconverted")
     right.loglog(by_fetch["fetch_km"], by_fetch["jonswap_m"], color="black", label="JONSWAP")
     for name, label, colour in SPECTRA:
         left.plot(by_wind["wind_speed_m_s"], by_wind[f"{name}_m"], color=colour, label=label)
@@ -60,5 +60,5 @@ def spectra_thu(read):
         axes.axhline(1, color="black", linewidth=0.8)
         axes.set(xlabel="wind at 10 m / m s$^{-1}$", xlim=(2, 15))
         axes.legend(title=title, fontsize="small")
-    left.set(ylabel="THU, Elfouhaily over Apel", ylim=(0, None))
+    left.set(ylabel="THU, Elfouhaily / Apel", ylim=(0, None))
     return figure

@@ -79,5 +79,5 @@ def figure_3_spot(read):
     axes.grid(False)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, fontsize="x-small", facecolor="dimgray",
                 frameon=True, labelcolor="white")
-    figure.colorbar(image, ax=axes, label="power, over that in still water")
+    figure.colorbar(image, ax=axes, label="power relative to still water")
     return figure

@@ -23,7 +23,7 @@ AngleMethodUncertainty AngleMethod(double refracted, double two_sigma_angle) {
   constexpr int kNodes = 2 * static_cast<int>(kCut) * kPerSigma + 1;
   assert(two_sigma_angle >= 0 && refracted + kCut / 2 * two_sigma_angle < std::numbers::pi / 2);
 
-  // About the values at delta = 0, so that little is lost to rounding where the variance is small.
+  // Differences from the values at delta = 0, to lose little to rounding where the variance is small.
   const double horizontal_still = Horizontal(refracted, 0), vertical_still = Vertical(refracted, 0);
   double weights = 0, x = 0, x_squared = 0, z = 0, z_squared = 0;
   for (int i = 0; i < kNodes; ++i) {

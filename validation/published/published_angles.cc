@@ -25,7 +25,7 @@ absl::StatusOr<std::vector<PublishedAngles::Cell>> ReadCells(const PublishedTabl
   return cells;
 }
 
-// Rows are to be in the order of the cells.
+// The rows must be in the order of PublishedAngles::cells.
 absl::StatusOr<PublishedAngles> Arrange(const std::filesystem::path& file, const PublishedTable& table) {
   const absl::StatusOr<std::vector<double>> winds = table.Numbers("wind_speed_m_s");
   if (!winds.ok()) return winds.status();
@@ -43,7 +43,7 @@ absl::StatusOr<PublishedAngles> Arrange(const std::filesystem::path& file, const
   }
   if (complete) return angles;
   return absl::InvalidArgumentError(
-      absl::StrCat(file.string(), ": each wind must stand with each incidence, once, in increasing order"));
+      absl::StrCat(file.string(), ": expected every wind with every incidence, once, in increasing order"));
 }
 
 }  // namespace

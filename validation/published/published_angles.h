@@ -9,16 +9,16 @@
 
 namespace albtpu {
 
-// Numbers as printed: wind in m/s, angles in degrees. Each wind stands with each incidence.
+// Numbers as printed: wind in m/s, angles in degrees, for every wind at every incidence.
 struct PublishedAngles {
   struct Cell {
     double along, cross;  // 2 sigma, along and across the wind
-    // False: the text copy of the paper is damaged here, and the number is a guess.
+    // False where the text copy of the paper is damaged and the number is a guess.
     bool along_is_clean = true, cross_is_clean = true;
   };
 
   std::vector<double> wind_speeds, incidences;  // increasing
-  std::vector<Cell> cells;                      // incidence fastest
+  std::vector<Cell> cells;                      // incidence varies fastest
 
   const Cell& At(std::size_t wind_speed, std::size_t incidence) const {
     return cells[wind_speed * incidences.size() + incidence];

@@ -1,13 +1,14 @@
-// The paper's summary of its simulations, Birkebak et al. (2018), Eq. 27-30: 2 sigma of the refraction angle
-// over wind, incidence and diameter of the beam. In the units of its print, degrees and m/s.
+// The paper's fit to its simulations, Birkebak et al. (2018), Eq. 27-30: 2 sigma of the refraction angle over wind,
+// incidence and diameter of the beam, in its units, degrees and m/s; and the least-squares fits that make such
+// models.
 #pragma once
 
 #include <vector>
 
 namespace albtpu {
 
-// (wind_incidence theta + wind) w + incidence theta + constant, in degrees, of the incidence theta [degree]
-// and the wind w [m/s].
+// (wind_incidence theta + wind) w + incidence theta + constant, in degrees, for the incidence theta [degree] and the
+// wind w [m/s].
 struct AngleModel {
   double wind_incidence, wind, incidence, constant;
 
@@ -17,25 +18,41 @@ struct AngleModel {
   }
 };
 
-// At a diameter of 0.25 m. Printed are 0.00276 theta and 0.00281 theta, a decimal too small: as read here the
-// mean residual to Table 3 falls from -0.24 to 0.01 degrees along the wind, from 0.27 to 0.02 degrees across
-// it.
+// At a diameter of 0.25 m. Printed are 0.00276 theta and 0.00281 theta, too small by a factor of ten: with the values
+// read here the mean residual to Table 3 falls from -0.24 to 0.01 degrees along the wind and from 0.27 to 0.02
+// degrees across it.
 inline constexpr AngleModel kPublishedAlongWind = {0.003, 0.4193, 0.0276, 1.6208};  // Eq. 27
 inline constexpr AngleModel kPublishedCrossWind = {-0.0009, 0.0063, -0.0281, 2.3};  // Eq. 28
 
-// How the angles fall with the diameter [m]: Eq. 29 and 30 over their value at 0.25 m, for as printed they
-// are not 1 at the diameter of Eq. 27 and 28.
+// The decrease of the angles with the diameter [m]: Eq. 29 and 30 relative to their value at 0.25 m, because as
+// printed they are not 1 at the diameter of Eq. 27 and 28.
 inline constexpr double kPublishedAlongWindExponent = -0.641;  // Eq. 29
 inline constexpr double kPublishedCrossWindExponent = -0.951;  // Eq. 30
 double PublishedAlongWindDiameterFactor(double diameter);
 double PublishedCrossWindDiameterFactor(double diameter);
 
-// An angle of ours or the paper's.
+// One angle to fit, simulated or published.
 struct AngleSample {
   double wind_speed, incidence_degrees, angle_degrees;
 };
-// The model with the least sum of squared residuals. The samples must determine it: two winds and two
-// incidences at least, each with each.
+// The model with the least sum of squared residuals. The samples must determine it: at least two winds and two
+// incidences in all combinations.
 AngleModel FitAngleModel(const std::vector<AngleSample>& samples);
+
+struct LineFit {
+  double slope, intercept;
+  double r_squared;  // the fraction of the variance of y that the line explains
+
+  double operator()(double x) const { return slope * x + intercept; }
+};
+
+// The least-squares line. At least two x and two y must differ.
+LineFit FitLine(const std::vector<double>& x, const std::vector<double>& y);
+
+// y = factor * x^exponent, fitted as a line through the logarithms. All numbers must be positive.
+struct PowerLaw {
+  double factor, exponent;
+};
+PowerLaw FitPowerLaw(std::vector<double> x, std::vector<double> y);
 
 }  // namespace albtpu

@@ -31,9 +31,8 @@ absl::StatusOr<PublishedTable> PublishedTable::Read(const std::filesystem::path&
     }
   }
   if (table.rows_.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(file.string(),
-                                                   ": holds no rows: give a line of column "
-                                                   "names and at least one row"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(file.string(), ": has no rows: expected a line of column names and at least one row"));
   }
   return table;
 }

@@ -1,4 +1,5 @@
-// The paper's tables as CSV files: `#` lines of attribution, a line of column names, numbers and words.
+// A reader of the paper's tables as CSV files: lines of attribution that begin with `#`, a line of column names, rows
+// of numbers and words.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +13,13 @@ namespace albtpu {
 
 class PublishedTable {
  public:
-  // NotFound: no such file. InvalidArgument, naming file and line: rows that do not fit the column names.
+  // NotFound if there is no such file; InvalidArgument, with file and line, if a row does not match the column names.
   static absl::StatusOr<PublishedTable> Read(const std::filesystem::path& file);
 
   std::size_t size() const { return rows_.size(); }  // rows
 
-  // InvalidArgument, naming file, line and column: no such column, or a word where a number should be.
+  // InvalidArgument, with file, line and column, if there is no such column or if a number is expected and a word
+  // found.
   absl::StatusOr<std::vector<double>> Numbers(std::string_view column) const;
   absl::StatusOr<std::vector<std::string>> Words(std::string_view column) const;
 

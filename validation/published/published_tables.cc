@@ -16,7 +16,7 @@
 namespace albtpu {
 namespace {
 
-// 2 sigma along and across the wind, degrees, as the paper has them.
+// 2 sigma along and across the wind, degrees, as in the paper.
 struct Angles {
   double along, cross;
 };
@@ -26,8 +26,8 @@ struct Nodes {
   std::vector<double> wind_speeds, incidences, footprints, depths;
 };
 
-// The fetch of the sea that the paper fits to its tank and takes as fully developed; an axis of one fetch
-// answers at any. The plane of incidence lies along the wind.
+// The fetch of the sea that the paper fits to its tank and takes as fully developed; an axis with one fetch answers
+// for any fetch. The plane of incidence is along the wind.
 constexpr double kFetch = 30, kAzimuth = 0;
 
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const Nodes& nodes) {
@@ -43,7 +43,7 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const Nodes& nodes) {
   return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
 }
 
-// The angles at each node, THU and TVU from both of them together, as Table 5 comes from Table 4.
+// The angles at each node, and THU and TVU from both angles together, as Table 5 follows from Table 4.
 UncertaintyTable::Variables MakeVariables(const Nodes& nodes, const AnglesAt& angles_at) {
   Variable along, cross, thu, tvu;
   for (const double wind_speed : nodes.wind_speeds) {
@@ -74,7 +74,7 @@ constexpr char kAlongTheWind[] =
     " For a beam along the wind alone: ask with azimuth 0; a question without an azimuth is for the "
     "worse of 0 and 90 degrees, and out of the domain.";
 
-// What both tables say of themselves.
+// The provenance of either table.
 Provenance MakeProvenance(std::string id, std::string title, std::string source, const std::string& comment) {
   return {
       .id = std::move(id),
@@ -107,7 +107,7 @@ absl::StatusOr<UncertaintyTable> Make(const Nodes& nodes, const AnglesAt& angles
 absl::StatusOr<UncertaintyTable> MeasuredTable(const PublishedAngles& table_4) {
   Nodes nodes{table_4.wind_speeds, table_4.incidences, {0.25}, {}};
   for (int depth = 1; depth <= 10; ++depth) nodes.depths.push_back(depth);
-  std::size_t cell = 0;  // the cells come in the order of the nodes
+  std::size_t cell = 0;  // the cells are in the order of the nodes
   const auto angles = [&](double, double, double) {
     const PublishedAngles::Cell& measured = table_4.cells[cell++];
     return Angles{measured.along, measured.cross};

@@ -1,5 +1,5 @@
-// Writes the tables of published numbers:
-//   albtpu_published_tables validation/paper tables
+// Writes the lookup tables of published numbers:
+//   albtpu_published_tables validation/paper tables/shipped
 #include <filesystem>
 #include <iostream>
 

@@ -69,7 +69,7 @@ RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& si
   for (std::size_t w = 0; w < options.wind_speeds.size(); ++w) {
     SeaCase sea_case = SeaCaseAt(options, options.wind_speeds[w]);
     sea_case.rays = size.rays;
-    // Footprints in mm and winds make the streams' cells.
+    // The cell of the random stream: footprint in mm and index of the wind.
     const auto cell = static_cast<std::uint32_t>(std::lround(1e3 * options.footprint) * 1000 + w);
     const SeaCaseResult result = Simulate(sea_case, effort, seed, cell);
     for (const BeamUncertainty& beam : result.beams)
@@ -153,8 +153,8 @@ LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const Publ
   return Summarize(log_ratios);
 }
 
-Count AlongWindRisesWithWind(const RefractionGrid& grid) {
-  Count count;
+CaseCount AlongWindRisesWithWind(const RefractionGrid& grid) {
+  CaseCount count;
   for (std::size_t w = 1; w < grid.options.wind_speeds.size(); ++w) {
     for (std::size_t i = 0; i < grid.options.incidences.size(); ++i)
       count.Add(grid.At(w, i).along.value > grid.At(w - 1, i).along.value);
@@ -162,8 +162,8 @@ Count AlongWindRisesWithWind(const RefractionGrid& grid) {
   return count;
 }
 
-Count AlongWindRisesWithIncidence(const RefractionGrid& grid) {
-  Count count;
+CaseCount AlongWindRisesWithIncidence(const RefractionGrid& grid) {
+  CaseCount count;
   for (std::size_t w = 0; w < grid.options.wind_speeds.size(); ++w) {
     for (std::size_t i = 1; i < grid.options.incidences.size(); ++i)
       count.Add(grid.At(w, i).along.value > grid.At(w, i - 1).along.value);
@@ -171,8 +171,8 @@ Count AlongWindRisesWithIncidence(const RefractionGrid& grid) {
   return count;
 }
 
-Count AlongWindExceedsCrossWind(const RefractionGrid& grid) {
-  Count count;
+CaseCount AlongWindExceedsCrossWind(const RefractionGrid& grid) {
+  CaseCount count;
   for (const RefractionGrid::Cell& cell : grid.cells) count.Add(cell.along.value > cell.cross.value);
   return count;
 }

@@ -1,5 +1,5 @@
-// 2 sigma refraction angles over winds and incidences, as Table 3 has them: by the closed form and by Monte
-// Carlo. The beam points downwind, the sea is fully developed.
+// 2 sigma refraction angles over winds and incidences, as in Table 3, by the closed form and by Monte Carlo. The beam
+// points downwind and the sea is fully developed.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,6 @@
 
 #include "generator/math/statistics.h"
 #include "generator/monte_carlo/monte_carlo.h"
-#include "validation/published/line_fit.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_model.h"
 
@@ -27,7 +26,7 @@ struct RefractionGrid {
   };
 
   GridOptions options;
-  std::vector<Cell> cells;  // incidence fastest
+  std::vector<Cell> cells;  // incidence varies fastest
 
   const Cell& At(std::size_t wind_speed, std::size_t incidence) const {
     return cells[wind_speed * options.incidences.size() + incidence];
@@ -38,12 +37,12 @@ RefractionGrid ClosedFormGrid(const GridOptions& options);
 
 struct SimulationSize {
   int surfaces;
-  std::optional<int> rays;  // chosen where absent
+  std::optional<int> rays;  // chosen from the sea and the footprint if absent
   Estimator estimator = Estimator::kControlVariate;
 };
 
-// All incidences of a wind see the same surfaces; each wind and footprint draws its own, which do not depend
-// on `height_scale`.
+// All incidences of a wind see the same surfaces. Each wind and footprint has independent surfaces, which do not
+// depend on `height_scale`.
 RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& size, std::uint64_t seed);
 
 // Of the along-wind angles.
@@ -52,27 +51,27 @@ double GreatestRelativeStandardError(const RefractionGrid& grid);
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);
 
-// The mean over all winds and incidences of one axis of the cells, as Figure 9 takes it. The incidences of a
-// wind share their surfaces, so their errors are taken as one.
+// The mean over all winds and incidences of one axis of the cells, as in Figure 9. The incidences of a wind share
+// their surfaces, so their errors are taken as fully correlated.
 Estimate MeanAngle(const RefractionGrid& grid, Estimate RefractionGrid::Cell::*axis);
 
-// Line through the along-wind angles over wind, one for each incidence.
+// Lines through the along-wind angles over wind, one for each incidence.
 std::vector<LineFit> FitAlongWindByIncidence(const RefractionGrid& grid);
 double LowestRSquared(const RefractionGrid& grid);  // of these lines
 
-// Angles as samples to fit the paper's model to.
+// The angles as samples for FitAngleModel().
 std::vector<AngleSample> AlongWindSamples(const RefractionGrid& grid);
 std::vector<AngleSample> CrossWindSamples(const RefractionGrid& grid);
 
-// How ln(factor * ours / paper) lies over the clean cells of a published table.
+// The distribution of ln(factor * ours / paper) over the clean cells of a published table.
 struct LogRatio {
   double mean, rms, greatest;  // the greatest in magnitude
 };
 LogRatio AlongWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);
 LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);
 
-// In how many cases something holds, of how many.
-struct Count {
+// The number of cases in which a statement holds, and of all cases.
+struct CaseCount {
   int holds = 0, all = 0;
 
   void Add(bool case_holds) {
@@ -80,8 +79,8 @@ struct Count {
     ++all;
   }
 };
-Count AlongWindRisesWithWind(const RefractionGrid& grid);  // from each node to the next
-Count AlongWindRisesWithIncidence(const RefractionGrid& grid);
-Count AlongWindExceedsCrossWind(const RefractionGrid& grid);
+CaseCount AlongWindRisesWithWind(const RefractionGrid& grid);  // from each node to the next
+CaseCount AlongWindRisesWithIncidence(const RefractionGrid& grid);
+CaseCount AlongWindExceedsCrossWind(const RefractionGrid& grid);
 
 }  // namespace albtpu

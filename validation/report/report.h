@@ -12,18 +12,18 @@
 namespace albtpu {
 
 struct ReportOptions {
-  std::filesystem::path folder;  // made if it is not there
-  std::filesystem::path plots;   // where draw.py is
-  std::string made_by;           // a line for the head of the page
-  bool overwrite = false;        // files of an earlier report
+  std::filesystem::path folder;  // created if missing
+  std::filesystem::path plots;   // the folder of draw.py
+  std::string made_by;           // a line at the head of the page
+  bool overwrite = false;        // replace the files of an earlier report
 };
 
-// What would keep a report from being written to options.folder, before the work: something that is in it already
-// (AlreadyExists), no parent folder (NotFound), no right to write (PermissionDenied).
+// Checks, before the work, that a report can be written to options.folder. AlreadyExists if the folder is not empty,
+// NotFound if there is no parent folder, PermissionDenied if the folder is not writable.
 absl::Status PrepareReport(const ReportOptions& options);
 
-// Writes summary.csv, one CSV for each table, one SVG for each figure and, last, report.html. All are made in
-// a hidden folder first and take their places when all are whole. Returns why figures are missing, if any is.
+// Writes summary.csv, one CSV file for each table, one SVG file for each figure and, last, report.html. They are made
+// in a hidden folder and moved into place when all are complete. Returns why figures are missing; empty if none is.
 absl::StatusOr<std::string> WriteReport(const std::vector<Study>& studies, const ReportOptions& options);
 
 }  // namespace albtpu

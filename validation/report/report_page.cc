@@ -6,12 +6,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
-#include "validation/report/csv.h"
+#include "validation/report/study.h"
 
 namespace albtpu {
 namespace {
 
-// Tables scroll sideways within themselves; on a narrow screen a line of the summary becomes a card.
+// Wide tables scroll sideways by themselves; on a narrow screen each line of the summary becomes a card.
 constexpr const char* kStyle = R"(
 :root { --ink: #1b2a38; --faint: #5c6b78; --line: #d5dde3; --sea: #0b6280; }
 * { box-sizing: border-box; }
@@ -43,7 +43,7 @@ std::string Escaped(absl::string_view text) {
   return absl::StrReplaceAll(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
 }
 
-// Four significant digits: more than any of the published numbers has.
+// Four significant digits, more than any published number has.
 std::string NumberText(double number) { return std::isnan(number) ? "" : absl::StrFormat("%.4g", number); }
 
 std::string CellHtml(const Cell& cell) {
@@ -94,9 +94,9 @@ std::string SummaryHtml(const std::vector<Study>& studies) {
 }
 
 std::string CountsHtml(const std::vector<Study>& studies) {
-  return absl::StrCat("<p>Of the comparisons below ", Count(studies, Verdict::kAgrees), " agree, ",
+  return absl::StrCat("<p>Of the comparisons below, ", Count(studies, Verdict::kAgrees), " agree, ",
                       Count(studies, Verdict::kDiffers), " differ and ", Count(studies, Verdict::kReported),
-                      " are reported without a judgement; the basis of each is beside it.</p>\n");
+                      " are reported without a verdict; the basis of each is beside it.</p>\n");
 }
 
 std::string FigureHtml(const FigureRequest& figure, const ReportPage& page) {
@@ -126,7 +126,8 @@ std::string HtmlOf(const std::vector<Study>& studies, const ReportPage& page) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
       "<title>Validation of albtpu</title><style>",
       kStyle,
-      "</style></head><body>\n<h1>The physics of albtpu beside the paper, the closed form and the sea</h1>\n",
+      "</style></head><body>\n<h1>The physics of albtpu compared with the paper, the closed form and the "
+      "sea</h1>\n",
       "<p class=\"made-by\">", Escaped(page.made_by), "</p>\n");
   if (!page.why_figures_are_missing.empty()) {
     absl::StrAppend(&html, "<p><strong>Figures are missing:</strong> ", Escaped(page.why_figures_are_missing),

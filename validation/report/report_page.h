@@ -1,4 +1,4 @@
-// The report as one HTML page that needs nothing else: style, numbers and figures are inside.
+// The report as one self-contained HTML page, with style, numbers and figures inside.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@ namespace albtpu {
 
 struct ReportPage {
   std::string made_by;                         // program, version, commit, effort
-  std::map<std::string, std::string> figures;  // SVG by name; one that is missing is said to be
-  std::string why_figures_are_missing;         // empty: none is
+  std::map<std::string, std::string> figures;  // SVG by name; the page says which ones are missing
+  std::string why_figures_are_missing;         // empty if none is
 };
 
 std::string HtmlOf(const std::vector<Study>& studies, const ReportPage& page);

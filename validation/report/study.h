@@ -1,7 +1,7 @@
-// What a validation study finds: comparisons with a verdict, tables of numbers, figures drawn from the tables.
+// The result of a validation study: comparisons with a verdict, tables of numbers, figures drawn from the tables.
 //
-// A study computes; it formats nothing. The report writes each table as CSV, lets matplotlib draw the figures
-// from the CSVs, and puts all of it on one page.
+// A study computes and does not format. The report writes each table as CSV (RFC 4180, lines end in a line feed),
+// draws the figures from the CSV files with matplotlib, and puts everything on one page.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +19,25 @@ inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();  /
 
 using Cell = std::variant<double, std::string>;
 
-// Written as NAME.csv, one line of column names first.
+// Written as NAME.csv, with a line of column names first.
 struct DataTable {
   std::string name;                  // "table_3": lower case and underscores
   std::string title;                 // one sentence
   std::vector<std::string> columns;  // with the unit: "along_wind_deg"
   std::vector<std::vector<Cell>> rows;
-  bool on_the_page = true;  // false: too long to read; the CSV has it
+  bool on_the_page = true;  // false: too long to read, in the CSV file only
 };
 
-// Drawn by the function of this name in plots/, which reads the CSVs of its study.
+// Drawn by the function of this name in plots/, which reads the CSV files of its study.
 struct FigureRequest {
   std::string name;     // "figure_8"
-  std::string caption;  // what it shows and what to see in it
+  std::string caption;  // what the figure shows
 };
 
 enum class Verdict {
   kAgrees,    // within the tolerance that `basis` derives
-  kDiffers,   // outside of it; the study's text says why, as far as that is known
-  kReported,  // shown without a judgement: `basis` says why none is possible
+  kDiffers,   // outside of it; the text of the study gives the reason, as far as it is known
+  kReported,  // without a verdict: `basis` says why none is possible
 };
 
 // One line of the summary.
@@ -46,15 +46,15 @@ struct Comparison {
   std::string unit;
   double published = kNoNumber;
   double ours = kNoNumber;
-  double standard_error = kNoNumber;  // of ours; kNoNumber where ours is exact
+  double standard_error = kNoNumber;  // of ours; kNoNumber if ours is exact
   Verdict verdict = Verdict::kReported;
-  std::string basis;  // how the verdict was reached: "within 0.010 m: two decimals are printed, and ..."
+  std::string basis;  // of the verdict: "within 0.010 m: two decimals are printed, and ..."
 };
 
 struct Study {
   std::string id;                       // anchor of its section: "table_3"
   std::string title;                    // "Table 3: the paper's Monte Carlo"
-  std::vector<std::string> paragraphs;  // plain text: what was done, what came out, why it differs
+  std::vector<std::string> paragraphs;  // plain text: method, result, reasons for differences
   std::vector<Comparison> comparisons;
   std::vector<DataTable> tables;
   std::vector<FigureRequest> figures;
@@ -62,11 +62,22 @@ struct Study {
 
 struct StudyOptions {
   std::filesystem::path published;  // the folder of the paper's tables as CSV
-  bool quick = false;  // minutes on two cores; otherwise the paper's own numbers of surfaces and rays
+  bool quick = false;  // minutes on two cores; otherwise the paper's numbers of surfaces and rays
   std::uint64_t seed = 1;
 };
 
-// Every study is a function of its options alone. What is wrong with the published tables comes back as a status.
+// Every study is a function of its options alone. Errors in the published tables are returned as a status.
 using StudyFunction = absl::StatusOr<Study> (*)(const StudyOptions&);
+
+// The table as CSV. Numbers have nine significant digits; kNoNumber is an empty cell.
+std::string CsvOf(const DataTable& table);
+
+// The comparisons of all studies as one table, as the report shows them.
+DataTable SummaryOf(const std::vector<Study>& studies);
+
+// The number of comparisons in all studies that have this verdict.
+int Count(const std::vector<Study>& studies, Verdict verdict);
+
+std::string_view Name(Verdict verdict);  // "agrees", "differs", "reported"
 
 }  // namespace albtpu

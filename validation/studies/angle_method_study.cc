@@ -1,5 +1,3 @@
-#include "validation/studies/angle_method_study.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,19 +10,20 @@
 #include "validation/published/angle_method.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
 
 constexpr int kDraws = 10'000;  // the paper's
 
-// Half a unit of the second decimal that is printed, and as much again for the paper's own draws, whose
-// standard error is 1 / sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m of the greatest).
+// Half a unit of the second decimal printed, and as much again for the paper's draws, whose standard error is 1 /
+// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the greatest).
 constexpr double kQuadratureTolerance = 0.010;  // m
-// The rounding, and three standard errors of ours and the paper's draws together at the greatest value, 1.05
-// m, rounded down.
+// The rounding, and three standard errors of our draws and the paper's together at the greatest value, 1.05 m,
+// rounded down.
 constexpr double kDrawsTolerance = 0.03;  // m
-// Half a unit of the second decimal: a limit has no other error. The last bits are those of binary fractions.
+// Half a unit of the second decimal, since a limit has no other error; 1e-9 for the rounding of binary fractions.
 constexpr double kLimitTolerance = 0.005 + 1e-9;  // m
 
 struct Table5 {
@@ -57,8 +56,8 @@ void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours
                                  .published = published,
                                  .ours = depth * per_depth,
                                  .verdict = Judge(depth * per_depth - published, kQuadratureTolerance),
-                                 .basis = "within 0.010 m: half of the second decimal printed, and as much "
-                                          "for the scatter of the paper's 10,000 draws"});
+                                 .basis = "within 0.010 m: half a unit of the second decimal printed, and as "
+                                          "much for the scatter of the paper's 10,000 draws"});
   };
   for (std::size_t i = 0; i < paper.depth.size(); ++i) {
     compare("THU", paper.depth[i], paper.thu[i], ours.thu_per_depth);
@@ -81,9 +80,8 @@ void CompareByDraws(const Table5& paper, const AngleMethodUncertainty& draws, St
                                .unit = "m",
                                .ours = greatest,
                                .verdict = Judge(greatest, kDrawsTolerance),
-                               .basis =
-                                   "within 0.03 m: the rounding, and three standard errors of our draws and "
-                                   "the paper's, 0.7 % each, at 1.05 m"});
+                               .basis = "within 0.03 m: the rounding, and three standard errors of our draws "
+                                        "and the paper's, 0.7 % each, at 1.05 m"});
 }
 
 void CompareLimits(const Table5& paper, Study& study) {
@@ -111,14 +109,14 @@ void CompareLimits(const Table5& paper, Study& study) {
 
 DataTable BesideTable5(const Table5& paper, const AngleMethodUncertainty& quadrature,
                        const AngleMethodUncertainty& draws) {
-  DataTable table{.name = "table_5",
-                  .title =
-                      "Table 5 as printed (columns of the paper) and by the angle method from the angles of "
-                      "Table 4",
-                  .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m",
-                              "quadrature_tvu_m", "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m",
-                              "s44_1b_thu_limit_m", "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
-                  .rows = {}};
+  DataTable table{
+      .name = "table_5",
+      .title =
+          "Table 5 as printed (columns of the paper), and by the angle method from the angles of Table 4",
+      .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m",
+                  "quadrature_tvu_m", "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m",
+                  "s44_1b_thu_limit_m", "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
+      .rows = {}};
   for (std::size_t i = 0; i < paper.depth.size(); ++i) {
     const double d = paper.depth[i];
     table.rows.push_back({d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth,
@@ -153,26 +151,26 @@ absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
   study.title = "Table 5: THU and TVU from measured angles";
   study.paragraphs = {
       absl::StrFormat(
-          "Eq. 24-26 turn a refraction angle into THU and TVU: theta is the angle of the ray in still water, "
-          "%.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 sigma = "
-          "sqrt(along^2 + cross^2) = %.3f degrees of Table 4 at %g m/s. By quadrature, which knows no "
-          "chance, and with one set of 10,000 draws as the paper takes them.",
+          "Eq. 24-26 convert a refraction angle to THU and TVU. theta is the angle of the ray in still "
+          "water, %.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 "
+          "sigma = sqrt(along^2 + cross^2) = %.3f degrees from Table 4 at %g m/s. We evaluate them by "
+          "quadrature, which has no random error, and with one set of 10,000 draws as in the paper.",
           DegreesOfRadians(refracted), measured->incidences.back(), DegreesOfRadians(angle), wind_speed),
       absl::StrFormat(
-          "The paper writes theta without saying in which medium. With the incidence in air the THU at 10 m "
-          "would be %.2f m and the TVU %.2f m, where it prints %.2f m and %.2f m.",
+          "The paper does not say in which medium theta is measured. With the incidence in air the THU at 10 "
+          "m would be %.2f m and the TVU %.2f m, while the paper prints %.2f m and %.2f m.",
           10 * in_air.thu_per_depth, 10 * in_air.tvu_per_depth, paper->thu.back(), paper->tvu.back()),
-      "The limits of the paper's order 1b follow from its Eq. 22 and 23. Eq. 22 allows 2 % of the depth on "
-      "top of 5 m, S-44 itself 5 %: the paper is on the strict side, and its conclusion stands. These THU "
-      "and TVU are 2 sigma, the limits hold at 95 %."};
+      "The paper's limits for order 1b follow from its Eq. 22 and 23. Eq. 22 allows 5 m plus 2 % of the "
+      "depth, S-44 itself 5 m plus 5 %: the paper is stricter, and its conclusion stands. These THU and TVU "
+      "are 2 sigma values; the limits are for 95 %."};
   CompareByQuadrature(*paper, quadrature, study);
   CompareByDraws(*paper, draws, study);
   CompareLimits(*paper, study);
   study.tables = {BesideTable5(*paper, quadrature, draws)};
-  study.figures = {{.name = "table_5_thu_tvu",
-                    .caption =
-                        "THU and TVU of Table 5 (points) and by the angle method (lines) over depth, with "
-                        "the TVU that S-44 allows order 1b. The THU limit, above 5 m, is off the scale."}};
+  study.figures = {
+      {.name = "table_5_thu_tvu",
+       .caption = "THU and TVU over depth: Table 5 (points) and the angle method (lines), with the TVU limit "
+                  "of S-44 order 1b. The THU limit, above 5 m, is off the scale."}};
   return study;
 }
 

@@ -15,17 +15,18 @@
 namespace albtpu {
 namespace {
 
-// The beam of Section 2.1.2 at one of its incidences.
+// The beam of section 2.1.2 at one of its incidences.
 constexpr double kIncidence = 15;    // degree
 constexpr double kFootprint = 0.25;  // m
 constexpr double kSourceHeight = 4;  // m
-constexpr double kDepth = 0.25;      // m, of the plane that the rays are followed to
-constexpr double kAbove = 0.1;       // m, of the points that the rays are drawn from
+constexpr double kDepth = 0.25;      // m, of the plane where the rays end
+constexpr double kAbove = 0.1;       // m, of the points where the drawn rays begin
 constexpr int kRays = 500'000;
-constexpr int kDrawnOf = 9001;         // every so many rays is drawn, spread over the spiral that they lie on
-constexpr double kDrawnPoint = 0.003;  // m, from point to point of the surface as drawn
+constexpr int kRaysPerDrawnRay =
+    9001;  // one ray in so many is drawn; they are spread over the spiral of rays
+constexpr double kDrawnSpacing = 0.003;  // m, between points of the drawn surface
 
-// Where a ray that was refracted at `hit` reaches a level.
+// The point where a ray refracted at `hit` reaches a level.
 Eigen::Vector2d EndOf(const Ray& ray, const Hit& hit, double level) {
   const Eigen::Vector3d down = Refract(ray.direction, NormalOfSlope(hit.facet.slope), kRefractiveIndex);
   const Eigen::Vector2d met = ray.at_zero + hit.height * ray.per_height();
@@ -38,7 +39,7 @@ Eigen::Vector2d Centroid(const std::vector<Eigen::Vector2d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// The farthest points from the centroid, one for each sector, and back to the first.
+// The farthest points from the centroid, one for each sector, closed with the first.
 std::vector<Eigen::Vector2d> EdgeOf(const std::vector<Eigen::Vector2d>& points) {
   constexpr int kSectors = 90;
   const Eigen::Vector2d centre = Centroid(points);
@@ -66,7 +67,8 @@ void AddSpot(const std::vector<Eigen::Vector2d>& ends, const std::vector<Eigen::
   constexpr double kBin = 0.003;  // m
   const Eigen::Vector2d still = Centroid(still_ends), moved = Centroid(ends);
   const std::vector<Eigen::Vector2d> edge = EdgeOf(still_ends);
-  const double even = static_cast<double>(ends.size()) * kBin * kBin / AreaWithin(edge);  // rays in a bin
+  const double rays_per_bin =
+      static_cast<double>(ends.size()) * kBin * kBin / AreaWithin(edge);  // of an even spot
   std::vector<int> count(kBins * kBins);
   for (const Eigen::Vector2d& end : ends) {
     const Eigen::Vector2d bin = (end - still) / kBin + Eigen::Vector2d::Constant(kBins / 2);
@@ -76,7 +78,7 @@ void AddSpot(const std::vector<Eigen::Vector2d>& ends, const std::vector<Eigen::
   for (int i = 0; i < kBins; ++i) {
     for (int j = 0; j < kBins; ++j) {
       const Eigen::Vector2d middle = still + kBin * Eigen::Vector2d(i + 0.5 - kBins / 2, j + 0.5 - kBins / 2);
-      picture.spot.rows.push_back({middle.x(), middle.y(), count[i * kBins + j] / even});
+      picture.spot.rows.push_back({middle.x(), middle.y(), count[i * kBins + j] / rays_per_bin});
     }
   }
   for (const Eigen::Vector2d& point : edge) picture.still_spot.rows.push_back({point.x(), point.y()});
@@ -93,14 +95,14 @@ BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
   const SeaSurface surface(model, NormalStream(seed, 0, 0));
   const Beam beam(options, kRays);
   const SeaSurface::LocalSurface window =
-      surface.SurfaceUnder(beam);  // about where the axis meets the long waves
+      surface.SurfaceUnder(beam);  // about the point where the axis meets the long waves
   const HeightField& heights = window.heights;
 
   BeamPicture picture;
-  const int half = static_cast<int>(0.98 * heights.reach() / kDrawnPoint);
+  const int half = static_cast<int>(0.98 * heights.reach() / kDrawnSpacing);
   for (int i = -half; i <= half; ++i) {
     for (int j = -half; j <= half; ++j) {
-      const Eigen::Vector2d at(i * kDrawnPoint, j * kDrawnPoint);
+      const Eigen::Vector2d at(i * kDrawnSpacing, j * kDrawnSpacing);
       picture.surface.rows.push_back({at.x(), at.y(), heights.FacetAt(at).HeightAt(at)});
     }
   }
@@ -115,7 +117,7 @@ BeamPicture PictureOf(const SeaState& sea, std::uint64_t seed) {
     const Eigen::Vector2d end = EndOf(ray, hit, bottom_level);
     ends.push_back(end);
     still_ends.push_back(EndOf(ray, {mean_level, still_water}, bottom_level));
-    if (r % kDrawnOf != 0) continue;
+    if (r % kRaysPerDrawnRay != 0) continue;
     const Eigen::Vector2d above = ray.at_zero + kAbove * ray.per_height();
     const Eigen::Vector2d met = ray.at_zero + hit.height * ray.per_height();
     picture.rays.rows.push_back(

@@ -1,5 +1,3 @@
-#include "validation/studies/closed_form_map_study.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "sea/angle.h"
 #include "sea/response/refraction.h"
 #include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -26,7 +25,7 @@ struct Domain {
 const Domain kWhole = {{1, 2, 3, 5, 7, 10, 12.5, 15}, {100, 3000, kFullyDeveloped}, {0.1, 0.4, 1.5, 5}, 400};
 const Domain kQuick = {{1, 5, 10, 15}, {100, kFullyDeveloped}, {0.1, 0.7, 5}, 100};
 
-// Degrees. The incidences along the wind, and the steepest across it.
+// Degrees. All incidences along the wind, and the greatest one also across it.
 struct Direction {
   double incidence, azimuth;
 };
@@ -34,7 +33,7 @@ const std::vector<Direction> kDirections = {{0, 0}, {5, 0}, {10, 0}, {15, 0}, {2
 
 struct MapPart {
   double wind_speed, fetch, footprint;
-  SeaCaseRatios ratios;  // beams as in kDirections
+  SeaCaseRatios ratios;  // beams in the order of kDirections
   bool is_judged() const { return ratios.seen_fraction >= kLeastSeenFraction; }
 };
 
@@ -60,7 +59,7 @@ std::vector<MapPart> MakeMap(const Domain& domain, std::uint64_t seed) {
   return map;
 }
 
-// The mean of a ratio over the seas and footprints of one wind, which are drawn independently.
+// The mean of a ratio over the seas and footprints of one wind, which have independent surfaces.
 Estimate MeanRatio(const std::vector<MapPart>& map, double wind_speed, std::size_t direction,
                    Estimate ClosedFormRatio::*quantity) {
   Estimate mean;
@@ -75,8 +74,8 @@ Estimate MeanRatio(const std::vector<MapPart>& map, double wind_speed, std::size
   return {mean.value / count, std::sqrt(mean.standard_error) / count};
 }
 
-// 1 - ratio of THU = constant + mss (at_nadir + with_incidence (theta / 20 degrees)^2): what is not linear in
-// Snell's law is of the order of the slopes squared, and even in the incidence.
+// 1 - ratio of THU = constant + mss (at_nadir + with_incidence (theta / 20 degrees)^2): the nonlinear part of Snell's
+// law is of the order of the slopes squared, and even in the incidence.
 Eigen::Vector3d FitDeparture(const std::vector<const MapPart*>& parts) {
   const auto rows = static_cast<Eigen::Index>(parts.size() * kDirections.size());
   Eigen::MatrixX3d terms(rows, 3);
@@ -92,8 +91,8 @@ Eigen::Vector3d FitDeparture(const std::vector<const MapPart*>& parts) {
   return terms.colPivHouseholderQr().solve(departures);
 }
 
-// With standard errors by leaving out one sea and footprint after the other (the jackknife): the beams over
-// one sea share its surfaces.
+// With jackknife standard errors, leaving out one sea and footprint at a time, because the beams over one sea share
+// its surfaces.
 std::vector<Estimate> FitDepartureWithErrors(const std::vector<MapPart>& map) {
   std::vector<const MapPart*> parts;
   for (const MapPart& part : map) {
@@ -111,9 +110,10 @@ std::vector<Estimate> FitDepartureWithErrors(const std::vector<MapPart>& map) {
       {fit[0], std::sqrt(variance[0])}, {fit[1], std::sqrt(variance[1])}, {fit[2], std::sqrt(variance[2])}};
 }
 
-// The same at nadir as the slopes vanish, per unit of mean square slope. Snell's law turns a ray on a slope m
-// by the tangent g m - c m |m|^2, so that Gaussian slopes with the variances sx^2, sy^2 of a wind sea lower
-// the gain along x by (3 sx^2 + sy^2) c / g and along y by (sx^2 + 3 sy^2) c / g; they stand as 7 to 5.
+// The theoretical value of at_nadir as the slopes vanish; see "The third order in slope" in docs/physics.md. A slope
+// m deflects a ray by the tangent g m - c m |m|^2, so that Gaussian slopes with the variances sx^2 and sy^2 lower the
+// gain along x by (3 sx^2 + sy^2) c / g and along y by (sx^2 + 3 sy^2) c / g; in this sea the variances are in the
+// ratio 7 to 5.
 double ThirdOrderAtNadir(double n) {
   const double g = 1 - 1 / n;
   const double c = 1.0 / 3 - 1 / (2 * n) + 1 / (6 * n * n * n) - g * g * g / 3;
@@ -146,7 +146,7 @@ Tally CountWithin(const std::vector<MapPart>& map) {
 
 DataTable WholeMap(const std::vector<MapPart>& map) {
   DataTable table{.name = "closed_form_map",
-                  .title = "Monte Carlo over closed form at every node of the domain, depth 10 m",
+                  .title = "Ratio of Monte Carlo to closed form at every node of the domain, depth 10 m",
                   .columns = {"wind_speed_m_s", "fetch_m", "footprint_m", "incidence_deg", "azimuth_deg",
                               "along_ratio", "along_ratio_se", "cross_ratio", "cross_ratio_se", "thu_ratio",
                               "thu_ratio_se", "tvu_ratio", "tvu_ratio_se", "least_ratio", "most_ratio",
@@ -170,7 +170,7 @@ DataTable WholeMap(const std::vector<MapPart>& map) {
 DataTable MeanMap(const std::vector<MapPart>& map, const Domain& domain) {
   DataTable table{
       .name = "closed_form_map_mean",
-      .title = "Monte Carlo over closed form, mean over fetches and footprints",
+      .title = "Ratio of Monte Carlo to closed form, mean over fetches and footprints",
       .columns = {"wind_speed_m_s", "incidence_deg", "azimuth_deg", "along_ratio", "along_ratio_se",
                   "cross_ratio", "cross_ratio_se", "thu_ratio", "thu_ratio_se", "tvu_ratio", "tvu_ratio_se"},
       .rows = {}};
@@ -191,47 +191,49 @@ DataTable MeanMap(const std::vector<MapPart>& map, const Domain& domain) {
 void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study) {
   const Tally tally = CountWithin(map);
   study.comparisons.push_back(
-      {.quantity = absl::StrCat("Refraction and THU within what Snell's law explains, of ", tally.all),
+      {.quantity = absl::StrCat("Refraction and THU within the bounds set by Snell's law, of ", tally.all),
        .unit = "ratios",
        .ours = static_cast<double>(tally.within),
        .verdict = tally.within == tally.all ? Verdict::kAgrees : Verdict::kDiffers,
-       .basis = absl::StrFormat("all at most 0.015 + 0.3 mss + 0.02 theta/20 degrees under 1 and 0.005 over "
-                                "it, besides %.1f standard errors, which chance "
-                                "exceeds once in twenty such maps; the worst is %.1f beyond",
-                                StandardErrorsFor(tally.all), tally.greatest_excess)});
+       .basis = absl::StrFormat(
+           "all at most 0.015 + 0.3 mss + 0.02 theta/20 degrees below 1 and 0.005 above it, besides %.1f "
+           "standard errors, which chance exceeds in one such map of twenty; the worst is %.1f beyond",
+           StandardErrorsFor(tally.all), tally.greatest_excess)});
   const std::vector<Estimate> fit = FitDepartureWithErrors(map);
   study.comparisons.push_back(
-      {.quantity = "THU under the closed form as the slopes vanish",
+      {.quantity = "THU below the closed form as the slopes vanish",
        .unit = "1",
        .ours = fit[0].value,
        .standard_error = fit[0].standard_error,
        .verdict = std::abs(fit[0].value) <= kDiscretizationError + 3 * fit[0].standard_error
                       ? Verdict::kAgrees
                       : Verdict::kDiffers,
-       .basis = "zero within 0.005, to which grid, patch and rays are chosen, and three standard errors"});
+       .basis = "zero within three standard errors and 0.005, the accuracy for which grid, patch and rays "
+                "are chosen"});
   const auto coefficient = [&](const char* quantity, const Estimate& ours, const std::string& basis) {
-    study.comparisons.push_back({.quantity = absl::StrCat("THU under the closed form, ", quantity),
+    study.comparisons.push_back({.quantity = absl::StrCat("THU below the closed form, ", quantity),
                                  .unit = "1",
                                  .ours = ours.value,
                                  .standard_error = ours.standard_error,
                                  .verdict = Verdict::kReported,
                                  .basis = basis});
   };
-  coefficient("for each unit of mean square slope at nadir", fit[1],
-              absl::StrFormat("Snell's law to the third order in slope gives %.3f as the slopes vanish",
+  coefficient("per unit of mean square slope at nadir", fit[1],
+              absl::StrFormat("Snell's law to third order in slope gives %.3f as the slopes vanish",
                               ThirdOrderAtNadir(kRefractiveIndex)));
-  coefficient("for each unit of mean square slope more at 20 degrees", fit[2],
-              "a fit in the square of the incidence; the standard error is jackknifed");
+  coefficient("additional amount per unit of mean square slope at 20 degrees", fit[2],
+              "a fit in the square of the incidence; jackknife standard error");
 
   Estimate calm = MeanRatio(map, domain.wind_speeds.front(), 0, &ClosedFormRatio::thu);
   Estimate storm = MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::thu);
   const auto report = [&](const char* where, const Estimate& ratio) {
-    study.comparisons.push_back({.quantity = absl::StrCat("THU, Monte Carlo over closed form, ", where),
-                                 .unit = "1",
-                                 .ours = ratio.value,
-                                 .standard_error = ratio.standard_error,
-                                 .verdict = Verdict::kReported,
-                                 .basis = "mean over fetches and footprints"});
+    study.comparisons.push_back(
+        {.quantity = absl::StrCat("THU, ratio of Monte Carlo to closed form, ", where),
+         .unit = "1",
+         .ours = ratio.value,
+         .standard_error = ratio.standard_error,
+         .verdict = Verdict::kReported,
+         .basis = "mean over fetches and footprints"});
   };
   report("1 m/s at nadir", calm);
   report("15 m/s at 25 degrees along the wind", storm);
@@ -248,42 +250,39 @@ absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options) {
 
   Study study;
   study.id = "closed_form";
-  study.title = "The closed form everywhere";
+  study.title = "The closed form over the whole domain";
   study.paragraphs = {
       absl::StrFormat(
-          "The small-slope theory beside the Monte Carlo over the domain of a survey: winds of 1 to 15 m/s, "
-          "fetches from 100 m to fully developed, footprints of 0.1 to 5 m, incidences of 0 to 25 degrees, "
-          "%d surfaces at each of %d seas and footprints, drawn independently.",
+          "The small-slope theory is compared with the Monte Carlo over the domain of a survey: winds of 1 "
+          "to 15 m/s, fetches from 100 m to fully developed, footprints of 0.1 to 5 m, incidences of 0 to 25 "
+          "degrees, with %d independent surfaces for each of %d combinations of sea and footprint.",
           domain.realizations, map.size()),
       absl::StrFormat(
-          "The theory fails slowly and to one side: it is linear in slope, and Snell's law bends. Over all "
-          "seas and footprints the THU of the Monte Carlo lies under the theory by %.3f (+- %.3f) times the "
-          "mean square slope at nadir and %.3f (+- %.3f) times it more at 20 degrees, growing with the "
-          "square of the incidence. The first per cent is lost at a mean square slope of %.3f at nadir and "
-          "of %.3f at 25 degrees.",
+          "The theory fails slowly and to one side, because it is linear in slope and Snell's law is not. "
+          "Over all seas and footprints the THU of the Monte Carlo is below the theory by %.3f (+- %.3f) "
+          "times the mean square slope at nadir and by another %.3f (+- %.3f) times it at 20 degrees, "
+          "growing with the square of the incidence. The difference reaches 1 %% at a mean square slope of "
+          "%.3f at nadir and of %.3f at 25 degrees.",
           fit[1].value, fit[1].standard_error, fit[2].value, fit[2].standard_error, 0.01 / fit[1].value,
           0.01 / (fit[1].value + fit[2].value * std::pow(25.0 / 20, 2))),
-      absl::StrFormat("Vertical errors are of second order in slope at nadir, where the theory has none, and "
-                      "still some of it at 5 degrees: there the TVU of the Monte Carlo is %.3f of the "
-                      "theory's at the lightest wind. At 25 degrees in the strongest wind it is %.3f. %d of "
-                      "the %d seas and footprints are judged; in the others the footprint averages the waves "
-                      "down to less than 3e-5 of their mean square slope, and what is left of them is not "
-                      "refined for.",
-                      MeanRatio(map, domain.wind_speeds.front(), 1, &ClosedFormRatio::tvu).value,
-                      MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::tvu).value, judged,
-                      map.size())};
+      absl::StrFormat(
+          "Vertical errors are of second order in slope at nadir, where the theory has none, and the second "
+          "order still contributes at 5 degrees: there the TVU of the Monte Carlo is %.3f of the theory's in "
+          "the lightest wind. At 25 degrees in the strongest wind it is %.3f. %d of the %d combinations of "
+          "sea and footprint are judged; in the others the footprint averages the waves down to less than "
+          "3e-5 of their mean square slope, and the discretization is not refined for what remains of them.",
+          MeanRatio(map, domain.wind_speeds.front(), 1, &ClosedFormRatio::tvu).value,
+          MeanRatio(map, domain.wind_speeds.back(), 5, &ClosedFormRatio::tvu).value, judged, map.size())};
   Compare(map, domain, study);
   study.tables = {MeanMap(map, domain), WholeMap(map)};
   study.figures = {
       {.name = "closed_form_map",
-       .caption =
-           "THU of the Monte Carlo over that of the closed form, mean over fetches and footprints, and its "
-           "standard error, over wind and incidence (beam along the wind)."},
+       .caption = "Ratio of the THU of the Monte Carlo to that of the closed form, mean over fetches and "
+                  "footprints, and its standard error, by wind and incidence (beam along the wind)."},
       {.name = "closed_form_departure",
-       .caption =
-           "THU of the Monte Carlo over that of the closed form, each sea and footprint, over the mean "
-           "square slope, at nadir and at 25 degrees, with the departure that Snell's law explains "
-           "(shaded)."}};
+       .caption = "Ratio of the THU of the Monte Carlo to that of the closed form for each sea and "
+                  "footprint, as a function of the mean square slope, at nadir and at 25 degrees. The shaded "
+                  "range is the departure that Snell's law explains."}};
   return study;
 }
 

@@ -49,8 +49,8 @@ double AllowedDeparture(double mean_square_slope, double incidence_degrees) {
 
 double StandardErrorsFor(int comparisons) {
   assert(comparisons > 0);
-  // Each may exceed with the probability erfc(k / sqrt 2) = 0.05 / comparisons (Bonferroni: also if they are
-  // not independent).
+  // Each exceeds k with the probability erfc(k / sqrt 2) = 0.05 / comparisons (Bonferroni, which also holds if they
+  // are not independent).
   double low = 0, high = 10;
   while (high - low > 1e-6) {
     const double k = (low + high) / 2;

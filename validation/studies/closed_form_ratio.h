@@ -1,4 +1,4 @@
-// The Monte Carlo over the closed form, and how far apart they may be.
+// The ratio of the Monte Carlo to the closed form, and its bounds.
 #pragma once
 
 #include <cstdint>
@@ -12,36 +12,35 @@ namespace albtpu {
 // Of one beam.
 struct ClosedFormRatio {
   Estimate along, cross, thu;
-  Estimate tvu;    // not a number at nadir, where the closed form is zero
-  double allowed;  // how far under 1 along, cross and THU may lie, standard errors aside
+  Estimate tvu;    // NaN at nadir, where the closed form is zero
+  double allowed;  // the bound by which along, cross and THU may be below 1, besides standard errors
 };
 
 struct SeaCaseRatios {
   std::vector<ClosedFormRatio> beams;
-  // Of all waves: those below the grid are not drawn, but what they do to refraction is.
+  // Of all waves: the waves shorter than the grid are not drawn, but their effect on refraction is included.
   double mean_square_slope;
-  // The slope variance that the footprint lets through, over the whole; the least of the beams.
+  // The fraction of the slope variance that the footprint passes; the least of the beams.
   double seen_fraction;
 };
 
-// `sea case` has one depth, above 0.
+// `sea_case` must have one depth, above 0.
 SeaCaseRatios CompareWithClosedForm(const SeaCase& sea_case, int realizations, std::uint64_t seed,
                                     std::uint32_t cell);
 
-// What grid, patch and rays may do to a standard deviation (discretization.h): each is chosen to some half a
-// per cent of variance and a little more.
+// The relative error of a standard deviation that grid, patch and rays may cause (discretization.h): each of them is
+// chosen for an error of half a per cent of the variance or a little more.
 inline constexpr double kDiscretizationError = 0.005;
 
-// How far under the small-slope theory ray tracing may lie, for Snell's law bends to that side only (over it,
-// kDiscretizationError): 0.015 + 0.3 mss + 0.02 theta / 20 degrees.
+// The relative amount by which ray tracing may be below the small-slope theory, 0.015 + 0.3 mss + 0.02 theta / 20
+// degrees. The nonlinearity of Snell's law only lowers it; above the theory kDiscretizationError is allowed.
 double AllowedDeparture(double mean_square_slope, double incidence_degrees);
 
-// So many standard errors that the greatest of this many normal departures exceeds them in one case of
-// twenty.
+// The number of standard errors that the greatest of so many normal deviations exceeds with a probability of 5 %.
 double StandardErrorsFor(int comparisons);
 
-// How far a ratio lies under 1 - allowed or over 1 + kDiscretizationError, in standard errors; not above 0 if
-// within.
+// The distance, in standard errors, of a ratio below 1 - allowed or above 1 + kDiscretizationError; 0 or negative
+// within these bounds.
 double ExcessInStandardErrors(const Estimate& ratio, double allowed);
 
 }  // namespace albtpu

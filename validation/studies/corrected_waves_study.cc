@@ -1,5 +1,3 @@
-#include "validation/studies/corrected_waves_study.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "sea/response/refraction.h"
 #include "sea/sea_state.h"
 #include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -61,8 +60,8 @@ DataTable InClosedForm() {
   DataTable table{
       .name = "corrected_waves",
       .title =
-          "2-sigma values of what is left, fully developed, 20 degrees along the wind, in closed form: "
-          "angles in degrees, THU and TVU per m of depth, and THU over that of the whole sea",
+          "2 sigma values for the remaining waves, fully developed, 20 degrees along the wind, in closed "
+          "form: angles in degrees, THU and TVU per m of depth, and THU relative to that of the whole sea",
       .columns = {"spectrum", "wind_speed_m_s", "footprint_m", "corrected_above_m", "along_wind_deg",
                   "cross_wind_deg", "thu_per_depth", "tvu_per_depth", "thu_left"},
       .rows = {},
@@ -79,16 +78,15 @@ DataTable InClosedForm() {
   return table;
 }
 
-// The part of Apel's THU that stays, by wind and footprint, for the page.
+// The fraction of Apel's THU that remains, by wind and footprint, for the page.
 DataTable Summary() {
-  DataTable table{
-      .name = "corrected_waves_summary",
-      .title =
-          "THU that stays of Apel's sea, over that of the whole sea, 20 degrees, closed form, if waves "
-          "longer than this are corrected for",
-      .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m", "above_3_m",
-                  "above_1_m"},
-      .rows = {}};
+  DataTable table{.name = "corrected_waves_summary",
+                  .title =
+                      "Fraction of THU that remains if waves longer than a length are corrected for: Apel's "
+                      "sea, 20 degrees, closed form",
+                  .columns = {"wind_speed_m_s", "footprint_m", "above_100_m", "above_30_m", "above_10_m",
+                              "above_3_m", "above_1_m"},
+                  .rows = {}};
   for (const double wind_speed : {3.0, 6.0, 10.0, 15.0}) {
     for (const double footprint : {0.25, 0.5, 2.0}) {
       const Case c{&kApelModel, wind_speed, footprint};
@@ -101,10 +99,10 @@ DataTable Summary() {
   return table;
 }
 
-// The sea of one wind without the waves above a length, by Monte Carlo at a depth where wave heights no
-// longer matter, and in closed form.
+// The sea of one wind without the waves above a length, by Monte Carlo at a depth where wave heights no longer
+// matter, and in closed form.
 struct SimulatedSea {
-  double corrected_above, mean_square_slope;  // m; of all waves that are left
+  double corrected_above, mean_square_slope;  // m; of all remaining waves
   Estimate thu, tvu, bias_vertical;           // m, at kIncidence
   Estimate nadir_tvu, nadir_bias_vertical;    // m
   double closed_form_thu, closed_form_tvu;    // m, at kIncidence
@@ -139,7 +137,7 @@ std::vector<SimulatedSea> SimulateSeas(const StudyOptions& options) {
 DataTable TableOf(const std::vector<SimulatedSea>& seas) {
   DataTable table{
       .name = "corrected_waves_monte_carlo",
-      .title = "By Monte Carlo, 2-sigma and vertical bias at a depth of 20 m, 20 degrees and nadir",
+      .title = "2 sigma values and vertical bias by Monte Carlo, at a depth of 20 m, at 20 degrees and nadir",
       .columns = {"wind_speed_m_s", "footprint_m", "corrected_above_m", "mean_square_slope", "thu_m",
                   "thu_standard_error_m", "closed_form_thu_m", "tvu_m", "tvu_standard_error_m",
                   "closed_form_tvu_m", "bias_vertical_m", "bias_vertical_standard_error_m", "nadir_tvu_m",
@@ -164,20 +162,22 @@ Comparison CompareThu(const SimulatedSea& sea) {
   const std::string corrected = std::isinf(sea.corrected_above)
                                     ? "nothing corrected"
                                     : absl::StrFormat("corrected above %g m", sea.corrected_above);
-  return {.quantity = absl::StrFormat("THU by Monte Carlo over closed form, %g m/s, %g m, %s",
-                                      kSimulated.wind_speed, kSimulated.footprint, corrected),
-          .unit = "1",
-          .published = 1,
-          .ours = ratio.value,
-          .standard_error = ratio.standard_error,
-          .verdict = within ? Verdict::kAgrees : Verdict::kDiffers,
-          .basis = absl::StrFormat(
-              "from %.3f, below 1 by 0.015, 0.3 of the mean square slope that is left and 0.02 at 20 degrees "
-              "for the nonlinearity of Snell's law, to %.3f for the discretization, and %g standard errors",
-              1 - allowed, 1 + kDiscretizationError, kStandardErrors)};
+  return {
+      .quantity = absl::StrFormat("THU, ratio of Monte Carlo to closed form, %g m/s, %g m, %s",
+                                  kSimulated.wind_speed, kSimulated.footprint, corrected),
+      .unit = "1",
+      .published = 1,
+      .ours = ratio.value,
+      .standard_error = ratio.standard_error,
+      .verdict = within ? Verdict::kAgrees : Verdict::kDiffers,
+      .basis = absl::StrFormat(
+          "from %.3f to %.3f, and %g standard errors: below 1 by 0.015, 0.3 of the remaining mean square "
+          "slope and 0.02 at 20 degrees for the nonlinearity of Snell's law, above 1 for the discretization",
+          1 - allowed, 1 + kDiscretizationError, kStandardErrors)};
 }
 
-// What stays of each uncertainty and bias, and how many of the seas have the closed form's THU.
+// The fraction of each uncertainty and bias that remains, and the number of seas whose THU agrees with the closed
+// form.
 std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
                                 const std::vector<Comparison>& comparisons) {
   const SimulatedSea &whole = seas.front(), &least = seas.back();
@@ -191,14 +191,13 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
     return -gain * gain / 2 * kDepth * sea.mean_square_slope;
   };
   return absl::StrFormat(
-      "By Monte Carlo at %g m/s under %g m, if all waves above %g m are corrected for, %.0f %% of THU stay "
-      "at "
-      "20 degrees and %.0f %% of TVU; at nadir, where TVU is of second order in slope, %.0f %%. The vertical "
-      "bias at nadir, for %g m of depth, is %.5f +- %.5f m in the whole sea and %.5f +- %.5f m in what is "
-      "left of it: %.0f %% stay. To second order it is -(1 - 1/n)^2 / 2 of the mean square slope for each "
-      "metre of depth, %.5f and %.5f m, for waves of all lengths alike, and %.0f %% of that slope are in the "
-      "waves that stay. THU is that of the closed form, within the bounds stated with each, in %d of %d "
-      "seas, counting the whole one.",
+      "By Monte Carlo at %g m/s and a footprint of %g m, if all waves above %g m are corrected for, %.0f %% "
+      "of THU and %.0f %% of TVU remain at 20 degrees; at nadir, where TVU is of second order in slope, %.0f "
+      "%% of it. The vertical bias at nadir, for %g m of depth, is %.5f +- %.5f m in the whole sea and %.5f "
+      "+- %.5f m with the remaining waves: %.0f %% remain. To second order it is -(1 - 1/n)^2 / 2 times the "
+      "mean square slope per metre of depth, %.5f and %.5f m, for waves of any length, and %.0f %% of that "
+      "slope is in the remaining waves. THU agrees with the closed form, within the bounds stated with each, "
+      "in %d of %d seas, including the whole one.",
       kSimulated.wind_speed, kSimulated.footprint, least.corrected_above, percent(&SimulatedSea::thu),
       percent(&SimulatedSea::tvu), percent(&SimulatedSea::nadir_tvu), kDepth, whole.nadir_bias_vertical.value,
       whole.nadir_bias_vertical.standard_error, least.nadir_bias_vertical.value,
@@ -212,7 +211,7 @@ std::string SimulationParagraph(const std::vector<SimulatedSea>& seas,
 absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options) {
   Study study;
   study.id = "corrected_waves";
-  study.title = "Gravity waves that are corrected away (Figure 1a)";
+  study.title = "Gravity waves removed by a correction (Figure 1a)";
   const std::vector<SimulatedSea> simulated = SimulateSeas(options);
   study.tables = {Summary(), TableOf(simulated), InClosedForm()};
   for (const SimulatedSea& sea : simulated) study.comparisons.push_back(CompareThu(sea));
@@ -225,32 +224,33 @@ absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options) {
   for (const double length : {30.0, 3.0}) {
     study.comparisons.push_back(
         {.quantity =
-             absl::StrFormat("THU that stays, 6 m/s, 0.5 m, 20 degrees, corrected above %g m", length),
+             absl::StrFormat("THU that remains, 6 m/s, 0.5 m, 20 degrees, corrected above %g m", length),
          .unit = "%",
          .ours = left(length),
-         .basis = "the paper has no number for it"});
+         .basis = "no verdict: the paper gives no number"});
   }
   study.paragraphs = {
-      "Of waves longer than the footprint the paper says that the refraction can be corrected by the local "
-      "slope of the surface (Figure 1a), and studies the shorter ones. `corrected_above` takes the waves "
-      "longer than a given length out of the spectrum, all of their slope and height. It is the best that a "
-      "correction could do: a real one sees the surface at the spacing of its pulses and with the noise of "
-      "its ranges, and leaves part of them.",
+      "For waves longer than the footprint the paper says that the local slope of the surface can correct "
+      "the refraction (Figure 1a), and it studies the shorter ones. `corrected_above` removes the waves "
+      "longer than a given length from the spectrum, with all their slope and height. No correction can do "
+      "better: a real one measures the surface at the spacing of its pulses and with the noise of its "
+      "ranges, and leaves a part of these waves.",
       absl::StrFormat(
-          "Little is won from the longest waves: in a fully developed sea of 6 m/s, under a footprint of 0.5 "
-          "m at 20 degrees, correcting all waves above 30 m leaves %.0f %% of THU, above 10 m %.0f %%, above "
-          "3 m %.0f %%, and above 1 m, twice the footprint, %.0f %%. What refracts a beam are the waves "
-          "between its footprint and some metres; to remove them a survey would have to know the surface at "
-          "the scale of the footprint itself.",
+          "Correcting the longest waves gains little: in a fully developed sea of 6 m/s, for a footprint of "
+          "0.5 m at 20 degrees, correcting all waves above 30 m leaves %.0f %% of THU, above 10 m %.0f %%, "
+          "above 3 m %.0f %%, and above 1 m, twice the footprint, %.0f %%. A beam is refracted mostly by "
+          "waves between the size of its footprint and some metres; to remove them a survey would have to "
+          "know the surface at the scale of the footprint itself.",
           left(30), left(10), left(3), left(1)),
       by_monte_carlo};
-  study.figures = {{.name = "corrected_waves",
-                    .caption = "THU at 20 degrees over that of the whole sea, if waves longer than the "
-                               "abscissa are corrected for, fully developed, closed form: Apel's sea solid, "
-                               "Elfouhaily's dashed."},
-                   {.name = "corrected_waves_thu",
-                    .caption = "The same as THU for each metre of depth, footprint 0.25 m, with the Monte "
-                               "Carlo at 6 m/s (bars: two standard errors)."}};
+  study.figures = {
+      {.name = "corrected_waves",
+       .caption =
+           "THU at 20 degrees relative to that of the whole sea, if waves longer than the abscissa are "
+           "corrected for; fully developed sea, closed form. Solid: Apel's sea; dashed: Elfouhaily's."},
+      {.name = "corrected_waves_thu",
+       .caption = "The same as THU per metre of depth, footprint 0.25 m, with the Monte Carlo at 6 m/s "
+                  "(bars: two standard errors)."}};
   return study;
 }
 

@@ -1,5 +1,3 @@
-#include "validation/studies/paper_monte_carlo_study.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,24 +7,24 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "validation/published/paper_monte_carlo.h"
-#include "validation/published/paper_monte_carlo_tables.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_model.h"
 #include "validation/published/refraction_grid.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kSqrt2 = std::numbers::sqrt2;
-// Relative: what lets the fine run be judged by a limit of its own.
+// The relative standard error at or below which the fine run is judged by a limit of its own.
 constexpr double kFineStandardError = 0.008;
 
-// What agreement means, as rms of ln(sqrt 2 ours / paper) over the clean cells: the 500 surfaces of the paper
-// scatter by 3.2 %, its trend in wind departs from ours by some 6 %, and simulated angles may add 4 % of
-// nonlinearity and chance. A slope variance that is wrong by a quarter misses it.
+// The criterion of agreement, as rms of ln(sqrt 2 ours / paper) over the clean cells: the 500 surfaces of the paper
+// scatter by 3.2 %, its trend in wind differs from ours by some 6 %, and simulated angles may add 4 % of nonlinearity
+// and chance. A slope variance that is wrong by a quarter does not meet it.
 constexpr double kClosedFormRms = 0.08, kMonteCarloRms = 0.12;
-// Of a line through six winds: the theory bends; 0.8 % of noise takes 0.002 more, 3.2 % some 0.03 in the
-// mean, and the lowest of five 0.1.
+// For R^2 of a line through six winds: the theory is slightly curved; 0.8 % of noise takes off 0.002, 3.2 % some 0.03
+// on average and 0.1 from the lowest of five lines.
 constexpr double kClosedFormRSquared = 0.97, kFineRSquared = 0.95, kPaperRSquared = 0.80;
 
 PowerLaw FallWithDiameter(const std::vector<RefractionGrid>& grids, Estimate RefractionGrid::Cell::*axis) {
@@ -49,42 +47,40 @@ void CompareTable3(const PaperMonteCarlo& runs, Study& study) {
          .unit = "1",
          .ours = ratio.rms,
          .verdict = Agrees(ratio.rms <= tolerance),
-         .basis = absl::StrFormat(
-             "at most %g over the clean cells; the worst is off by %+.3f. sqrt 2 is a guess at a slip in the "
-             "paper's program, not physics",
-             tolerance, ratio.greatest)});
+         .basis = absl::StrFormat("at most %g over the clean cells; the worst differs by %+.3f. sqrt 2 is a "
+                                  "guess at an error in the paper's program, not physics",
+                                  tolerance, ratio.greatest)});
   };
   study.comparisons.push_back(
-      {.quantity = "Table 3 along wind, closed form over paper (mean logarithm)",
+      {.quantity = "Table 3 along wind, ratio of closed form to paper (mean logarithm)",
        .unit = "1",
        .published = 1,
        .ours = std::exp(plain.mean),
        .verdict = Agrees(std::abs(plain.mean) <= kClosedFormRms),
-       .basis =
-           absl::StrFormat("within 8 %%: the physics of the model gives less than is printed, by a factor of "
-                           "%.3f",
-                           std::exp(-plain.mean))});
+       .basis = absl::StrFormat(
+           "within 8 %%: the physics of the model gives smaller angles than printed, by a factor of %.3f",
+           std::exp(-plain.mean))});
   rms("sqrt 2 closed form", closed_form, kClosedFormRms);
   rms("sqrt 2 Monte Carlo", monte_carlo, kMonteCarloRms);
   rms("Monte Carlo with heights times sqrt 2", scaled, kMonteCarloRms);
-  study.comparisons.push_back({.quantity = "Table 3 cross wind, rms of ln(sqrt 2 closed form / paper)",
-                               .unit = "1",
-                               .ours = cross.rms,
-                               .verdict = Agrees(cross.rms <= kClosedFormRms),
-                               .basis = "at most 0.08 over the clean cells, as along the wind: the printed "
-                                        "angles hardly rise with wind and fall with incidence, ours rise "
-                                        "with both"});
+  study.comparisons.push_back(
+      {.quantity = "Table 3 cross wind, rms of ln(sqrt 2 closed form / paper)",
+       .unit = "1",
+       .ours = cross.rms,
+       .verdict = Agrees(cross.rms <= kClosedFormRms),
+       .basis = "at most 0.08 over the clean cells, as along the wind: the printed angles hardly rise with "
+                "wind and fall with incidence, while ours rise with both"});
 }
 
 void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
   const RefractionGrid printed = GridOf(runs.paper);
-  const auto compare = [&](const std::string& quantity, const Count& published, const Count& ours) {
+  const auto compare = [&](const std::string& quantity, const CaseCount& published, const CaseCount& ours) {
     study.comparisons.push_back({.quantity = absl::StrCat(quantity, ", of ", ours.all),
                                  .unit = "cases",
                                  .published = published.all == 0 ? kNoNumber : published.holds,
                                  .ours = static_cast<double>(ours.holds),
                                  .verdict = Agrees(ours.holds == ours.all),
-                                 .basis = "all of them, as the paper says of its results"});
+                                 .basis = "all cases, as the paper states for its results"});
   };
   compare("Along wind rises from one wind to the next", AlongWindRisesWithWind(printed),
           AlongWindRisesWithWind(runs.fine));
@@ -92,7 +88,7 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
           AlongWindRisesWithIncidence(runs.fine));
   compare("Along wind exceeds cross wind", AlongWindExceedsCrossWind(printed),
           AlongWindExceedsCrossWind(runs.fine));
-  Count falling;
+  CaseCount falling;
   for (std::size_t d = 1; d < runs.by_diameter.size(); ++d) {
     for (std::size_t c = 0; c < runs.by_diameter[d].cells.size(); ++c)
       falling.Add(runs.by_diameter[d].cells[c].along.value < runs.by_diameter[d - 1].cells[c].along.value);
@@ -107,7 +103,7 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
                                  .verdict = Agrees(LowestRSquared(grid) >= least),
                                  .basis = absl::StrFormat("at least %.2f: %s", least, why)});
   };
-  line("closed form", runs.closed_form, kClosedFormRSquared, "the theory bends slightly");
+  line("closed form", runs.closed_form, kClosedFormRSquared, "the theory is slightly curved");
   const double fine_error = GreatestRelativeStandardError(runs.fine);
   line("fine Monte Carlo", runs.fine, fine_error <= kFineStandardError ? kFineRSquared : kPaperRSquared,
        absl::StrFormat("the angles have standard errors of at most %.1g %%", 100 * fine_error));
@@ -125,9 +121,8 @@ void CompareModels(const PaperMonteCarlo& runs, Study& study) {
                                    .published = paper,
                                    .ours = our,
                                    .verdict = Verdict::kReported,
-                                   .basis =
-                                       "the fit to our closed form, as it is; printed coefficients follow "
-                                       "printed angles, which are some 1.4 times ours"});
+                                   .basis = "the fit to our unscaled closed form; the printed coefficients "
+                                            "follow the printed angles, which are some 1.4 times ours"});
     };
     add("coefficient of theta w", "s/m", published.wind_incidence, ours.wind_incidence);
     add("coefficient of w", "degree s/m", published.wind, ours.wind);
@@ -142,9 +137,8 @@ void CompareModels(const PaperMonteCarlo& runs, Study& study) {
                                  .published = published,
                                  .ours = ours,
                                  .verdict = Verdict::kReported,
-                                 .basis =
-                                     "a power law through the means over winds and incidences of the closed "
-                                     "form; as printed Eq. 29 and 30 are not 1 at 0.25 m"});
+                                 .basis = "a power law through the means of the closed form over winds and "
+                                          "incidences; as printed, Eq. 29 and 30 are not 1 at 0.25 m"});
   };
   exponent("Eq. 29", kPublishedAlongWindExponent,
            FallWithDiameter(runs.closed_form_by_diameter, &RefractionGrid::Cell::along).exponent);
@@ -161,36 +155,36 @@ std::vector<std::string> Text(const PaperMonteCarlo& runs, const PaperMonteCarlo
   };
   return {
       absl::StrFormat(
-          "The conditions of Table 1 on the fully developed sea: a uniform beam whose plane of incidence "
-          "lies along the wind. Two runs: one of %d surfaces%s for every "
-          "diameter, by tracing alone, with standard errors of at most %.1f %%; and one of %d surfaces at "
-          "0.25 m, which takes what the mean slope of "
-          "each surface explains from its known variance, with standard errors of at most %.1g %%. All waves "
-          "are in both: short ones by FFT, those longer than the patch as plane waves, up to the longest of "
-          "the sea, so no domain cuts them off. All incidences of a wind look at the same surfaces.",
+          "The conditions are those of Table 1 on the fully developed sea: a uniform beam whose plane of "
+          "incidence is along the wind. There are two runs: one of %d surfaces%s for every diameter, by "
+          "tracing alone, with standard errors of at most %.1f %%; and one of %d surfaces at 0.25 m, in "
+          "which the part of the variance that the mean slope of each surface explains is taken from theory, "
+          "with standard errors of at most %.1g %%. Both contain all waves: short ones by FFT, those longer "
+          "than the patch as plane waves, up to the longest of the sea, so that no domain cuts them off. All "
+          "incidences of a wind see the same surfaces.",
           size.plain.surfaces,
           size.plain.rays ? absl::StrFormat(" of %d rays, the paper's size,", *size.plain.rays) : "",
           100 * GreatestRelativeStandardError(runs.by_diameter.front()), size.fine.surfaces,
           100 * GreatestRelativeStandardError(runs.fine)),
-      absl::StrFormat("As physics gives it, the along-wind angles are %.2f of those printed in the mean, "
-                      "closed form and Monte Carlo alike. One factor on all slopes brings them together: the "
-                      "best is %.3f, next to sqrt 2. A slip in making real heights from Hermitian amplitudes "
-                      "(each wave at its full variance for k and for -k) would do this; we cannot know. With "
-                      "sqrt 2 the along-wind cells agree within %.1f %% rms and %.0f %% at worst. The ratio "
-                      "is not one number: the printed angles rise less with wind than ours.",
-                      std::exp(plain.mean), std::exp(-plain.mean), 100 * scaled.rms,
-                      100 * std::abs(scaled.greatest)),
+      absl::StrFormat(
+          "Without any scaling our along-wind angles are on average %.2f of the printed ones, in the closed "
+          "form and in the Monte Carlo. One factor on all slopes brings them together: the best factor is "
+          "%.3f, close to sqrt 2. An error in making real heights from Hermitian amplitudes (each wave with "
+          "its full variance for both k and -k) would have this effect, but we cannot know. With sqrt 2 the "
+          "along-wind cells agree within %.1f %% rms and %.0f %% at worst. The ratio is not constant: the "
+          "printed angles rise less with wind than ours.",
+          std::exp(plain.mean), std::exp(-plain.mean), 100 * scaled.rms, 100 * std::abs(scaled.greatest)),
       "Across the wind the printed angles hardly rise with wind and fall with incidence. Refraction in a "
-      "plane of incidence along the wind gives neither: the gain across that plane, 1 - cos(theta) / (n "
-      "cos(theta_r)), rises with incidence, and the slopes across the wind rise with it. It stands as a "
-      "difference.",
-      absl::StrFormat("The angles fall with the diameter as the footprint averages waves out. Ours fall to "
-                      "%.2f (along) and %.2f (cross) from 0.25 m to 4 m; Eq. 29 and 30, as ratios, to %.2f "
-                      "and %.2f.",
+      "plane of incidence along the wind does neither: the gain across that plane, 1 - cos(theta) / (n "
+      "cos(theta_r)), rises with incidence, and the slopes across the wind rise with wind. This difference "
+      "is unexplained.",
+      absl::StrFormat("The angles fall with the diameter, because a wider footprint averages out more waves. "
+                      "From 0.25 m to 4 m ours fall to %.2f (along) and %.2f (cross) of their value, those "
+                      "of Eq. 29 and 30, as ratios, to %.2f and %.2f.",
                       ratio(&RefractionGrid::Cell::along), ratio(&RefractionGrid::Cell::cross),
                       PublishedAlongWindDiameterFactor(4), PublishedCrossWindDiameterFactor(4)),
-      "Three cells of Table 3 are damaged in the text that we have; they are shown as read, marked as "
-      "doubtful, and count nowhere but in the lines through the paper's own cells.",
+      "Three cells of Table 3 are damaged in our text copy of the paper. They are shown as read, marked as "
+      "doubtful, and used only in the lines through the paper's cells.",
   };
 }
 
@@ -212,16 +206,14 @@ absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options) {
   study.tables = {Table3(runs), LinesInWind(runs), AngleModels(runs), Figure8(runs), Figure9(runs)};
   study.figures = {
       {.name = "table_3_angles",
-       .caption = "Table 3 (points) beside ours as physics gives it (full lines) and with all heights times "
-                  "sqrt 2 (broken lines), along and across the wind, at nadir and at 20 degrees."},
+       .caption = "Table 3 (points), our closed form (solid lines) and our Monte Carlo with all heights "
+                  "times sqrt 2 (dashed lines), along and across the wind, at nadir and at 20 degrees."},
       {.name = "figure_8",
-       .caption =
-           "Figure 8: along-wind 2 sigma at 15 degrees over wind for each diameter: ours with one standard "
-           "error, and the line through them."},
+       .caption = "Figure 8: 2 sigma along the wind at 15 degrees over wind for each diameter: ours with one "
+                  "standard error, and the lines fitted to them."},
       {.name = "figure_9",
-       .caption =
-           "Figure 9: 2 sigma over the diameter, mean of all winds and incidences: ours (points), the closed "
-           "form (full lines) and Eq. 27-30 as read (broken lines)."}};
+       .caption = "Figure 9: 2 sigma over the diameter, mean of all winds and incidences: ours (points), the "
+                  "closed form (solid lines) and Eq. 27-30 as read (dashed lines)."}};
   return study;
 }
 

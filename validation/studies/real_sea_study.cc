@@ -1,5 +1,3 @@
-#include "validation/studies/real_sea_study.h"
-
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "sea/sea_state.h"
 #include "validation/studies/observed_seas.h"
 #include "validation/studies/spectra_comparison.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -24,10 +23,11 @@ double WaveHeight(const SeaState& sea) { return 4 * std::sqrt(ElevationVariance(
 // In the order of the tables' columns.
 constexpr const SpectrumModel* kSpectra[] = {&kApelModel, &kElfouhailyModel};
 
-// The winds of Cox and Munk, and that from which on Elfouhaily's sea has short waves: m/s.
+// The range of winds observed by Cox and Munk, and the least wind at which Elfouhaily's sea has short waves, m/s.
 constexpr int kLeastObserved = 1, kGreatestObserved = 14, kShortWavesFrom = 3;
 
-// Of the total mean square slope from Cox and Munk's line, over every m/s of their winds from `first` on.
+// The rms departure of the total mean square slope from Cox and Munk's line, over their winds from `first` on in
+// steps of 1 m/s.
 double RmsDepartureOfSlope(const SpectrumModel& model, int first) {
   double squares = 0;
   for (int wind = first; wind <= kGreatestObserved; ++wind) {
@@ -39,7 +39,7 @@ double RmsDepartureOfSlope(const SpectrumModel& model, int first) {
 
 void CompareSlopes(Study& study) {
   DataTable table{.name = "real_sea_slopes",
-                  .title = "Mean square slope of fully developed seas beside Cox and Munk (1954)",
+                  .title = "Mean square slope of fully developed seas, compared with Cox and Munk (1954)",
                   .columns = {"wind_speed_m_s", "cox_munk_along", "apel_along", "elfouhaily_along",
                               "cox_munk_cross", "apel_cross", "elfouhaily_cross"},
                   .rows = {}};
@@ -79,10 +79,10 @@ void CompareSlopes(Study& study) {
   for (const SpectrumModel* model : kSpectra) {
     const double scatter = CoxMunkTotal(1).scatter;
     for (const auto& [first, winds] :
-         {std::pair{kLeastObserved, "all winds that were observed, those too below 3 m/s"},
+         {std::pair{kLeastObserved, "all observed winds, including those below 3 m/s"},
           std::pair{
               kShortWavesFrom,
-              "only from 3 m/s on: in lighter wind Elfouhaily's sea has no short waves and is too steep"}}) {
+              "only from 3 m/s on: in lighter winds Elfouhaily's sea has no short waves and is too steep"}}) {
       const double rms = RmsDepartureOfSlope(*model, first);
       study.comparisons.push_back(
           {.quantity =
@@ -93,7 +93,7 @@ void CompareSlopes(Study& study) {
            .ours = rms,
            .verdict = rms <= scatter ? Verdict::kAgrees : Verdict::kDiffers,
            .basis = absl::StrFormat(
-               "no more than the observations' own standard deviation about the line; %s", winds)});
+               "no more than the standard deviation of the observations about the line; %s", winds)});
     }
   }
 }
@@ -102,8 +102,8 @@ void CompareHeights(Study& study) {
   DataTable table{
       .name = "real_sea_heights",
       .title =
-          "Significant wave height of fully developed seas beside Pierson and Moskowitz (1964), their wind "
-          "taken from 10 m to 19.5 m by a logarithmic profile, and left as it is",
+          "Significant wave height of fully developed seas, compared with Pierson and Moskowitz (1964), with "
+          "the wind converted from 10 m to 19.5 m by a logarithmic profile, and unconverted",
       .columns = {"wind_speed_m_s", "pierson_moskowitz_m", "pierson_moskowitz_wind_as_it_is_m", "apel_m",
                   "elfouhaily_m"},
       .rows = {}};
@@ -120,7 +120,8 @@ void CompareHeights(Study& study) {
              .unit = "m",
              .published = observed,
              .ours = height,
-             .basis = "Pierson and Moskowitz give no scatter; of their wind at 19.5 m, not at 10 m"});
+             .basis = "no verdict: Pierson and Moskowitz give no scatter; their wind is that at 19.5 m, not "
+                      "at 10 m"});
       }
     }
     table.rows.push_back(std::move(row));
@@ -129,10 +130,11 @@ void CompareHeights(Study& study) {
 }
 
 void CompareHeightsByFetch(Study& study) {
-  DataTable table{.name = "real_sea_heights_by_fetch",
-                  .title = "Significant wave height by fetch beside JONSWAP (Hasselmann et al., 1973)",
-                  .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"},
-                  .rows = {}};
+  DataTable table{
+      .name = "real_sea_heights_by_fetch",
+      .title = "Significant wave height by fetch, compared with JONSWAP (Hasselmann et al., 1973)",
+      .columns = {"wind_speed_m_s", "fetch_km", "jonswap_m", "apel_m", "elfouhaily_m"},
+      .rows = {}};
   for (const double wind : {5.0, 10.0, 15.0}) {
     for (const double kilometres : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
       const double observed = JonswapWaveHeight(wind, 1e3 * kilometres);
@@ -147,7 +149,7 @@ void CompareHeightsByFetch(Study& study) {
                .unit = "m",
                .published = observed,
                .ours = height,
-               .basis = "a law fitted to scattered observations: no scatter is stated to judge by"});
+               .basis = "no verdict: a law fitted to scattered observations, whose scatter is not stated"});
         }
       }
       table.rows.push_back(std::move(row));
@@ -167,42 +169,45 @@ absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options) {
   CompareHeightsByFetch(study);
   const RatioSummary thu = CompareSpectra(options, study);
   study.paragraphs = {
-      "Two spectra stand beside what was measured: Apel's, with which the paper and our tables are made, and "
-      "the unified one of Elfouhaily et al. (1997), with its own spreading, its own fetch law and friction "
-      "velocity by the drag law of Wu (1982).",
+      "Two spectra are compared with measurements: Apel's, with which the paper and our tables are made, and "
+      "the unified one of Elfouhaily et al. (1997), which has its own spreading, its own fetch law and a "
+      "friction velocity by the drag law of Wu (1982).",
       absl::StrFormat(
-          "Slopes: Cox and Munk (1954), clean surface, along the wind 0.000 + 3.16e-3 U +- 0.004, across "
-          "0.003 + 1.92e-3 U +- 0.002, wind at 12.5 m. Apel's sea is steeper, by a factor of 1.6 to 2.7 in "
-          "mean square slope from 3 m/s on: its capillary-gravity resonance puts too much power into waves "
-          "of about a centimetre. A footprint averages them away, but the biases feel them. Elfouhaily's sea "
-          "was fitted to these observations. In light wind its long waves alone, whose level does not know "
-          "of the short ones, are steeper than what was seen, most along the wind. So it is the range of "
-          "winds that decides whether it is within their scatter, %.4f: the rms departure of its total mean "
-          "square slope is %.4f from %d m/s on and %.4f over all winds from %d m/s.",
+          "Slopes: Cox and Munk (1954), clean surface, give 0.000 + 3.16e-3 U +- 0.004 along the wind and "
+          "0.003 + 1.92e-3 U +- 0.002 across it, with the wind at 12.5 m. From 3 m/s on, the mean square "
+          "slope of Apel's sea is 1.6 to 2.7 times theirs: its capillary-gravity resonance puts too much "
+          "power into waves of about a centimetre. A footprint averages these waves out, but the biases "
+          "depend on them. Elfouhaily's sea was fitted to these observations. In light wind its long waves "
+          "alone, whose level is independent of the short ones, are steeper than observed, mostly along the "
+          "wind. Whether it is within the scatter of the observations, %.4f, therefore depends on the range "
+          "of winds: the rms departure of its total mean square slope is %.4f from %d m/s on and %.4f over "
+          "all winds from %d m/s.",
           CoxMunkTotal(1).scatter, RmsDepartureOfSlope(kElfouhailyModel, kShortWavesFrom), kShortWavesFrom,
           RmsDepartureOfSlope(kElfouhailyModel, kLeastObserved), kLeastObserved),
-      "Heights: Pierson and Moskowitz (1964), Hs = 0.21 U^2 / g with the wind at 19.5 m, and by fetch "
-      "JONSWAP, Hs = 1.6e-3 (g x / U^2)^(1/2) U^2 / g with the wind at 10 m, to where it meets the fully "
-      "developed sea. At short fetch Apel's waves are 2-3 times too low, because its level A does not depend "
-      "on fetch; Elfouhaily's are on JONSWAP within a few per cent to 10 km.",
+      "Heights: Pierson and Moskowitz (1964), Hs = 0.21 U^2 / g with the wind at 19.5 m; and by fetch "
+      "JONSWAP, Hs = 1.6e-3 (g x / U^2)^(1/2) U^2 / g with the wind at 10 m, up to the fully developed sea. "
+      "At short fetch Apel's waves are 2-3 times too low, because its level A does not depend on fetch; "
+      "Elfouhaily's agree with JONSWAP within a few per cent up to 10 km.",
       absl::StrFormat(
-          "What it does to a beam: with Elfouhaily's spectrum THU is %.2f (median) of what it is with "
-          "Apel's, %.2f to %.2f in nine of ten points of the survey domain and %.2f to %.2f in all. The "
-          "spectra agree best where surveys mostly are, in developed seas under footprints below a metre, in "
-          "spite of their different mean square slopes: what the footprint lets through is alike. At a fetch "
-          "of 1 km Apel's low waves make a THU about half as great: tables made with it are not conservative "
+          "Effect on a beam: THU with Elfouhaily's spectrum is %.2f (median) times that with Apel's, %.2f to "
+          "%.2f at nine of ten points of the survey domain and %.2f to %.2f at all points. The spectra agree "
+          "best where most surveys take place, in developed seas and with footprints below a metre, in spite "
+          "of their different mean square slopes, because the footprint passes similar waves. At a fetch of "
+          "1 km Apel's low waves make a THU about half as large: tables made with it are not conservative "
           "there. This is the uncertainty of the model itself, which no number of realizations reduces and "
-          "no standard error in a table holds.",
+          "which the standard errors in a table do not include.",
           thu.median, thu.low, thu.high, thu.least, thu.greatest)};
   study.figures = {
       {.name = "real_sea_slopes",
        .caption = "Mean square slope along and across the wind, fully developed. The bands are one standard "
-                  "deviation of Cox and Munk's observations."},
+                  "deviation of the observations of Cox and Munk."},
       {.name = "real_sea_heights",
-       .caption = "Significant wave height: left by wind, fully developed; right by fetch at 10 m/s."},
+       .caption =
+           "Significant wave height: over wind, fully developed (left), and over fetch at 10 m/s (right)."},
       {.name = "spectra_thu",
-       .caption = "THU of Elfouhaily's sea over that of Apel's by wind, closed form, 20 degrees: for "
-                  "footprints (fully developed, left) and fetches (footprint 0.5 m, right)."}};
+       .caption =
+           "Ratio of the THU of Elfouhaily's sea to that of Apel's over wind, closed form, 20 degrees: for "
+           "several footprints (fully developed, left) and several fetches (footprint 0.5 m, right)."}};
   return study;
 }
 

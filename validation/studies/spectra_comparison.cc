@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-// A place in the survey domain.
+// A point of the survey domain.
 struct Point {
   double wind_speed, fetch, incidence, footprint;  // m/s, m, degree, m
 };
@@ -50,7 +50,7 @@ Cell FetchCell(double fetch) {
   return std::isinf(fetch) ? Cell(std::string("fully developed")) : Cell(absl::StrFormat("%g", fetch / 1e3));
 }
 
-// What a quarter, a half, ... of `values` lies below.
+// The value below which the fraction `part` of `values` lies.
 double Quantile(std::vector<double> values, double part) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1) + 0.5)];
@@ -71,7 +71,7 @@ RatioSummary CompareInClosedForm(Study& study) {
   DataTable table{
       .name = "spectra_closed_form",
       .title =
-          "2-sigma values in closed form by both spectra, beam along the wind: angles in degrees, THU and "
+          "2 sigma values in closed form for both spectra, beam along the wind: angles in degrees, THU and "
           "TVU per m of depth",
       .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_along_deg",
                   "elfouhaily_along_deg", "apel_cross_deg", "elfouhaily_cross_deg", "apel_thu_per_depth",
@@ -96,8 +96,8 @@ RatioSummary CompareInClosedForm(Study& study) {
 
   DataTable summary{
       .name = "spectra_ratios",
-      .title = absl::StrFormat("Elfouhaily's 2-sigma value over Apel's, over %d points of winds of 2-15 m/s, "
-                               "fetches from 1 km, 0-20 degrees, footprints of 0.25-2 m",
+      .title = absl::StrFormat("The ratio of Elfouhaily's 2 sigma value to Apel's at %d points: winds of "
+                               "2-15 m/s, fetches from 1 km, 0-20 degrees, footprints of 0.25-2 m",
                                static_cast<int>(points.size())),
       .columns = {"quantity", "least", "percent_5", "median", "percent_95", "greatest"},
       .rows = {}};
@@ -111,8 +111,8 @@ RatioSummary CompareInClosedForm(Study& study) {
         {.quantity = absl::StrFormat("%s, Elfouhaily over Apel, median", name),
          .unit = "1",
          .ours = r.median,
-         .basis =
-             absl::StrFormat("the model uncertainty: %.2f to %.2f in nine of ten points", r.low, r.high)});
+         .basis = absl::StrFormat("the uncertainty of the model: %.2f to %.2f at nine of ten points", r.low,
+                                  r.high)});
   }
   study.tables.push_back(std::move(summary));
   return Summarize(thu);
@@ -122,17 +122,16 @@ void CompareByMonteCarlo(const StudyOptions& options, Study& study) {
   constexpr double kDepth = 10;  // m
   const Effort effort{.realizations = options.quick ? 400 : 3000,
                       .most_realizations = options.quick ? 400 : 3000};
-  DataTable table{
-      .name = "spectra_monte_carlo",
-      .title =
-          "THU and TVU at 10 m by Monte Carlo with both spectra, beam along the wind; standard errors beside "
-          "them, and the ratio of THU beside that in closed form",
-      .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_thu_m",
-                  "apel_thu_standard_error_m", "elfouhaily_thu_m", "elfouhaily_thu_standard_error_m",
-                  "apel_tvu_m", "apel_tvu_standard_error_m", "elfouhaily_tvu_m",
-                  "elfouhaily_tvu_standard_error_m", "thu_ratio", "thu_ratio_standard_error",
-                  "thu_ratio_closed_form"},
-      .rows = {}};
+  DataTable table{.name = "spectra_monte_carlo",
+                  .title =
+                      "THU and TVU at 10 m by Monte Carlo for both spectra, beam along the wind, with "
+                      "standard errors; the ratio of THU, and that in closed form",
+                  .columns = {"wind_speed_m_s", "fetch_km", "incidence_deg", "footprint_m", "apel_thu_m",
+                              "apel_thu_standard_error_m", "elfouhaily_thu_m",
+                              "elfouhaily_thu_standard_error_m", "apel_tvu_m", "apel_tvu_standard_error_m",
+                              "elfouhaily_tvu_m", "elfouhaily_tvu_standard_error_m", "thu_ratio",
+                              "thu_ratio_standard_error", "thu_ratio_closed_form"},
+                  .rows = {}};
   std::uint32_t cell = 0;
   for (const Point& point : {Point{3, 1e4, 20, 0.5},
                              {6, kFullyDeveloped, 0, 0.5},

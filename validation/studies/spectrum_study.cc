@@ -1,5 +1,3 @@
-#include "validation/studies/spectrum_study.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,9 +7,10 @@
 #include "sea/angle.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/apel_spectrum.h"
-#include "validation/laboratory/frequency_spectrum.h"
+#include "validation/laboratory/dispersion.h"
 #include "validation/published/published_table.h"
 #include "validation/studies/beam_picture.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -37,7 +36,7 @@ DataTable Spectrum(const SeaState& sea) {
 
 DataTable Spreading(const SeaState& sea) {
   DataTable table{.name = "figure_2_spreading",
-                  .title = "Spreading of waves about the wind, and as a frozen surface sees it",
+                  .title = "Spreading of waves about the wind, of travelling waves and of a frozen surface",
                   .columns = {"direction_deg", "spreading_per_rad", "frozen_per_rad"},
                   .rows = {},
                   .on_the_page = false};
@@ -52,7 +51,7 @@ DataTable Spreading(const SeaState& sea) {
 
 DataTable DirectionalSpectrum(const SeaState& sea) {
   DataTable table{.name = "figure_2_directional",
-                  .title = "Psi(kx, ky) = S(k) D(psi) / k of waves by their direction of travel",
+                  .title = "Psi(kx, ky) = S(k) D(psi) / k by the direction of travel of the waves",
                   .columns = {"kx_rad_per_m", "ky_rad_per_m", "psi_m4"},
                   .rows = {},
                   .on_the_page = false};
@@ -79,14 +78,14 @@ absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options,
   }
   const std::size_t row = std::find(fetch->begin(), fetch->end(), kFetch) - fetch->begin();
   if (row == fetch->size())
-    return absl::InvalidArgumentError("table2_wave_staff.csv: no row of 5.5 m of fetch");
-  const char* basis = "Table 2 does not state its wind: nothing to hold 5 m/s to";
+    return absl::InvalidArgumentError("table2_wave_staff.csv: no row for a fetch of 5.5 m");
+  const char* basis = "no verdict: Table 2 does not state its wind";
   study.comparisons.push_back({.quantity = "Peak wavelength, 5 m/s, fetch 5.5 m, Eq. 3",
                                .unit = "m",
                                .published = (*wavelength)[row],
                                .ours = 2 * std::numbers::pi / sea.spectrum().peak_wavenumber(),
                                .basis = basis});
-  study.comparisons.push_back({.quantity = "Peak frequency, 5 m/s, fetch 5.5 m, greatest of S over frequency",
+  study.comparisons.push_back({.quantity = "Peak frequency, 5 m/s, fetch 5.5 m, maximum of S over frequency",
                                .unit = "Hz",
                                .published = (*frequency)[row],
                                .ours = PeakFrequency(sea),
@@ -96,11 +95,11 @@ absl::Status CompareWithTable2(const SeaState& sea, const StudyOptions& options,
        .unit = "m",
        .published = (*height)[row],
        .ours = 4 * std::sqrt(ElevationVariance(sea)),
-       .basis = "Apel's level A does not depend on fetch: young seas come out too low"});
+       .basis = "no verdict: Apel's level A does not depend on fetch, which makes young seas too low"});
   return absl::OkStatus();
 }
 
-// The variance under the directional spectrum over the plane, by rings and full turns of directions.
+// The integral of the directional spectrum over the plane, by rings and directions of the full circle.
 double VarianceOverThePlane(const SeaState& sea) {
   const auto [lowest, highest] = sea.energetic_range();
   constexpr int kRings = 4000, kDirections = 36;
@@ -125,32 +124,32 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
   study.id = "figures_2_and_3";
   study.title = "Figures 2 and 3: the spectrum, and a beam through a surface of it";
   study.paragraphs = {
-      absl::StrFormat("Apel's spectrum (Eq. 1-14), the cosine-2S spreading with s = 2 (Eq. 15) and the "
-                      "directional spectrum (Eq. 16 with the Jacobian 1/k) for 5 m/s and a fetch of 5.5 m. "
-                      "By Eq. 5 the inverse wave age is %.1f, far beyond the printed range of the peak "
-                      "enhancement (Eq. 7), which is held at its end. The peak is at %.0f rad/m, a "
-                      "wavelength of %.1f cm; the shoulder from there to some 1000 rad/m is the "
-                      "capillary-gravity resonance of Eq. 11.",
-                      ApelSpectrum::InverseWaveAge(kWind, kFetch), k_p, 200 * std::numbers::pi / k_p),
-      "A frozen surface cannot tell a wave from the one that travels against it, so the surfaces of the "
-      "Monte Carlo have the mean of both directions (dashed in Figure 2b). The curves of the printed figures "
-      "are not available as numbers; what can be compared is the peak that the paper measured at that fetch "
-      "(Table 2).",
-      "Figure 3 of the paper shows a triangulated surface. Ours is one realization, lit from the side at "
-      "true scale, with rays of a 0.25 m beam from 4 m above, at 15 degrees, refracted at the facets that "
-      "they meet. The waves are shorter than the footprint: they hardly move the centroid of the spot but "
-      "break it up into caustics, which is what the photodiodes of the paper's laboratory sampled."};
+      absl::StrFormat(
+          "Apel's spectrum (Eq. 1-14), the cosine-2S spreading with s = 2 (Eq. 15) and the directional "
+          "spectrum (Eq. 16 with the Jacobian 1/k) for 5 m/s and a fetch of 5.5 m. By Eq. 5 the inverse wave "
+          "age is %.1f, far beyond the printed range of the peak enhancement (Eq. 7), which keeps its end "
+          "value there. The peak is at %.0f rad/m, a wavelength of %.1f cm; the shoulder from there to some "
+          "1000 rad/m is the capillary-gravity resonance of Eq. 11.",
+          ApelSpectrum::InverseWaveAge(kWind, kFetch), k_p, 200 * std::numbers::pi / k_p),
+      "On a frozen surface a wave looks the same as one that travels the opposite way, so the surfaces of "
+      "the Monte Carlo have the mean of both directions (dashed in Figure 2b). The curves of the printed "
+      "figures are not available as numbers; only the peak that the paper measured at that fetch (Table 2) "
+      "can be compared.",
+      "Figure 3 of the paper shows a triangulated surface. Ours is one realization at true scale, lit from "
+      "the side, with rays of a 0.25 m beam from 4 m above, at 15 degrees, refracted at the facets that they "
+      "hit. The waves are shorter than the footprint: they hardly move the centroid of the spot but break it "
+      "up into caustics, which the photodiodes of the paper's laboratory sampled."};
   if (const absl::Status status = CompareWithTable2(sea, options, study); !status.ok()) return status;
   const double variance = VarianceOverThePlane(sea), omnidirectional = ElevationVariance(sea);
   constexpr double kQuadrature = 1e-4;  // of ElevationVariance
   study.comparisons.push_back(
-      {.quantity = "Variance under the directional spectrum over that under S(k)",
+      {.quantity = "Ratio of the integral of the directional spectrum to that of S(k)",
        .unit = "1",
        .published = 1,
        .ours = variance / omnidirectional,
        .verdict =
            std::abs(variance / omnidirectional - 1) < kQuadrature ? Verdict::kAgrees : Verdict::kDiffers,
-       .basis = "within 1e-4, the error of the quadratures: the spreading integrates to one"});
+       .basis = "within 1e-4, the error of the quadratures, because the spreading integrates to one"});
   BeamPicture picture = PictureOf(sea, options.seed);
   study.tables = {Spectrum(sea),
                   Spreading(sea),
@@ -165,12 +164,12 @@ absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options) {
        .caption = "Figure 2: (a) the omnidirectional spectrum S(k), (b) the spreading, (c) the directional "
                   "spectrum, for 5 m/s and 5.5 m of fetch. The dotted line is the peak."},
       {.name = "figure_3",
-       .caption = "Figure 3: a realization of that sea at true scale, and rays of a 0.25 m beam refracted "
+       .caption = "Figure 3: one realization of that sea at true scale, and rays of a 0.25 m beam refracted "
                   "through it down to the depth of the detectors, 0.25 m."},
       {.name = "figure_3_spot",
        .caption =
-           "The same beam 0.25 m down: power over the detector plane as caustics leave it. The circle is the "
-           "edge of the spot in still water, the crosses are both centroids."}};
+           "The same beam 0.25 m down: distribution of power over the detector plane, with caustics. The "
+           "closed curve is the edge of the spot in still water, the crosses are the two centroids."}};
   return study;
 }
 

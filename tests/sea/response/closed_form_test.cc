@@ -29,7 +29,8 @@ TEST(ClosedForm, HasTheKnownRefractionOfASmallFootprintOnAFullyDevelopedSea) {
   EXPECT_NEAR(Of(5.25, slanted).refraction_along_wind / kDegree, 3.38, kPrinted);
 }
 
-// Without the filter of a footprint the refraction is the gain times the slope, whose variances are in the ratio 7 to 5.
+// Without the filter of a footprint the refraction is the gain times the slope, whose variances are in the ratio 7 to
+// 5.
 TEST(ClosedForm, OfAVanishingFootprintIsTheGainTimesTheSlope) {
   const SeaState sea(5, kFullyDeveloped);
   const SmallSlopeUncertainty uncertainty = ClosedForm(sea, {.footprint = 1e-7}, kRefractiveIndex);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-// Integral of k^power S dk between two wavenumbers: trapezoids in log k, fine enough to count as exact.
+// Integral of k^power S dk between two wavenumbers by the trapezoidal rule in log k, fine enough to count as exact.
 double Moment(const ApelSpectrum& spectrum, int power, double lowest, double highest) {
   constexpr int kSteps = 20000;
   const double step = std::log(highest / lowest) / kSteps;
@@ -44,7 +44,7 @@ TEST(ApelSpectrum, HasNearlyTheWaveHeightOfPiersonAndMoskowitz) {
   }
 }
 
-TEST(ApelSpectrum, HasTheMeanSquareSlopesOfApelsReading) {
+TEST(ApelSpectrum, HasTheKnownMeanSquareSlopes) {
   const auto mean_square_slope = [](double wind_speed) {
     return Moment(ApelSpectrum(wind_speed, kFullyDeveloped), 2);
   };
@@ -55,7 +55,7 @@ TEST(ApelSpectrum, HasTheMeanSquareSlopesOfApelsReading) {
   EXPECT_NEAR(mean_square_slope(15), 0.212, kPrinted);
 }
 
-TEST(ApelSpectrum, IsSteeperThanCoxAndMunkByAKnownFactor) {
+TEST(ApelSpectrum, IsSteeperThanCoxAndMunkByTheStatedFactor) {
   for (const double wind_speed : {3.0, 5.0, 10.0, 15.0}) {
     const double cox_munk = 0.003 + 0.00512 * wind_speed;  // Cox and Munk (1954), clean surface
     const double ratio = Moment(ApelSpectrum(wind_speed, kFullyDeveloped), 2) / cox_munk;
@@ -64,13 +64,13 @@ TEST(ApelSpectrum, IsSteeperThanCoxAndMunkByAKnownFactor) {
   }
 }
 
-TEST(ApelSpectrum, PeaksWhereTheWaveAgePutsIt) {
+TEST(ApelSpectrum, PeaksAtTheWavenumberOfItsWaveAge) {
   EXPECT_DOUBLE_EQ(ApelSpectrum(10, kFullyDeveloped).peak_wavenumber(), kGravity / 100 * 0.84 * 0.84);
   EXPECT_NEAR(ApelSpectrum(5, FetchOf(2, 5)).peak_wavenumber(), kGravity / 25 * 4, 1e-12);
 }
 
-// At the peak Eq. 8 is 1, so S(k_p) = A / k_p^3 e^(-5/4) gamma (R_ro + s R_res) V_dis I_D with a gamma that
-// is Donelan's between Omega 1 and 5 and held at its ends beyond them.
+// At the peak Eq. 8 is 1, so S(k_p) = A / k_p^3 e^(-5/4) gamma (R_ro + s R_res) V_dis I_D, where gamma is Donelan's
+// between Omega 1 and 5 and keeps its end values beyond.
 TEST(ApelSpectrum, EnhancesThePeakOfAYoungSea) {
   constexpr double kWindSpeed = 6;
   const double s = std::pow(10, -4.95 + 3.45 * (1 - std::exp(-kWindSpeed / 4.7)));
@@ -99,7 +99,7 @@ TEST(ApelSpectrum, EnhancesThePeakOfAYoungSea) {
   }
 }
 
-TEST(ApelSpectrum, ChangesNothingBeyondTheFullyDevelopedFetch) {
+TEST(ApelSpectrum, DoesNotChangeBeyondTheFullyDevelopedFetch) {
   const double full = ApelSpectrum::FullyDevelopedFetch(7);
   const ApelSpectrum unlimited(7, kFullyDeveloped), just(7, full * (1 + 1e-12)), far(7, 10 * full);
   for (double k = 0.05; k < 1e4; k *= 1.7) {
@@ -117,7 +117,7 @@ TEST(ApelSpectrum, GrowsWithFetchUntilItIsFullyDeveloped) {
   }
 }
 
-TEST(ApelInverseWaveAge, IsTheFetchLawAndNeverBelowTheFullyDevelopedSea) {
+TEST(ApelInverseWaveAge, FollowsTheFetchLawAndIsNeverBelowTheFullyDevelopedSea) {
   EXPECT_NEAR(ApelSpectrum::InverseWaveAge(5, 25 / kGravity), 22, 1e-12);  // k0 x = 1
   EXPECT_NEAR(ApelSpectrum::InverseWaveAge(5, FetchOf(3, 5)), 3, 1e-12);
   EXPECT_EQ(ApelSpectrum::InverseWaveAge(5, kFullyDeveloped), 0.84);

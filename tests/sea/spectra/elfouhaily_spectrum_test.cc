@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-// Integral of k^power S weight(k) dk: trapezoids in log k, fine enough to count as exact.
+// Integral of k^power S weight(k) dk by the trapezoidal rule in log k, fine enough to count as exact.
 template <typename Weight>
 double Moment(const ElfouhailySpectrum& spectrum, int power, double lowest, double highest,
               const Weight& weight) {
@@ -31,9 +31,8 @@ double Moment(const ElfouhailySpectrum& spectrum, int power) {
   return Moment(spectrum, power, 0.1 * spectrum.peak_wavenumber(), 2e4, [](double) { return 1.0; });
 }
 
-// Values of a Python script that holds nothing but the printed equations (NumPy, double precision), ten
-// digits.
-TEST(ElfouhailySpectrum, IsWhatItsEquationsSay) {
+// Values computed by an independent Python script from the printed equations (NumPy, double precision), ten digits.
+TEST(ElfouhailySpectrum, HasTheValuesOfItsPrintedEquations) {
   struct Case {
     double wind_speed, fetch, k, s, delta;
   };
@@ -55,9 +54,9 @@ TEST(ElfouhailySpectrum, IsWhatItsEquationsSay) {
   }
 }
 
-// Cox and Munk (1954), clean surface: 0.003 + 5.12e-3 U +- 0.004, the last the standard deviation of their
-// observations about the line. U stood 12.5 m above the water, where a logarithmic profile has some 2 % more
-// wind. Their winds went from 1 to 14 m/s.
+// Cox and Munk (1954), clean surface: 0.003 + 5.12e-3 U +- 0.004, where 0.004 is the standard deviation of their
+// observations about the line. U is the wind at 12.5 m, some 2 % more than at 10 m by a logarithmic profile. Their
+// winds were from 1 to 14 m/s.
 constexpr double kCoxAndMunksScatter = 0.004;
 
 double DepartureFromCoxAndMunk(double wind_speed) {
@@ -65,7 +64,7 @@ double DepartureFromCoxAndMunk(double wind_speed) {
          (0.003 + 5.12e-3 * WindSpeedAt(12.5, wind_speed));
 }
 
-TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatterFrom3MetresASecondOn) {
+TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkFrom3MetresPerSecondOn) {
   double squares = 0;
   int winds = 0;
   for (double wind_speed = 3; wind_speed <= 14; ++wind_speed, ++winds) {
@@ -76,8 +75,9 @@ TEST(ElfouhailySpectrum, HasTheMeanSquareSlopeOfCoxAndMunkWithinTheirScatterFrom
   EXPECT_LT(std::sqrt(squares / winds), kCoxAndMunksScatter);
 }
 
-// There the friction velocity is too low for the short waves of Eq. 44, and the long ones alone are steeper
-// than the line by more than the scatter: over all of Cox and Munk's winds the model is not within it.
+// In light wind the friction velocity is too low for the short waves of Eq. 44, and the long ones alone are steeper
+// than the line by more than the scatter. Over all of Cox and Munk's winds the model is therefore not within the
+// scatter.
 TEST(ElfouhailySpectrum, IsSteeperThanCoxAndMunkInLighterWind) {
   EXPECT_GT(DepartureFromCoxAndMunk(1), 2 * kCoxAndMunksScatter);
   EXPECT_GT(DepartureFromCoxAndMunk(2), kCoxAndMunksScatter);
@@ -87,8 +87,8 @@ TEST(ElfouhailySpectrum, IsSteeperThanCoxAndMunkInLighterWind) {
   EXPECT_GT(std::sqrt(squares / 14), kCoxAndMunksScatter);
 }
 
-// The variance of elevation of Pierson and Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5
-// m. That of Elfouhaily et al. is higher by no more than their peak enhancement, 1.7.
+// The variance of elevation of Pierson and Moskowitz (1964) is alpha U^4 / (4 beta g^2) with the wind at 19.5 m. That
+// of Elfouhaily et al. is higher, by at most their peak enhancement, 1.7.
 TEST(ElfouhailySpectrum, IsSomewhatHigherThanPiersonAndMoskowitz) {
   for (const double wind_speed : {5.0, 10.0, 15.0}) {
     const double at_19_5 = WindSpeedAt(19.5, wind_speed);
@@ -98,30 +98,30 @@ TEST(ElfouhailySpectrum, IsSomewhatHigherThanPiersonAndMoskowitz) {
     EXPECT_GT(ratio, 1) << wind_speed;
     EXPECT_LT(ratio, std::sqrt(1.7)) << wind_speed;
   }
-  // The Python script's integral, four digits.
+  // The integral computed by the Python script, four digits.
   EXPECT_NEAR(4 * std::sqrt(Moment(ElfouhailySpectrum(10, kFullyDeveloped), 0)), 2.6039, 5e-5);
   EXPECT_NEAR(Moment(ElfouhailySpectrum(10, kFullyDeveloped), 2), 0.060338, 5e-7);
 }
 
-// JONSWAP, Hasselmann et al. (1973): g Hs / U^2 = 1.6e-3 (g x / U^2)^(1/2), which the model is built on.
-TEST(ElfouhailySpectrum, GrowsWithFetchAsJonswap) {
+// JONSWAP, Hasselmann et al. (1973): g Hs / U^2 = 1.6e-3 (g x / U^2)^(1/2), on which the model is based.
+TEST(ElfouhailySpectrum, GrowsWithFetchAsJonswapDoes) {
   for (const double fetch : {1e3, 3e3, 1e4}) {
     const double jonswap = 1.6e-3 * std::sqrt(kGravity * fetch / 100) * 100 / kGravity;
     EXPECT_NEAR(4 * std::sqrt(Moment(ElfouhailySpectrum(10, fetch), 0)) / jonswap, 1, 0.1) << fetch;
   }
 }
 
-TEST(ElfouhailySpectrum, EndsAtBothEnds) {
+TEST(ElfouhailySpectrum, VanishesAtBothEnds) {
   const ElfouhailySpectrum spectrum(10, kFullyDeveloped);
   const double k_p = spectrum.peak_wavenumber();
   for (double k = k_p / 30; k > k_p / 1e6; k /= 3) EXPECT_LT(spectrum(k), 1e-300);
   const auto curvature = [&](double k) { return k * k * k * spectrum(k); };
   EXPECT_LT(curvature(1e4) / curvature(370), 1e-40);
-  EXPECT_NEAR(spectrum.Delta(1e-9), 1, 1e-12);  // the longest waves go with the wind
+  EXPECT_NEAR(spectrum.Delta(1e-9), 1, 1e-12);  // the longest waves travel along the wind
 }
 
-// Where Eq. 44 turns negative, u* under c_m / e, the tail of the long waves is all there is: far above the
-// peak Eq. 31 and 32 are 1/2 alpha_p (c_p / c) exp(-Omega / sqrt(10) (sqrt(k / k_p) - 1)).
+// Where Eq. 44 is negative, for u* below c_m / e, only the tail of the long waves is left: far above the peak Eq. 31
+// and 32 are 1/2 alpha_p (c_p / c) exp(-Omega / sqrt(10) (sqrt(k / k_p) - 1)).
 TEST(ElfouhailySpectrum, HasNoShortWavesInLightWind) {
   const ElfouhailySpectrum light(2, kFullyDeveloped);
   ASSERT_LT(light.friction_velocity(), 0.23 / std::numbers::e);
@@ -133,9 +133,9 @@ TEST(ElfouhailySpectrum, HasNoShortWavesInLightWind) {
   EXPECT_NEAR(std::pow(370, 3) * light(370) / tail, 1, 1e-4);
 }
 
-// The closed form of Eq. 57 where it has one: along to across (1 + Delta) / (1 - Delta) = exp(2 x) of the
-// argument x, sqrt(2) from the first term alone, times exp(8) at the peak where c = c_p.
-TEST(ElfouhailySpectrum, SpreadsWidelyButAtThePeakAndInTheGravityCapillaryRange) {
+// The closed form of Eq. 57: the ratio of waves along to across the wind is (1 + Delta) / (1 - Delta) = exp(2 x) for
+// the argument x, sqrt(2) from the first term alone, times exp(8) at the peak, where c = c_p.
+TEST(ElfouhailySpectrum, SpreadsWidelyExceptAtThePeakAndInTheGravityCapillaryRange) {
   const ElfouhailySpectrum spectrum(10, kFullyDeveloped);
   const auto along_to_across = [&](double k) {
     return spectrum.Spreading(k, 0) / spectrum.Spreading(k, std::numbers::pi / 2);
@@ -148,7 +148,7 @@ TEST(ElfouhailySpectrum, SpreadsWidelyButAtThePeakAndInTheGravityCapillaryRange)
   EXPECT_GT(along_to_across(30), std::numbers::sqrt2);
 }
 
-TEST(ElfouhailySpectrum, SpreadsOverAFullTurnAlikeUpwindAndDownwind) {
+TEST(ElfouhailySpectrum, HasANormalizedSpreadingThatIsTheSameUpwindAndDownwind) {
   const ElfouhailySpectrum spectrum(6, 1e4);
   for (const double k : {0.3, 10.0, 500.0}) {
     double sum = 0;
@@ -160,11 +160,11 @@ TEST(ElfouhailySpectrum, SpreadsOverAFullTurnAlikeUpwindAndDownwind) {
   }
 }
 
-TEST(ElfouhailyFetchLaw, LeadsToTheFullyDevelopedSea) {
+TEST(ElfouhailyFetchLaw, ApproachesTheFullyDevelopedSea) {
   EXPECT_EQ(ElfouhailySpectrum::InverseWaveAge(8, kFullyDeveloped), 0.84);
   const double developed = ElfouhailySpectrum::FullyDevelopedFetch(8);
   EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, developed), 1.01 * 0.84, 1e-12);
-  // For short fetches tanh is its argument: a power law, JONSWAP's within a few per cent at Omega = 3.
+  // For short fetches tanh equals its argument: a power law, within a few per cent of JONSWAP's at Omega = 3.
   EXPECT_NEAR(ElfouhailySpectrum::InverseWaveAge(8, 1) / ElfouhailySpectrum::InverseWaveAge(8, 10),
               std::pow(10, 0.3), 1e-3);
 }

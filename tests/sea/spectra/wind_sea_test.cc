@@ -43,7 +43,8 @@ TEST(Cosine2sSpreading, IsGreatestDownwindAndZeroUpwind) {
   EXPECT_DOUBLE_EQ(spreading(0.7), spreading(-0.7));
 }
 
-// At the peak the enhancement is gamma itself; far from it there is none. Between Omega 1 and 5 gamma follows the formula.
+// At the peak the enhancement is gamma itself; far from it there is none. Between Omega 1 and 5 gamma follows the
+// formula.
 TEST(JonswapPeak, EnhancesThePeakByGammaAndNothingElse) {
   for (const double omega : {1.0, 2.0, 5.0})
     EXPECT_DOUBLE_EQ(JonswapPeak(omega)(1), 1.7 + 6 * std::log10(omega));

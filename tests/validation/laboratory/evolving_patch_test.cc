@@ -37,7 +37,7 @@ std::complex<double> Amplitude(const std::vector<double>& heights, int i, int j)
   return sum / static_cast<double>(kSize * kSize);
 }
 
-TEST(EvolvingPatch, HasAtAnyInstantTheVarianceOfAStillOne) {
+TEST(EvolvingPatch, HasTheVarianceOfAFrozenPatchAtAnyInstant) {
   const WavePatchModel still(Sea(), kLength, kSize, CrossFade(1e-4, 2e-4));
   double sum = 0, sum_of_squares = 0;
   for (int r = 0; r < kRealizations; ++r) {
@@ -52,10 +52,10 @@ TEST(EvolvingPatch, HasAtAnyInstantTheVarianceOfAStillOne) {
   EXPECT_LT(error, 0.03 * mean);
 }
 
-// h(k, t + tau) h*(k, t) is (Psi(k) exp(-i omega tau) + Psi(-k) exp(i omega tau)) / 2 in the mean, Psi
-// directional: for tau = 0 the power of a frozen surface, for others what tells the waves that go from
-// those that come.
-TEST(EvolvingPatch, CarriesWavesAlongAndAgainstTheWindByTheirSpectrum) {
+// The mean of h(k, t + tau) h*(k, t) is (Psi(k) exp(-i omega tau) + Psi(-k) exp(i omega tau)) / 2 with the
+// directional Psi: for tau = 0 the power of a frozen surface; other lags distinguish waves that travel in opposite
+// directions.
+TEST(EvolvingPatch, HasWavesWithAndAgainstTheWindByTheirSpectrum) {
   constexpr int kModes[][2] = {{1, 0}, {2, 1}, {1, 2}, {0, 3}, {-2, 2}, {-3, 0}, {5, 4}};
   for (const double lag : {0.0, 0.06}) {
     std::vector<std::complex<double>> product(std::size(kModes), 0.0);
@@ -76,7 +76,7 @@ TEST(EvolvingPatch, CarriesWavesAlongAndAgainstTheWindByTheirSpectrum) {
       const std::complex<double> turn = std::polar(1.0, -AngularFrequency(k) * lag);
       const std::complex<double> expected = 0.5 * (forth * turn + back * std::conj(turn));
       const std::complex<double> found = product[m] / static_cast<double>(kRealizations);
-      // |h|^2 is exponentially distributed: its mean over N scatters by its value over sqrt(N).
+      // |h|^2 is exponentially distributed: the standard error of its mean over N is its value over sqrt(N).
       const double error = 0.5 * (forth + back) / std::sqrt(kRealizations);
       EXPECT_NEAR(found.real(), expected.real(), 4 * error) << i << ", " << j << ", lag " << lag;
       EXPECT_NEAR(found.imag(), expected.imag(), 4 * error) << i << ", " << j << ", lag " << lag;
@@ -84,20 +84,20 @@ TEST(EvolvingPatch, CarriesWavesAlongAndAgainstTheWindByTheirSpectrum) {
   }
 }
 
-// Cosine-2S sends nothing straight against the wind: each wave straight along it travels alone.
-TEST(EvolvingPatch, MovesASingleWaveDownwindWithItsPhaseSpeed) {
+// Cosine-2S spreading has no waves straight against the wind, so a wave straight downwind travels alone.
+TEST(EvolvingPatch, MovesASingleWaveDownwindAtItsPhaseSpeed) {
   const EvolvingPatch patch = Realization(0);
   const double lag = 0.031;
   const auto before = patch.HeightsAt(0), after = patch.HeightsAt(lag);
   for (int i = 1; i < kSize / 2; ++i) {
     const double k = i * kStep;
-    const double way = AngularFrequency(k) / k * lag;  // m downwind: the phase falls behind by k times that
+    const double way = AngularFrequency(k) / k * lag;  // m downwind: the phase decreases by k times that
     const std::complex<double> moved = Amplitude(before, i, 0) * std::polar(1.0, -k * way);
     EXPECT_LT(std::abs(Amplitude(after, i, 0) - moved), 1e-9 * std::abs(moved)) << i;
   }
 }
 
-TEST(EvolvingPatch, IsTheSameFromTheSameStream) {
+TEST(EvolvingPatch, IsAFunctionOfItsStream) {
   EXPECT_EQ(Realization(5).HeightsAt(2), Realization(5).HeightsAt(2));
   EXPECT_NE(Realization(5).HeightsAt(2), Realization(6).HeightsAt(2));
 }

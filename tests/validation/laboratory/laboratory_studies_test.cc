@@ -1,15 +1,14 @@
-// What the studies of the laboratory hand over. What they find is in tests/validation.
+// The form of the laboratory studies. tests/validation/physics tests their results.
+#include "validation/laboratory/laboratory_studies.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "validation/laboratory/laboratory_study.h"
-#include "validation/laboratory/wave_staff_study.h"
-
 namespace albtpu {
 namespace {
 
-TEST(LaboratoryStudy, SaysWhichPublishedTableIsMissing) {
+TEST(LaboratoryStudy, NamesAMissingPublishedTable) {
   StudyOptions options;
   options.published = "nowhere";
   EXPECT_EQ(LaboratoryStudy(options).status().code(), absl::StatusCode::kNotFound);
@@ -17,14 +16,14 @@ TEST(LaboratoryStudy, SaysWhichPublishedTableIsMissing) {
             std::string::npos);
 }
 
-TEST(WaveStaffStudy, SaysWhichPublishedTableIsMissing) {
+TEST(WaveStaffStudy, NamesAMissingPublishedTable) {
   StudyOptions options;
   options.published = "nowhere";
   EXPECT_NE(std::string(WaveStaffStudy(options).status().message()).find("nowhere/table2_wave_staff.csv"),
             std::string::npos);
 }
 
-TEST(WaveStaffStudy, SetsEveryPublishedNumberBesideOurs) {
+TEST(WaveStaffStudy, ComparesEveryPublishedNumber) {
   StudyOptions options;
   options.published = PAPER_FOLDER;
   options.quick = true;

@@ -22,7 +22,7 @@ const Eigen::Vector2d kOrigin(0, 0);
 HeightField TiltedPlane(double m) { return HeightField({-m, -m, -m, 0, 0, 0, m, m, m}, 3, 1.0); }
 HeightField StillWater() { return TiltedPlane(0); }
 
-// Vertical rays on a square lattice of pitch 1 mm, as symmetrical as the array.
+// Vertical rays on a square lattice of pitch 1 mm, with the symmetry of the array.
 std::vector<Ray> VerticalRays() {
   std::vector<Ray> rays;
   for (int i = -125; i < 125; ++i) {
@@ -33,24 +33,24 @@ std::vector<Ray> VerticalRays() {
   return rays;
 }
 
-TEST(PhotodiodeArray, SeesASpotAtTheCentreOfItsPhotodiode) {
+TEST(PhotodiodeArray, PutsASpotAtTheCentreOfItsPhotodiode) {
   const PhotodiodeArray array({}, {1, 2});
   EXPECT_EQ(array.Centroid({{1.027, 1.976}}).value(), Eigen::Vector2d(1.025, 1.975));
 }
 
-TEST(PhotodiodeArray, SeesNothingBetweenItsPhotodiodesAndBesideThem) {
+TEST(PhotodiodeArray, IsBlindBetweenAndBesideItsPhotodiodes) {
   const PhotodiodeArray array({}, kOrigin);
   EXPECT_FALSE(array.Centroid({{0, 0}, {0.031, 0.025}, {0.029, 0.029}, {0.175, 0.025}, {0.125, -0.131}}));
 }
 
-TEST(PhotodiodeArray, WeighsPhotodiodesByTheirLight) {
+TEST(PhotodiodeArray, WeightsPhotodiodesByTheirLight) {
   const PhotodiodeArray array({}, kOrigin);
   const auto centroid = array.Centroid({{0.025, 0.025}, {0.024, 0.025}, {0.025, 0.026}, {-0.075, 0.025}});
   EXPECT_NEAR(centroid->x(), (3 * 0.025 - 0.075) / 4, 1e-15);
   EXPECT_NEAR(centroid->y(), 0.025, 1e-15);
 }
 
-TEST(PhotodiodeArray, FindsASymmetricalBeamAtItsCentre) {
+TEST(PhotodiodeArray, HasTheCentroidOfASymmetricalBeamAtItsCentre) {
   const PhotodiodeArray array({}, kOrigin);
   const auto spots = SpotsAtDepth(VerticalRays(), StillWater(), kN, kDepth);
   EXPECT_LT(array.Centroid(spots)->norm(), 1e-15);
@@ -67,8 +67,8 @@ TEST(SpotsAtDepth, FollowSnellsLawThroughStillWater) {
   }
 }
 
-// Vertical light meets a plane of slope m at alpha = atan(m), and leaves it at alpha - asin(sin(alpha) / n)
-// from the vertical, towards the higher water.
+// Vertical light meets a plane of slope m at alpha = atan(m) and leaves it at alpha - asin(sin(alpha) / n) from the
+// vertical, towards the higher water.
 TEST(SpotsAtDepth, FollowTheClosedFormUnderATiltedPlane) {
   const double m = 0.2, alpha = std::atan(m);
   const double tangent = std::tan(alpha - std::asin(std::sin(alpha) / kN));
@@ -81,12 +81,12 @@ TEST(SpotsAtDepth, FollowTheClosedFormUnderATiltedPlane) {
   }
 }
 
-TEST(PhotodiodeArray, FollowsABeamWhenItsPhotodiodesLeaveNoGaps) {
+TEST(PhotodiodeArray, FollowsABeamIfItsPhotodiodesLeaveNoGaps) {
   const double m = 0.16, alpha = std::atan(m);
   const double tangent = std::tan(alpha - std::asin(std::sin(alpha) / kN));
   const auto spots = SpotsAtDepth(VerticalRays(), TiltedPlane(m), kN, kDepth);
   const PhotodiodeArray dense({.per_side = 300, .pitch = 0.001, .aperture = 0.001}, kOrigin);
-  // The mean of x + (d + m x) t over a beam that is symmetrical in x. A spot is read to half a pitch.
+  // The mean of x + (d + m x) t over a beam that is symmetrical in x. A spot is located to half a pitch.
   EXPECT_NEAR(dense.Centroid(spots)->x(), kDepth * tangent, 0.0005);
   EXPECT_NEAR(dense.Centroid(spots)->y(), 0, 1e-12);
 }
@@ -108,7 +108,7 @@ TEST(SpotsAtDepth, HaveTheCentroidOfTheTracedBeam) {
     height += Intersect(water, rays[r]).height / static_cast<double>(rays.size());
     centroid += spots[r] / static_cast<double>(rays.size());
   }
-  // The tracer counts depth from the mean height of the meetings.
+  // The tracer measures depth from the mean height of the intersections.
   const Eigen::Vector2d expected = met + (kDepth + height) * traced.tangent + traced.height_tangent;
   EXPECT_LT((centroid - expected).norm(), 1e-14);
   EXPECT_GT((expected - met).norm(), 1e-5);

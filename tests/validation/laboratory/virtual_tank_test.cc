@@ -20,11 +20,11 @@ TankExperiment Small() {
   return experiment;
 }
 
-TEST(TankSea, HasTheHeightThatIsAskedFor) {
+TEST(TankSea, HasTheRequestedWaveHeight) {
   EXPECT_NEAR(4 * std::sqrt(ElevationVariance(TankSea(3, 0.009))), 0.009, 1e-12);
 }
 
-TEST(VirtualTank, SeesNoMotionOfStillWater) {
+TEST(VirtualTank, MeasuresNoRefractionInStillWater) {
   const TankExperiment experiment = Small();
   const auto still = [&](int) {
     return std::vector<double>(static_cast<std::size_t>(experiment.grid.size) * experiment.grid.size, 0.0);
@@ -37,9 +37,9 @@ TEST(VirtualTank, SeesNoMotionOfStillWater) {
   }
 }
 
-// Water that lies deeper by h and has no slope moves no vertical beam, and a slanted one by h (tan - tan
+// Water that is lower by h and has no slope does not move a vertical beam; it moves a slanted one by h (tan - tan
 // refracted).
-TEST(VirtualTank, ReadsWaterLevelAsRefractionOfASlantedBeamToTheLetterOfThePaper) {
+TEST(VirtualTank, ReadsAWaterLevelAsRefractionOfASlantedBeamAsThePaperDoes) {
   const TankExperiment experiment = Small();
   const double h = 0.005;
   const auto low = [&](int) {
@@ -50,7 +50,7 @@ TEST(VirtualTank, ReadsWaterLevelAsRefractionOfASlantedBeamToTheLetterOfThePaper
   const double incidence = RadiansOfDegrees(20);
   const double shift =
       h * (std::tan(incidence) - std::tan(StillWaterRefraction(incidence, experiment.refractive_index)));
-  // The cone's rays are up to 1.8 degrees off its axis: relative differences of their mean of order 1e-3.
+  // The rays of the cone are up to 1.8 degrees off its axis, which changes their mean by a relative 1e-3 or so.
   EXPECT_NEAR(readings[1].full_beam.along_wind[0], std::atan(shift / experiment.depth), 1e-2 * shift / 0.25);
 }
 
@@ -68,7 +68,7 @@ TEST(VirtualTank, DoesNotDependOnThreads) {
   });
 }
 
-TEST(VirtualTank, HasSuccessiveFramesThatGoOnFromEachOther) {
+TEST(VirtualTank, HasSuccessiveFramesThatContinueEachOther) {
   TankExperiment experiment = Small();
   experiment.frames = 40;
   const auto reading = [&](double rate) {
@@ -78,11 +78,11 @@ TEST(VirtualTank, HasSuccessiveFramesThatGoOnFromEachOther) {
     const Eigen::Index n = angle.size();
     return (angle.tail(n - 1) - angle.head(n - 1)).square().mean();
   };
-  // In a millisecond waves of a few hertz move little; in 50 ms a lot.
+  // Waves of a few hertz move little in a millisecond and a lot in 50 ms.
   EXPECT_LT(mean_step(reading(1000).full_beam.along_wind), 0.1 * mean_step(reading(20).full_beam.along_wind));
 }
 
-TEST(LightOfFrame, IsWhatTheArraysSample) {
+TEST(LightOfFrame, IsTheLightThatTheArraysSample) {
   TankExperiment experiment = Small();
   experiment.beams.resize(1);
   const auto water = IndependentFrames(TankSea(3, 0.009), experiment.grid, 1, 0);

@@ -1,5 +1,5 @@
-// The Monte Carlo against the small-slope theory, over the domain in which a survey flies: within the bounds
-// of closed_form_ratio.h and three standard errors, which with the control variate are less than 0.5 %.
+// The Monte Carlo against the small-slope theory over the domain of surveys: it agrees within the bounds of
+// closed_form_ratio.h and three standard errors, which with the control variate are less than 0.5 %.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Sea {
   BeamProfile profile;
 };
 
-// The corners of wind, fetch and footprint, and what lies between.
+// The corners of wind, fetch and footprint, and points between them.
 const std::vector<Sea> kSeas = {
     {2, kFullyDeveloped, 0.25, BeamProfile::kUniform},
     {2, 1e3, 0.25, BeamProfile::kGaussian},
@@ -37,7 +37,7 @@ const std::vector<Sea> kSeas = {
     {12, kFullyDeveloped, 4, BeamProfile::kUniform},
 };
 
-// Incidence and azimuth, degrees; all beams of a sea meet the same surfaces.
+// Incidence and azimuth, degrees; all beams over a sea see the same surfaces.
 struct Direction {
   double incidence, azimuth;
 };

@@ -1,9 +1,9 @@
-// The discretization that is chosen from the sea and the footprint against one twice as fine.
+// The chosen discretization against one twice as fine.
 //
-// Halving the spacing and doubling the rays keep the waves, so that two runs differ by little but the defect that
-// is looked for. Doubling the patch draws other waves: with the control variates two standard deviations are known to
-// 0.4 % or better all the same. The slope variance that the discrete waves show the footprint, on which everything
-// rests in the limit of small slopes, knows no chance at all.
+// Halving the spacing and doubling the rays keep the waves, so that two runs differ by little more than the
+// discretization error. Doubling the patch draws other waves, but with the control variates two standard deviations
+// are still known to 0.4 % or better. The slope variance that the footprint sees of the discrete waves, which
+// determines everything in the limit of small slopes, has no random error at all.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,14 +25,14 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kAllowed = 0.01;
 
 struct Case {
-  double wind_speed, fetch, footprint, incidence;  // of the slanted beam, degrees; the other is at nadir
+  double wind_speed, fetch, footprint, incidence;  // of the slanted beam, degrees; the other beam is at nadir
   BeamProfile profile = BeamProfile::kUniform;
 };
 std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.wind_speed << " m/s, " << c.fetch << " m of fetch, " << c.footprint << " m of footprint";
 }
 
-// Footprints under, among and above the waves' lengths; calm and storm, short and unlimited fetch.
+// Footprints below, among and above the wavelengths; light and strong wind, short and unlimited fetch.
 const std::vector<Case> kCases = {
     {5, kFullyDeveloped, 0.25, 20},           {3, 1e3, 1, 20},
     {10, 1e4, 2, 20, BeamProfile::kGaussian}, {15, kFullyDeveloped, 5, 25},
@@ -84,7 +84,7 @@ const std::vector<Quantity> kQuantities = {
     {"TVU", [](const BeamUncertainty& beam) { return beam.tvu[0]; }},
 };
 
-// Runs every case as chosen and as `refined`, from streams that have nothing in common.
+// Runs every case as chosen and as `refined`, from independent streams.
 void ExpectNoMoreThanAPercent(const std::function<Discretization(Discretization)>& refined) {
   constexpr int kRealizations = 500;
   for (std::size_t i = 0; i < kCases.size(); ++i) {
@@ -106,11 +106,11 @@ void ExpectNoMoreThanAPercent(const std::function<Discretization(Discretization)
   }
 }
 
-TEST(Convergence, DoublingThePatchMovesNothingByMoreThanAPercent) {
+TEST(Convergence, DoublingThePatchChangesNothingByMoreThanOnePercent) {
   ExpectNoMoreThanAPercent(WithTwiceThePatch);
 }
 
-// Runs every case as chosen and as `refined`, on the same waves: chance is the same on both sides.
+// Runs every case as chosen and as `refined`, on the same waves, so that both have the same random error.
 void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(Discretization)>& refined) {
   constexpr int kRealizations = 600;
   for (std::size_t i = 0; i < kCases.size(); ++i) {
@@ -129,17 +129,17 @@ void ExpectNoMoreThanAPercentOnTheSameWaves(const std::function<Discretization(D
   }
 }
 
-// A finer grid of the same patch draws the same waves, and more that are shorter.
-TEST(Convergence, HalvingTheSpacingMovesNothingByMoreThanAPercent) {
+// A finer grid of the same patch draws the same waves and, in addition, shorter ones.
+TEST(Convergence, HalvingTheSpacingChangesNothingByMoreThanOnePercent) {
   ExpectNoMoreThanAPercentOnTheSameWaves(WithHalfTheSpacing);
 }
 
-TEST(Convergence, DoublingTheRaysMovesNothingByMoreThanAPercent) {
+TEST(Convergence, DoublingTheRaysChangesNothingByMoreThanOnePercent) {
   ExpectNoMoreThanAPercentOnTheSameWaves(WithTwiceTheRays);
 }
 
-// Standard deviations go as the root of the slope variance, along and across the wind.
-TEST(Convergence, TheSlopesThatTheFootprintSeesMoveByLessThanAPercent) {
+// Standard deviations scale with the root of the slope variance, along and across the wind.
+TEST(Convergence, TheSlopesThatTheFootprintSeesChangeByLessThanOnePercent) {
   for (const Case& c : kCases) {
     const SeaState sea(c.wind_speed, c.fetch);
     const std::vector<BeamOptions> beams = Beams(c);

@@ -1,6 +1,6 @@
-// The laboratory of Birkebak et al. (2018), section 3.3 and Table 4, as a virtual tank, and its waves.
+// The laboratory of Birkebak et al. (2018), section 3.3 and Table 4, as a virtual tank with its waves.
 //
-// 2 sigma of 400 independent frames is known to 1 / sqrt(2 x 399) = 3.5 %.
+// The 2 sigma of 400 independent frames has a relative standard error of 1 / sqrt(2 x 399) = 3.5 %.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,9 +10,8 @@
 #include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
-#include "validation/laboratory/frequency_spectrum.h"
+#include "validation/laboratory/dispersion.h"
 #include "validation/laboratory/virtual_tank.h"
-#include "validation/laboratory/wave_record.h"
 #include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {
@@ -29,12 +28,11 @@ TankReading PhotodiodesAtNadir(double wind_speed) {
 
 class Photodiodes : public ::testing::TestWithParam<double> {};
 
-// Table 4 prints 3.33 and 3.11 degrees along and across the wind at 2 m/s, 3.58 and 3.50 at 3 m/s. The
-// aperture that gave them is not published: 2.5 to 4.5 degrees is what apertures from 0.6 to 2 cm make of
-// it, give or take a standard error. The beam itself moves as the theory of small slopes has it, within 3
-// standard errors and 3 % for slopes that are not small (0.3 of their mean square, 0.07) and a depth that
-// is no larger than the footprint.
-TEST_P(Photodiodes, SeeAnglesOfTheMeasuredSizeUnderABeamThatHardlyMoves) {
+// Table 4 prints 3.33 and 3.11 degrees along and across the wind at 2 m/s, 3.58 and 3.50 at 3 m/s. The aperture is
+// not published: apertures from 0.6 to 2 cm give 2.5 to 4.5 degrees, within a standard error. The beam itself moves
+// as in the theory of small slopes, within 3 standard errors and 3 % for slopes that are not small (0.3 of their mean
+// square, 0.07) and a depth that is not larger than the footprint.
+TEST_P(Photodiodes, MeasureAnglesOfThePublishedSizeUnderABeamThatHardlyMoves) {
   const double wind_speed = GetParam();
   const TankReading reading = PhotodiodesAtNadir(wind_speed);
   const CentroidScatter array = ScatterOf(reading.arrays.front());
@@ -62,9 +60,9 @@ INSTANTIATE_TEST_SUITE_P(Winds, Photodiodes, ::testing::Values(2.0, 3.0), [](con
   return std::to_string(static_cast<int>(wind.param)) + "MetresASecond";
 });
 
-// 20 s of one water, 20 frames a second: the bright patches have moved from window to window by the next
-// frame, so that 400 frames are as good as independent.
-TEST(PhotodiodesInTime, ScatterAlikeInAWaterThatEvolves) {
+// 20 s of one sea at 20 frames per second: by the next frame the bright patches have moved from window to window, so
+// that the 400 frames are practically independent.
+TEST(PhotodiodesInTime, ScatterAlikeUnderWavesThatEvolve) {
   const TankExperiment experiment;
   const auto evolving = SuccessiveFrames(TankSea(2, kTankWaveHeight), experiment.grid, 20, 1, 0);
   const CentroidScatter successive = ScatterOf(ObserveTank(experiment, evolving).front().arrays.front());
@@ -76,9 +74,9 @@ TEST(PhotodiodesInTime, ScatterAlikeInAWaterThatEvolves) {
   expect_alike(successive.cross_wind, independent.cross_wind);
 }
 
-// Records of five minutes at 30 Hz, as in the paper, in the sea of 8.5 m of fetch: what comes out of the
-// processing is what went in. The spectrum of a record is resolved to 0.12 Hz.
-TEST(WaveStaffRecords, GiveBackPeakAndHeightOfTheSpectrum) {
+// Records of five minutes at 30 Hz, as in the paper, in the sea of 8.5 m of fetch: the analysis returns the peak and
+// the height of the spectrum. The spectrum of a record is resolved to 0.12 Hz.
+TEST(WaveStaffRecords, HaveThePeakAndTheHeightOfTheSpectrum) {
   constexpr int kRecords = 40;
   const SeaState sea(5.25, 8.5);
   const WaveStaff staff(sea, 9000, 30);

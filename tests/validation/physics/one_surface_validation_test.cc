@@ -1,6 +1,6 @@
-// The sea in bands (a patch under the beam, plane waves beyond it, a weight for where a slanted beam meets
-// them, nothing below the grid) against one surface that holds every wave down to the same grid, met by beams
-// at many places.
+// The sea in bands (a patch under the beam, plane waves longer than it, a weight for the place where a slanted beam
+// meets them, nothing below the grid) against one surface that holds every wave down to the same grid, with beams at
+// many places.
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -21,7 +21,7 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kDepth = 10;  // m
 constexpr double kFootprint = 0.5, kPointsPerFootprint = 64;
-constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven of the longest waves' peaks
+constexpr int kSize = 2048;  // of the one surface: 16 m a side, seven peak wavelengths
 constexpr int kSurfaces = 60, kPlaces = 36, kRays = 4000;
 const SeaOptions kSea{.waves = WindSea{.wind_speed_10m = 4, .fetch = 2000}};
 
@@ -30,7 +30,7 @@ const std::vector<BeamOptions> kBeams = {
     {.incidence = 8 * kDegree, .azimuth = 70 * kDegree, .footprint = kFootprint},
     {.incidence = 25 * kDegree, .azimuth = 20 * kDegree, .footprint = kFootprint}};
 
-// The middle of the surface that `stream` draws, wide enough for all places and rays.
+// The middle part of the surface that `stream` draws, wide enough for all places and rays.
 HeightField Middle(const WavePatchModel& model, const NormalStream& stream) {
   const std::vector<double> heights = model.Draw(stream);
   const int points = kSize - 1;
@@ -43,8 +43,8 @@ HeightField Middle(const WavePatchModel& model, const NormalStream& stream) {
   return HeightField(std::move(middle), points, model.spacing());
 }
 
-// What beams at all places of one surface make: sums of the errors (tangent x, y, horizontal x, y, vertical)
-// and of their squares.
+// The beams at all places of one surface: sums of the errors (tangent x, y, horizontal x, y, vertical) and of their
+// squares.
 struct Sums {
   Eigen::Array<double, 5, 1> errors = Eigen::Array<double, 5, 1>::Zero(), squares = errors;
 };
@@ -69,7 +69,7 @@ Sums AtAllPlaces(const HeightField& surface, const Beam& beam, const UnresolvedW
   return sums;
 }
 
-// 2 sigma of a sum of components; each surface counts as one, for the places on it go together.
+// 2 sigma of a sum of components. Each surface counts as one sample, because the places on it are correlated.
 Estimate TwoSigmaOf(const std::vector<Sums>& surfaces, std::vector<int> components) {
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(kSurfaces);
   double variance_of_mean = 0;
@@ -92,7 +92,7 @@ void ExpectAlike(const Estimate& bands, const Estimate& one, const char* what, d
       << what << " at " << incidence / kDegree << " degrees";
 }
 
-TEST(OneSurface, DoesToABeamWhatTheSeaInBandsDoes) {
+TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
   const SeaState sea(kSea);
   const double spacing = kFootprint / kPointsPerFootprint, length = kSize * spacing;
   const CrossFade all_in_the_patch(1e-6, 2e-6);

@@ -1,5 +1,5 @@
-// The paper's Tables 3 and 5 against our physics. Tolerances follow from what is printed and from standard
-// errors; that ours is what it was yesterday is no matter of this test.
+// The paper's Tables 3 and 5 against our physics. Tolerances follow from the printed precision and from standard
+// errors; this is not a regression test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,17 +39,16 @@ class Table5 : public ::testing::Test {
   }
 };
 
-// 0.005 m of rounding, and as much for the paper's 10,000 draws: 0.7 standard errors of the greatest value.
-TEST_F(Table5, ComesOutByQuadrature) { ExpectAllTwenty(AngleMethod(refracted_, two_sigma_), 0.010); }
+// 0.005 m for rounding, and as much for the paper's 10,000 draws: 0.7 standard errors of the greatest value.
+TEST_F(Table5, IsReproducedByQuadrature) { ExpectAllTwenty(AngleMethod(refracted_, two_sigma_), 0.010); }
 
-// 0.005 m of rounding, and 0.025 m, which is 2.4 standard errors of the greatest value in our draws and the
-// paper's.
-TEST_F(Table5, ComesOutWithThePapersNumberOfDraws) {
+// 0.005 m for rounding, and 0.025 m, which is 2.4 standard errors of the greatest value in our draws and the paper's.
+TEST_F(Table5, IsReproducedWithTheNumberOfDrawsOfThePaper) {
   ExpectAllTwenty(AngleMethodByDraws(refracted_, two_sigma_, 10'000, NormalStream(1, 0, 0)), 0.03);
 }
 
-// The other reading of theta is off by more than five times the tolerance at 10 m.
-TEST_F(Table5, DoesNotComeOutWithTheIncidenceInAir) {
+// With the other reading of theta the error at 10 m is more than five times the tolerance.
+TEST_F(Table5, IsNotReproducedWithTheIncidenceInAir) {
   EXPECT_GT(10 * AngleMethod(20 * kDegree, two_sigma_).thu_per_depth, 1.05 + 5 * 0.010);
 }
 
@@ -59,37 +58,37 @@ class Table3 : public ::testing::Test {
   const GridOptions conditions_ = {paper_.wind_speeds, paper_.incidences};
 };
 
-// The cells scatter by 3.2 % for the paper's 500 surfaces alone.
+// The scatter of the paper's 500 surfaces alone is 3.2 % in each cell.
 TEST_F(Table3, IsTheClosedFormTimesSqrt2AlongTheWind) {
   EXPECT_LT(AlongWindLogRatio(ClosedFormGrid(conditions_), kSqrt2, paper_).rms, 0.08);
 }
 
-// Were sqrt 2 not needed, or 2, the same measure would be four times the limit.
+// With a factor of 1 or 2 in place of sqrt 2 the same measure would be four times the limit.
 TEST_F(Table3, IsNotTheClosedFormItself) {
   EXPECT_GT(AlongWindLogRatio(ClosedFormGrid(conditions_), 1, paper_).rms, 0.3);
   EXPECT_GT(AlongWindLogRatio(ClosedFormGrid(conditions_), 2, paper_).rms, 0.3);
 }
 
-TEST_F(Table3, IsLinearInWindByTheClosedForm) {
+TEST_F(Table3, IsLinearInWindInTheClosedForm) {
   EXPECT_GE(LowestRSquared(ClosedFormGrid(conditions_)), 0.97);
 }
 
-// With waves of all lengths, which takes more than a domain of 32 m.
+// With waves of all lengths, which a domain of 32 m would not hold.
 TEST_F(Table3, IsTheMonteCarloTimesSqrt2AlongTheWind) {
   const RefractionGrid ours = SimulateGrid(conditions_, {500, std::nullopt, Estimator::kControlVariate}, 1);
   ASSERT_LE(GreatestRelativeStandardError(ours), 0.008);
   EXPECT_LT(AlongWindLogRatio(ours, kSqrt2, paper_).rms, 0.12);
   EXPECT_GE(LowestRSquared(ours), 0.95);
 
-  const Count wind = AlongWindRisesWithWind(ours), incidence = AlongWindRisesWithIncidence(ours),
-              axis = AlongWindExceedsCrossWind(ours);
+  const CaseCount wind = AlongWindRisesWithWind(ours), incidence = AlongWindRisesWithIncidence(ours),
+                  axis = AlongWindExceedsCrossWind(ours);
   EXPECT_EQ(wind.holds, wind.all);
   EXPECT_EQ(incidence.holds, incidence.all);
   EXPECT_EQ(axis.holds, axis.all);
 }
 
-// Waves sqrt 2 as high, traced: the nonlinearity of Snell's law changes the measure by less than 2 %.
-TEST_F(Table3, IsTheMonteCarloOfHigherWavesAlongTheWind) {
+// Traced through waves sqrt 2 times as high: the nonlinearity of Snell's law changes the measure by less than 2 %.
+TEST_F(Table3, IsTheMonteCarloOfWavesSqrt2AsHighAlongTheWind) {
   GridOptions higher = conditions_;
   higher.height_scale = kSqrt2;
   EXPECT_LT(
@@ -98,11 +97,11 @@ TEST_F(Table3, IsTheMonteCarloOfHigherWavesAlongTheWind) {
       0.12);
 }
 
-TEST_F(Table3, IsLinearInWindWithThePapersSurfacesAndRays) {
+TEST_F(Table3, IsLinearInWindWithTheSurfacesAndRaysOfThePaper) {
   EXPECT_GE(LowestRSquared(SimulateGrid(conditions_, {500, 10'000, Estimator::kPlain}, 1)), 0.80);
 }
 
-TEST_F(Table3, FallsWithTheDiameter) {
+TEST_F(Table3, FallsAsTheDiameterGrows) {
   RefractionGrid narrower = ClosedFormGrid(conditions_);
   for (const double diameter : {0.5, 1.0, 2.0, 4.0}) {
     GridOptions wider = conditions_;

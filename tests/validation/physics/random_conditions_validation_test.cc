@@ -1,5 +1,5 @@
-// What `albtpu-generate point` computes against the small-slope theory, at conditions drawn at random over
-// the domain of a survey.
+// The result of `albtpu-generate point` against the small-slope theory, at random conditions over the domain of a
+// survey.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 constexpr int kConditions = 40;
 constexpr int kRealizations = 200;
 
-// std::mt19937_64 gives the same numbers everywhere, the standard library's distributions do not.
+// std::mt19937_64 gives the same numbers on all platforms; the distributions of the standard library do not.
 class Draws {
  public:
   double Between(double low, double high) {
@@ -56,10 +56,10 @@ std::string Describe(const SeaCase& sea_case) {
 TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
   Draws draws;
   int judged = 0;
-  // Three quantities each: so many standard errors that chance alone fails this test once in twenty.
+  // Three quantities each. With this number of standard errors chance alone fails the test in one case of twenty.
   const double k = StandardErrorsFor(3 * kConditions);
   for (std::uint32_t cell = 0; judged < kConditions; ++cell) {
-    ASSERT_LT(cell, 3u * kConditions) << "most footprints see still water";
+    ASSERT_LT(cell, 3u * kConditions) << "too many footprints average out all waves";
     const SeaCase sea_case = Draw(draws);
     const SeaCaseRatios ratios = CompareWithClosedForm(sea_case, kRealizations, 1, cell);
     if (ratios.seen_fraction < kLeastSeenFraction) continue;
@@ -68,7 +68,7 @@ TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
     EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), k) << "along wind at " << Describe(sea_case);
     EXPECT_LE(ExcessInStandardErrors(beam.cross, beam.allowed), k) << "cross wind at " << Describe(sea_case);
     EXPECT_LE(ExcessInStandardErrors(beam.thu, beam.allowed), k) << "THU at " << Describe(sea_case);
-    // The judgement is worth something where a standard error is small beside what is allowed.
+    // The comparison is meaningful only if the standard error is small compared with the bound.
     EXPECT_LT(beam.thu.standard_error, 0.03) << Describe(sea_case);
   }
 }

@@ -1,14 +1,11 @@
-// The studies of the sea, quick: each verdict that physics promises, and those where it promises a
-// difference.
+// The studies of the sea, in their quick form: the verdicts that physics predicts, agreements and differences.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "validation/studies/corrected_waves_study.h"
-#include "validation/studies/real_sea_study.h"
-#include "validation/studies/spectrum_study.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -29,7 +26,7 @@ double Number(const DataTable& table, std::size_t row, const std::string& column
   return std::get<double>(table.rows.at(row).at(at));
 }
 
-TEST(SpectrumStudy, PeaksWhereTheWavesOfTheLaboratoryDid) {
+TEST(SpectrumStudy, HasThePeakOfTheLaboratoryWaves) {
   const absl::StatusOr<Study> study = SpectrumStudy(kQuick);
   ASSERT_TRUE(study.ok()) << study.status();
   const Comparison& wavelength = study->comparisons.at(0);
@@ -38,12 +35,12 @@ TEST(SpectrumStudy, PeaksWhereTheWavesOfTheLaboratoryDid) {
   const DataTable& spot = TableOf(*study, "figure_3_spot");
   double power = 0;
   for (std::size_t row = 0; row < spot.rows.size(); ++row) power += Number(spot, row, "power");
-  // Still water lights the ellipse of a 0.25 m beam at 15 degrees, 1.05 wider 0.25 m down; no ray is lost.
+  // Through still water a 0.25 m beam at 15 degrees lights an ellipse, 1.05 times wider 0.25 m down; no ray is lost.
   const double lit = 3.14159265 / 4 * 0.25 * 0.25 / 0.966 * 1.05 * 1.05 / (0.003 * 0.003);
   EXPECT_NEAR(power / lit, 1, 0.02);
 }
 
-TEST(RealSeaStudy, FindsElfouhailysSlopesWhereCoxAndMunkSawThemAndApelsBeyond) {
+TEST(RealSeaStudy, FindsElfouhailysSlopesWithinTheScatterOfCoxAndMunkAndApelsAbove) {
   const absl::StatusOr<Study> study = RealSeaStudy(kQuick);
   ASSERT_TRUE(study.ok()) << study.status();
   int judged = 0;
@@ -52,13 +49,13 @@ TEST(RealSeaStudy, FindsElfouhailysSlopesWhereCoxAndMunkSawThemAndApelsBeyond) {
     const bool light = Has(c.quantity, " 1 m/s") || Has(c.quantity, " 2 m/s");
     if (light) continue;
     ++judged;
-    // Too steep in light wind, Elfouhaily's sea is not within the scatter over all winds.
+    // Over all winds Elfouhaily's sea is not within the scatter, because it is too steep in light wind.
     const bool within = Has(c.quantity, "Elfouhaily") && !Has(c.quantity, "1-14 m/s");
     EXPECT_EQ(c.verdict, within ? Verdict::kAgrees : Verdict::kDiffers) << c.quantity;
   }
   EXPECT_EQ(judged, 2 * (3 * 2 + 2));
-  // The Monte Carlo sees the two spectra differ as the closed form does, but for the non-linearity of each,
-  // up to 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
+  // The ratio of the two spectra is the same in the Monte Carlo and in the closed form, except for the nonlinearity
+  // of each, up to 0.3 of the mean square slopes (0.13 and 0.06 at 10 m/s).
   const DataTable& simulated = TableOf(*study, "spectra_monte_carlo");
   for (std::size_t row = 0; row < simulated.rows.size(); ++row) {
     EXPECT_NEAR(
@@ -68,12 +65,12 @@ TEST(RealSeaStudy, FindsElfouhailysSlopesWhereCoxAndMunkSawThemAndApelsBeyond) {
   }
 }
 
-TEST(CorrectedWavesStudy, HasTheMonteCarloBesideTheClosedForm) {
+TEST(CorrectedWavesStudy, AgreesBetweenMonteCarloAndClosedForm) {
   const absl::StatusOr<Study> study = CorrectedWavesStudy(kQuick);
   ASSERT_TRUE(study.ok()) << study.status();
   for (const Comparison& c : study->comparisons) EXPECT_NE(c.verdict, Verdict::kDiffers) << c.quantity;
-  // The vertical bias at nadir is of second order in slope, and all waves have their part in it: it falls with
-  // the mean square slope that is left. The next order is smaller by about that slope.
+  // The vertical bias at nadir is of second order in slope, and waves of all lengths contribute to it: it is
+  // proportional to the remaining mean square slope. The next order is smaller by about that slope.
   const DataTable& simulated = TableOf(*study, "corrected_waves_monte_carlo");
   for (std::size_t row = 1; row < simulated.rows.size(); ++row) {
     const auto left = [&](const char* column) {

@@ -1,5 +1,5 @@
-// The standard errors that the Monte Carlo states, against how its estimates scatter, and its estimates against
-// those of tracing alone.
+// The standard errors stated by the Monte Carlo against the scatter of its estimates, and its estimates against those
+// of tracing alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ std::vector<BeamUncertainty> Simulated(int realizations, Estimator estimator, st
       .beams;
 }
 
-TEST(StandardErrors, AreHowTheEstimatesScatterAboutTracingAlone) {
+TEST(StandardErrors, MatchTheScatterOfTheEstimatesAboutTracingAlone) {
   std::vector<std::vector<BeamUncertainty>> repetitions;
   for (int i = 0; i < kRepetitions; ++i) {
     repetitions.push_back(Simulated(kRealizations, Estimator::kControlVariate, 1 + i));
@@ -75,7 +75,7 @@ TEST(StandardErrors, AreHowTheEstimatesScatterAboutTracingAlone) {
     const Estimate mean = Mean(values), twin = quantity.of(plain[quantity.beam]);
     EXPECT_NEAR(mean.value, twin.value, 3.5 * std::hypot(mean.standard_error, twin.standard_error))
         << quantity.name;
-    // Of 200 values the scatter is known to 5 %, of such as are means of heavy-tailed products to a little less.
+    // The scatter of 200 values is known to 5 %, a little worse for means of heavy-tailed products.
     EXPECT_NEAR(0.5 * TwoSigma(values).value / claimed, 1, 3 * 0.06) << quantity.name;
   }
 }

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 
-// 2 sigma of f(theta + delta) to the second order of the variance V of delta, from the derivatives of f:
+// 2 sigma of f(theta + delta) to second order in the variance V of delta, from the derivatives of f:
 // Var f = f'^2 V + (f''^2 / 2 + f' f''') V^2.
 double TwoSigmaToSecondOrder(double first, double second, double third, double variance) {
   return 2 *
          std::sqrt(first * first * variance + (0.5 * second * second + first * third) * variance * variance);
 }
 
-TEST(AngleMethod, FollowsTheSlopesOfTangentAndSecantForSmallAngles) {
+TEST(AngleMethod, FollowsTheFirstDerivativesForSmallAngles) {
   const double sigma = 1e-5;
   for (const double theta : {5 * kDegree, 15 * kDegree, 40 * kDegree}) {
     const AngleMethodUncertainty result = AngleMethod(theta, 2 * sigma);
@@ -25,11 +25,11 @@ TEST(AngleMethod, FollowsTheSlopesOfTangentAndSecantForSmallAngles) {
   }
 }
 
-TEST(AngleMethod, FollowsTheirCurvatureForLargerOnes) {
+TEST(AngleMethod, FollowsTheSecondOrderForLargerAngles) {
   const double theta = 14.9 * kDegree, sigma = 0.02;
   const double t = std::tan(theta), s = 1 / std::cos(theta);
   const AngleMethodUncertainty result = AngleMethod(theta, 2 * sigma);
-  // What the expansion leaves out is some 10 sigma^4, 2e-6.
+  // The error of the expansion is some 10 sigma^4, 2e-6.
   EXPECT_NEAR(result.thu_per_depth /
                   TwoSigmaToSecondOrder(s * s, 2 * s * s * t, 2 * s * s * (1 + 3 * t * t), sigma * sigma),
               1, 1e-5);
@@ -38,7 +38,7 @@ TEST(AngleMethod, FollowsTheirCurvatureForLargerOnes) {
       1e-4);  // a small slope and a large curvature
 }
 
-TEST(AngleMethod, IsOfSecondOrderInTheVerticalAtNadir) {
+TEST(AngleMethod, HasATvuOfSecondOrderAtNadir) {
   const double sigma = 0.01;  // 1 / cos(delta) - 1 is delta^2 / 2, whose deviation is sigma^2 / sqrt(2)
   EXPECT_NEAR(AngleMethod(0, 2 * sigma).tvu_per_depth / (std::sqrt(2.0) * sigma * sigma), 1, 1e-3);
 }
@@ -48,8 +48,8 @@ TEST(AngleMethod, IsZeroInStillWater) {
   EXPECT_EQ(AngleMethod(0.3, 0).tvu_per_depth, 0);
 }
 
-// A slow twin: midpoints, a thousand to the standard deviation.
-TEST(AngleMethod, AgreesWithAFineSumOverTheDensity) {
+// The slow twin: the midpoint rule with a thousand points per standard deviation.
+TEST(AngleMethod, AgreesWithAFineSum) {
   const double theta = 18.8 * kDegree, sigma = 2.5 * kDegree;
   double weights = 0, x = 0, xx = 0, z = 0, zz = 0;
   for (double t = -7.9995; t < 8; t += 1e-3) {
@@ -62,7 +62,7 @@ TEST(AngleMethod, AgreesWithAFineSumOverTheDensity) {
   EXPECT_NEAR(result.tvu_per_depth, 2 * std::sqrt(zz / weights - z * z / weights / weights), 1e-10);
 }
 
-TEST(AngleMethod, ByDrawsScattersAboutTheQuadratureByItsStandardError) {
+TEST(AngleMethod, ByDrawsScattersAboutTheQuadratureWithItsStandardError) {
   constexpr int kDraws = 10'000, kSamples = 200;
   const double theta = 14.9 * kDegree, angle = 5.645 * kDegree;
   const AngleMethodUncertainty exact = AngleMethod(theta, angle);
@@ -76,7 +76,8 @@ TEST(AngleMethod, ByDrawsScattersAboutTheQuadratureByItsStandardError) {
   }
   const double standard_error = 1 / std::sqrt(2.0 * kDraws);
   EXPECT_NEAR(mean, 0, 4 * standard_error / std::sqrt(kSamples));
-  // The scatter of a scatter is 1 / sqrt(2 samples), 5 %; the tangent is not quite normal, which adds 2 %.
+  // The relative error of a standard deviation is 1 / sqrt(2 samples), 5 %; the tangent is not quite normal, which
+  // adds 2 %.
   EXPECT_NEAR(std::sqrt(square) / standard_error, 1, 0.02 + 4 * 0.05);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(PublishedAngles, HoldThePapersTables) {
+TEST(PublishedAngles, HoldTheTablesOfThePaper) {
   const absl::StatusOr<PublishedAngles> table_3 = ReadTable3(PAPER_FOLDER);
   ASSERT_TRUE(table_3.ok()) << table_3.status();
   EXPECT_THAT(table_3->wind_speeds, ElementsAre(2, 2.5, 3, 3.5, 4, 5.25));
@@ -32,13 +32,13 @@ TEST(PublishedAngles, HoldThePapersTables) {
   EXPECT_EQ(table_4->At(5, 3).along, 4.58);
 }
 
-TEST(PublishedAngles, StandOnAFullGrid) {
+TEST(PublishedAngles, RequireEveryWindWithEveryIncidence) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder / "table4_empirical.csv")
       << "wind_speed_m_s,incidence_deg,along_wind_deg,cross_wind_deg\n2,0,3,3\n2,10,3,3\n3,0,3,3\n";
   const absl::Status status = ReadTable4(folder.path()).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("each wind must stand with each incidence"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("expected every wind with every incidence"));
 }
 
 }  // namespace

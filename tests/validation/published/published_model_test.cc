@@ -10,7 +10,7 @@
 namespace albtpu {
 namespace {
 
-TEST(AngleModel, IsFoundFromItsOwnAngles) {
+TEST(AngleModel, IsRecoveredFromItsOwnAngles) {
   std::vector<AngleSample> samples;
   for (const double wind_speed : {2.0, 3.0, 5.25}) {
     for (const double incidence : {0.0, 10.0, 20.0})
@@ -23,8 +23,8 @@ TEST(AngleModel, IsFoundFromItsOwnAngles) {
   EXPECT_NEAR(fit.constant, 1.6208, 1e-10);
 }
 
-// The reading of the printed coefficients: with them the equations pass through the table that they
-// summarize, with a decimal less they don't.
+// With the coefficients as read the equations pass through the table that they summarize; with those printed, ten
+// times smaller, they do not.
 TEST(AngleModel, PassesThroughTable3AsReadAndNotAsPrinted) {
   const absl::StatusOr<PublishedAngles> table_3 = ReadTable3(PAPER_FOLDER);
   ASSERT_TRUE(table_3.ok()) << table_3.status();
@@ -47,10 +47,31 @@ TEST(AngleModel, PassesThroughTable3AsReadAndNotAsPrinted) {
   EXPECT_GT(cross_printed, 0.2);
 }
 
-TEST(AngleModel, StandsForTheDiameterOfItsTable) {
+TEST(AngleModel, HoldsAtTheDiameterOfItsTable) {
   EXPECT_EQ(PublishedAlongWindDiameterFactor(0.25), 1);
   EXPECT_EQ(PublishedCrossWindDiameterFactor(0.25), 1);
   EXPECT_NEAR(PublishedAlongWindDiameterFactor(4), std::pow(16, -0.641), 1e-12);
+}
+
+TEST(LineFit, GoesThroughPointsOnALine) {
+  const LineFit line = FitLine({1, 2, 4}, {5, 7, 11});
+  EXPECT_NEAR(line.slope, 2, 1e-12);
+  EXPECT_NEAR(line.intercept, 3, 1e-12);
+  EXPECT_NEAR(line.r_squared, 1, 1e-12);
+  EXPECT_NEAR(line(10), 23, 1e-12);
+}
+
+TEST(LineFit, StatesTheVarianceThatItExplains) {
+  const LineFit line = FitLine({0, 1, 2, 3}, {0, 1, 1, 0});  // symmetric: no slope
+  EXPECT_NEAR(line.slope, 0, 1e-12);
+  EXPECT_NEAR(line.r_squared, 0, 1e-12);
+  EXPECT_NEAR(FitLine({0, 1, 2}, {0, 2, 1}).r_squared, 0.25, 1e-12);  // r = 1/2
+}
+
+TEST(PowerLaw, IsRecoveredFromItsOwnPoints) {
+  const PowerLaw law = FitPowerLaw({0.25, 1, 4}, {0.6, 0.3, 0.15});
+  EXPECT_NEAR(law.factor, 0.3, 1e-12);
+  EXPECT_NEAR(law.exponent, -0.5, 1e-12);
 }
 
 }  // namespace

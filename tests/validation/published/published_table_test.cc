@@ -23,7 +23,7 @@ class PublishedTableTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(PublishedTableTest, GivesItsColumnsAsNumbersAndWords) {
+TEST_F(PublishedTableTest, ReadsItsColumnsAsNumbersAndWords) {
   const auto table =
       PublishedTable::Read(File("# attribution\nwind_m_s,reading\n2.5,clean\n5.25,doubtful\n"));
   ASSERT_TRUE(table.ok()) << table.status();
@@ -32,7 +32,7 @@ TEST_F(PublishedTableTest, GivesItsColumnsAsNumbersAndWords) {
   EXPECT_THAT(*table->Words("reading"), ElementsAre("clean", "doubtful"));
 }
 
-TEST_F(PublishedTableTest, NamesFileLineAndColumnOfWhatIsWrong) {
+TEST_F(PublishedTableTest, NamesFileLineAndColumnOfAnError) {
   EXPECT_THAT(std::string(PublishedTable::Read(folder_ / "none.csv").status().message()),
               HasSubstr("none.csv: cannot be read"));
   EXPECT_THAT(std::string(PublishedTable::Read(File("a,b\n1\n")).status().message()),

@@ -34,12 +34,12 @@ Pulse AlongWind(double wind_speed, double incidence, double footprint, double de
           .depth = static_cast<float>(depth)};
 }
 
-TEST(PublishedTables, AreShippedAsTheCodeMakesThem) {
+TEST(PublishedTables, AreShippedAsMadeByTheCode) {
   EXPECT_EQ(Shipped("birkebak2018_measured.h5").digest(), MeasuredTable(Table4())->digest());
   EXPECT_EQ(Shipped("birkebak2018_model.h5").digest(), ModelTable()->digest());
 }
 
-TEST(PublishedTables, AnswerWithTheNumbersOfTable4) {
+TEST(PublishedTables, AnswerWithTheAnglesOfTable4) {
   const UncertaintyTable table = Shipped("birkebak2018_measured.h5");
   const PublishedAngles paper = Table4();
   for (std::size_t w = 0; w < paper.wind_speeds.size(); ++w) {
@@ -60,7 +60,7 @@ TEST(PublishedTables, AnswerWithTable5) {
   EXPECT_NEAR(at_10_m[Quantity::kTvu], 0.27, 0.01);
 }
 
-TEST(PublishedTables, LackWhatThePaperDoesNotGive) {
+TEST(PublishedTables, HaveNoBiasesAndNoStandardErrors) {
   for (const char* file : {"birkebak2018_measured.h5", "birkebak2018_model.h5"}) {
     const UncertaintyTable table = Shipped(file);
     EXPECT_EQ(table.variable(Quantity::kBiasAlongBeam), nullptr);
@@ -73,7 +73,7 @@ TEST(PublishedTables, LackWhatThePaperDoesNotGive) {
   }
 }
 
-TEST(PublishedTables, SayWhatTheyAre) {
+TEST(PublishedTables, DescribeThemselves) {
   for (const char* file : {"birkebak2018_measured.h5", "birkebak2018_model.h5"}) {
     const Provenance provenance = Shipped(file).provenance();
     EXPECT_THAT(provenance.title, HasSubstr("Birkebak et al. (2018)"));
@@ -85,7 +85,7 @@ TEST(PublishedTables, SayWhatTheyAre) {
   }
 }
 
-TEST(PublishedTables, KeepToWhatWasPublished) {
+TEST(PublishedTables, EndWhereThePublishedNumbersEnd) {
   const UncertaintyTable measured = Shipped("birkebak2018_measured.h5"),
                          model = Shipped("birkebak2018_model.h5");
   EXPECT_EQ(Interpolate(measured, AlongWind(3, 10, 0.5, 5)).axis, AxisId::kFootprint);
@@ -99,7 +99,7 @@ TEST(PublishedTables, KeepToWhatWasPublished) {
   }
 }
 
-TEST(PublishedTables, FollowTheModelBetweenTheNodes) {
+TEST(PublishedTables, FollowTheModelBetweenNodes) {
   const UncertaintyTable table = Shipped("birkebak2018_model.h5");
   for (const double wind_speed : {2.25, 3.7, 4.6}) {
     for (const double incidence : {0.5, 7.5, 19.5}) {

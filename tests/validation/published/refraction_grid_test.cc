@@ -9,13 +9,13 @@ namespace {
 
 const GridOptions kTwoByTwo = {{3, 5}, {0, 20}};
 
-// One wind a row, two incidences; along, cross.
+// One row for each wind, two incidences; along, cross.
 RefractionGrid GridOfAngles(double a, double b, double c, double d, double cross) {
   return {kTwoByTwo,
           {{{a, 0}, {cross, 0}}, {{b, 0}, {cross, 0}}, {{c, 0}, {cross, 0}}, {{d, 0}, {cross, 0}}}};
 }
 
-TEST(RefractionGrid, CountsWhereAnglesRise) {
+TEST(RefractionGrid, CountsRisingAngles) {
   const RefractionGrid grid = GridOfAngles(2, 3, 2.5, 2, 2.2);
   EXPECT_EQ(AlongWindRisesWithWind(grid).holds, 1);  // at nadir, not at 20 degrees
   EXPECT_EQ(AlongWindRisesWithWind(grid).all, 2);
@@ -24,7 +24,7 @@ TEST(RefractionGrid, CountsWhereAnglesRise) {
   EXPECT_EQ(AlongWindExceedsCrossWind(grid).all, 4);
 }
 
-TEST(RefractionGrid, IsComparedWithCleanCellsOnly) {
+TEST(RefractionGrid, ComparesCleanCellsOnly) {
   const PublishedAngles paper{{3, 5}, {0, 20}, {{2, 1}, {2, 1}, {2, 1, true, false}, {99, 1, false, true}}};
   const LogRatio along = AlongWindLogRatio(GridOfAngles(1, 2, 4, 8, 2), 1, paper);
   EXPECT_NEAR(along.mean, 0, 1e-12);  // ln of 1/2, 1, 2
@@ -33,7 +33,7 @@ TEST(RefractionGrid, IsComparedWithCleanCellsOnly) {
   EXPECT_NEAR(CrossWindLogRatio(GridOfAngles(1, 2, 4, 8, 2), 0.5, paper).rms, 0, 1e-12);
 }
 
-TEST(RefractionGrid, ScalesWithTheHeightsInTheClosedForm) {
+TEST(RefractionGrid, ScalesWithWaveHeightInTheClosedForm) {
   GridOptions higher = kTwoByTwo;
   higher.height_scale = 2;
   const RefractionGrid once = ClosedFormGrid(kTwoByTwo), twice = ClosedFormGrid(higher);
@@ -43,7 +43,7 @@ TEST(RefractionGrid, ScalesWithTheHeightsInTheClosedForm) {
   }
 }
 
-TEST(RefractionGrid, OfTracedBeamsLiesAboutTheClosedForm) {
+TEST(RefractionGrid, OfTracedBeamsAgreesWithTheClosedForm) {
   const RefractionGrid theory = ClosedFormGrid(kTwoByTwo);
   const RefractionGrid ours = SimulateGrid(kTwoByTwo, {64, 1000, Estimator::kControlVariate}, 1);
   ASSERT_EQ(ours.cells.size(), theory.cells.size());

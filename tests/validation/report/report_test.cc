@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "tests/temporary_folder.h"
-#include "validation/report/csv.h"
+#include "validation/report/study.h"
 
 namespace albtpu {
 namespace {
@@ -35,7 +35,7 @@ Study Example() {
   return study;
 }
 
-TEST(Csv, QuotesTextAndLeavesACellWithoutANumberEmpty) {
+TEST(Csv, QuotesTextAndLeavesMissingNumbersEmpty) {
   EXPECT_EQ(CsvOf(Example().tables[0]), "wind_m_s,reading\n2.5,\"a \"\"clean\"\", one\"\n,b\n");
 }
 
@@ -47,7 +47,7 @@ TEST(Csv, SummarizesEveryComparison) {
 
 class ReportTest : public ::testing::Test {
  protected:
-  // A folder with a draw.py that does as told.
+  // A folder with this text as its draw.py.
   ReportOptions Options(const std::string& drawing) {
     std::ofstream(folder_ / "draw.py") << drawing;
     return {folder_ / "report", folder_.path(), "Made by a test.", false};
@@ -74,11 +74,11 @@ TEST_F(ReportTest, WritesPageTablesAndFigures) {
   EXPECT_EQ(Contents(options.folder / "summary.csv"), CsvOf(SummaryOf({Example()})));
   EXPECT_EQ(Contents(options.folder / "figure_9.svg"), "<svg/>");
   for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
-    EXPECT_NE(entry.path().filename().string()[0], '.') << "left behind: " << entry.path();
+    EXPECT_NE(entry.path().filename().string()[0], '.') << "temporary file left behind: " << entry.path();
   }
 }
 
-TEST_F(ReportTest, KeepsItsTablesWhereNoFigureCanBeDrawn) {
+TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
   const ReportOptions options = Options(kDrawsNothing);
   ASSERT_TRUE(PrepareReport(options).ok());
   const auto missing = WriteReport({Example()}, options);
@@ -88,7 +88,7 @@ TEST_F(ReportTest, KeepsItsTablesWhereNoFigureCanBeDrawn) {
                             HasSubstr("figure_9 is missing"), HasSubstr("a &quot;clean&quot;, one")));
 }
 
-TEST_F(ReportTest, LeavesAloneWhatIsThereUnlessTold) {
+TEST_F(ReportTest, ReplacesFilesOnlyIfTold) {
   ReportOptions options = Options(kDraws);
   std::filesystem::create_directory(options.folder);
   std::ofstream(options.folder / "table_9.csv") << "mine";
@@ -102,10 +102,10 @@ TEST_F(ReportTest, LeavesAloneWhatIsThereUnlessTold) {
 
   std::ofstream(folder_ / "draw.py") << kDrawsNothing;
   ASSERT_TRUE(WriteReport({Example()}, options).ok());
-  EXPECT_FALSE(std::filesystem::exists(options.folder / "figure_9.svg")) << "of other numbers";
+  EXPECT_FALSE(std::filesystem::exists(options.folder / "figure_9.svg")) << "drawn from other numbers";
 }
 
-TEST_F(ReportTest, SaysBeforeTheWorkThatAFolderCannotBeMade) {
+TEST_F(ReportTest, RefusesAFolderThatCannotBeCreated) {
   ReportOptions options = Options(kDraws);
   options.folder = folder_ / "none" / "report";
   EXPECT_TRUE(absl::IsNotFound(PrepareReport(options)));

@@ -1,9 +1,8 @@
-#include "validation/studies/angle_method_study.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "absl/strings/match.h"
+#include "validation/studies/studies.h"
 
 namespace albtpu {
 namespace {
@@ -23,7 +22,7 @@ TEST(AngleMethodStudy, JudgesTheTwentyValuesOfTable5) {
   EXPECT_EQ(by_quadrature, 20);
 }
 
-TEST(AngleMethodStudy, SaysThatThePapersLimitIsNotThatOfS44) {
+TEST(AngleMethodStudy, ReportsThatTheLimitOfThePaperIsNotThatOfS44) {
   const Study study = AngleMethodStudy({.published = PAPER_FOLDER}).value();
   const Comparison& limit = study.comparisons.back();
   EXPECT_THAT(limit.quantity, HasSubstr("in S-44 itself"));
@@ -31,7 +30,7 @@ TEST(AngleMethodStudy, SaysThatThePapersLimitIsNotThatOfS44) {
   EXPECT_DOUBLE_EQ(limit.ours, 5.5);
 }
 
-TEST(AngleMethodStudy, NeedsThePapersTables) {
+TEST(AngleMethodStudy, NeedsTheTablesOfThePaper) {
   const absl::Status status = AngleMethodStudy({.published = "/nowhere"}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(status.message()), HasSubstr("/nowhere"));

@@ -7,9 +7,9 @@
 namespace albtpu {
 namespace {
 
-TEST(StandardErrors, AreThoseOfTheNormalDistribution) {
-  EXPECT_NEAR(StandardErrorsFor(1), 1.95996, 1e-4);    // 5 % of one
-  EXPECT_NEAR(StandardErrorsFor(1000), 4.0556, 1e-3);  // 5e-5 of each
+TEST(StandardErrors, FollowTheNormalDistribution) {
+  EXPECT_NEAR(StandardErrorsFor(1), 1.95996, 1e-4);    // 5 % for one
+  EXPECT_NEAR(StandardErrorsFor(1000), 4.0556, 1e-3);  // 5e-5 for each
 }
 
 TEST(AllowedDeparture, GrowsWithSlopeAndIncidence) {
@@ -17,18 +17,18 @@ TEST(AllowedDeparture, GrowsWithSlopeAndIncidence) {
   EXPECT_DOUBLE_EQ(AllowedDeparture(0.1, 20), 0.065);
 }
 
-TEST(Excess, CountsWhatIsBeyondTheAllowedInStandardErrors) {
+TEST(Excess, MeasuresTheDistanceBeyondTheBoundInStandardErrors) {
   EXPECT_NEAR(ExcessInStandardErrors({0.90, 0.01}, 0.07), 3, 1e-9);
   EXPECT_LT(ExcessInStandardErrors({0.99, 0.01}, 0.07), 0);
 }
 
-// Snell's law does not bend upwards: no more is allowed there for a rough sea.
-TEST(Excess, AllowsOnlyTheDiscretizationAboveTheClosedForm) {
+// The nonlinearity of Snell's law only lowers the ratio: above 1 the bound does not grow with slope.
+TEST(Excess, AllowsOnlyTheDiscretizationErrorAboveTheClosedForm) {
   EXPECT_NEAR(ExcessInStandardErrors({1.03 + kDiscretizationError, 0.01}, 0.07), 3, 1e-9);
   EXPECT_LT(ExcessInStandardErrors({1 + kDiscretizationError / 2, 0.01}, 0.07), 0);
 }
 
-TEST(ClosedFormRatio, IsNearOneAndLacksVerticalErrorsAtNadir) {
+TEST(ClosedFormRatio, IsNearOneAndHasNoTvuAtNadir) {
   SeaCase sea_case;
   sea_case.sea.waves = WindSea{.wind_speed_10m = 3};
   sea_case.beams = {{.footprint = 0.5}, {.incidence = 0.35, .footprint = 0.5}};

@@ -1,4 +1,4 @@
-#include "validation/report/csv.h"
+#include "validation/report/study.h"
 
 #include <cmath>
 

@@ -1,0 +1,28 @@
+// The studies of the report, beside those of validation/laboratory: each a function of its options alone.
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "validation/report/study.h"
+
+namespace albtpu {
+
+// Figures 2 and 3 of the paper: the spectrum of a young sea, and a beam through a surface drawn from it.
+absl::StatusOr<Study> SpectrumStudy(const StudyOptions& options);
+
+// Table 3, Figures 8 and 9, Eq. 27-30: the paper's Monte Carlo beside ours.
+absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options);
+
+// Table 5, THU and TVU by the angle method beside the limits of IHO S-44: from the measured angles of Table 4 at 20
+// degrees and 5.25 m/s, by quadrature and with the paper's 10,000 draws.
+absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options);
+
+// Where the small-slope theory holds over the domain of a survey, and where it fails.
+absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options);
+
+// The spectra beside measurements of real seas, and how the choice of spectrum changes the uncertainty of a beam.
+absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options);
+
+// Figure 1a of the paper: gravity waves longer than the footprint, removed by a correction for the local slope.
+absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options);
+
+}  // namespace albtpu
