@@ -1,4 +1,4 @@
-// Eight rows of numbers to eight lanes and back. Included once for each instruction set.
+// Transposes eight rows of numbers into eight lanes and back. Included once for each instruction set.
 #if defined(ALBTPU_EIGHT_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALBTPU_EIGHT_ROWS_INL_H
 #undef ALBTPU_EIGHT_ROWS_INL_H
@@ -20,7 +20,7 @@ using EightRows = hn::CappedTag<float, 8>;
 
 #if HWY_TARGET == HWY_SCALAR
 
-// As below.
+// As documented below.
 inline void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes,
                                std::size_t lane_stride) {
   for (int i = 0; i < 4; ++i) {
@@ -37,7 +37,7 @@ inline void FourLanesToColumns(const float* lanes, std::size_t lane_stride, floa
 
 #else
 
-// Of each 128 bits of the four vectors, a square of four by four, the transpose.
+// Transposes the square of four by four numbers in each 128 bits of the four vectors.
 template <class D, class V = hn::Vec<D> >
 HWY_INLINE void TransposeSquares(D d, V* v) {
   const hn::RepartitionToWide<D> pairs;
@@ -51,8 +51,8 @@ HWY_INLINE void TransposeSquares(D d, V* v) {
   v[3] = hn::BitCast(d, hn::InterleaveUpper(pairs, b, e));
 }
 
-// lanes[i lane_stride + r] = rows[r row_stride + i] for i below 4 and r below 8. Aligned: rows to four
-// numbers, lanes to eight.
+// lanes[i lane_stride + r] = rows[r row_stride + i] for i below 4 and r below 8. Rows are aligned to four numbers,
+// lanes to eight.
 template <class D = EightRows>
 HWY_INLINE void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes,
                                    std::size_t lane_stride) {
@@ -75,7 +75,7 @@ HWY_INLINE void FourColumnsToLanes(const float* rows, std::size_t row_stride, fl
   }
 }
 
-// The other way: rows[r row_stride + i] = lanes[i lane_stride + r].
+// The inverse: rows[r row_stride + i] = lanes[i lane_stride + r].
 template <class D = EightRows>
 HWY_INLINE void FourLanesToColumns(const float* lanes, std::size_t lane_stride, float* rows,
                                    std::size_t row_stride) {

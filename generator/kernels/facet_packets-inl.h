@@ -1,4 +1,5 @@
-// A packet of rays and the facets under or over them. Included once for each instruction set.
+// A packet of rays and the facets below or above them, the fast twin of HeightField::FacetAt. Included once for each
+// instruction set.
 #if defined(ALBTPU_FACET_PACKETS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALBTPU_FACET_PACKETS_INL_H
 #undef ALBTPU_FACET_PACKETS_INL_H
@@ -27,7 +28,7 @@ constexpr D d;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
 static_assert(RayBundle::kStrips % kLanes == 0);
 
-// The two heights `at` and after each index.
+// For each index, the height there and the next one.
 HWY_INLINE void LoadPairs(const float* heights, const std::int32_t* at, V& first, V& second) {
 #if HWY_TARGET == HWY_SCALAR
   first = hn::Set(d, heights[at[0]]);
@@ -49,7 +50,7 @@ HWY_INLINE void LoadPairs(const float* heights, const std::int32_t* at, V& first
 #endif
 }
 
-// The surface under a beam: lengths in steps of the grid, from the centre of its lowest cell.
+// The surface under a beam. Horizontal positions are in steps of the grid from the centre of the lowest cell.
 struct Grid {
   const float* heights;  // m
   std::ptrdiff_t stride;
@@ -67,40 +68,40 @@ struct Grid {
         x_per_height(hn::Set(d, static_cast<float>(rays.x_per_height()) / surface.spacing)),
         y_per_height(hn::Set(d, static_cast<float>(rays.y_per_height()) / surface.spacing)) {}
 
-  // Places [m] about the centre of the beam.
+  // From positions [m] about the centre of the beam to steps.
   HWY_INLINE V Steps(const float* metres) const {
     return hn::MulAdd(hn::LoadU(d, metres), steps_per_metre, origin);
   }
 };
 
-// The rays of a block are few enough to stay in the nearest cache, and for sums in single precision.
+// The number of rays in a block: few enough to stay in the first-level cache and to be summed in single precision.
 constexpr int kBlock = 16 * RayBundle::kStrips;
 
-// The cells of a block's rays. They stay in memory from the pass that enters them to the one that takes their
-// facets, so that its loads need not wait for any arithmetic.
+// The cells of a block's rays. One pass stores them in memory and the next pass loads the facets, so that its loads
+// do not wait for arithmetic.
 struct Cells {
   HWY_ALIGN float from_x[kBlock], from_y[kBlock];  // steps from the centre of the cell to the ray
   HWY_ALIGN std::int32_t at[kBlock];               // index of the height at the cell's low corner
 
-  // Those under or over the points (x, y) [steps] of the packet at `ray`; beyond the edge, the outermost.
+  // Stores the cells below or above the points (x, y) [steps] of the packet at `ray`; beyond the edge, the outermost.
   HWY_INLINE void Enter(const Grid& grid, int ray, V x, V y) {
     const V cell_x = hn::Round(hn::Min(hn::Max(x, hn::Zero(d)), grid.last_cell));
     const V cell_y = hn::Round(hn::Min(hn::Max(y, hn::Zero(d)), grid.last_cell));
     hn::Store(hn::Sub(x, cell_x), d, from_x + ray);
     hn::Store(hn::Sub(y, cell_y), d, from_y + ray);
-    // Adding 2^23 leaves a whole number in the low bits.
+    // Adding 2^23 to an integer below it leaves the integer in the low bits of the float.
     const hn::RebindToSigned<D> di;
     const V index = hn::MulAdd(cell_x, grid.stride_steps, hn::Add(cell_y, hn::Set(d, 0x1p23f)));
     hn::Store(hn::And(hn::BitCast(di, index), hn::Set(di, 0x7fffff)), di, at + ray);
   }
 };
 
-// Of the cell that each ray of the packet at `ray` is in, the facet under or over it.
+// The facets below or above the rays of the packet at `ray`, within the cells stored for them.
 struct Facets {
   V from_x, from_y;  // steps from the centre of the cell to the ray
-  M beside_x;        // which of the cell's triangles
-  V rise_x, rise_y;  // m a step, of its plane
-  V height;          // m, of the plane where the ray is
+  M beside_x;        // which triangle of the cell, as in HeightField::Triangle
+  V rise_x, rise_y;  // of its plane, m per step
+  V height;          // of the plane at the ray's position, m
 
   HWY_INLINE Facets(const Grid& grid, const Cells& cells, int ray) {
     V low, along_y, along_x, high;
@@ -113,28 +114,28 @@ struct Facets {
     const V from_low = hn::Sub(third, low), to_high = hn::Sub(high, third);
     rise_x = hn::IfThenElse(beside_x, from_low, to_high);
     rise_y = hn::IfThenElse(beside_x, to_high, from_low);
-    // At the centre of the cell, which both triangles share.
+    // The height at the centre of the cell, which both triangles share.
     const V middle = hn::Mul(hn::Add(low, high), hn::Set(d, 0.5f));
     height = hn::MulAdd(rise_x, from_x, hn::MulAdd(rise_y, from_y, middle));
   }
 };
 
-// A step of Newton, from the height z [m] to where the rays meet the planes of their facets.
+// A step of Newton's method, from the height z [m] to the intersection of the rays with the planes of their facets.
 struct Step {
-  V rise;  // m
-  M met;   // rays that are in the triangle there
+  V rise;      // m
+  M on_facet;  // rays whose intersection lies within the facet itself
 
   HWY_INLINE Step(const Grid& grid, const Facets& facets, V z) {
     const V approach = hn::NegMulAdd(facets.rise_x, grid.x_per_height,
                                      hn::NegMulAdd(facets.rise_y, grid.y_per_height, hn::Set(d, 1.0f)));
-    // Over a facet that turns away a step still goes the right way.
+    // The limit keeps the direction of the step right even over a facet that turns away.
     const V least_approach = hn::Set(d, 0.1f);
     rise = hn::Div(hn::Sub(facets.height, z), hn::Max(approach, least_approach));
     const V x = hn::MulAdd(rise, grid.x_per_height, facets.from_x);
     const V y = hn::MulAdd(rise, grid.y_per_height, facets.from_y);
     const M same_cell = hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Set(d, 0.5f));
     const M other_triangle = hn::Xor(hn::Gt(x, y), facets.beside_x);
-    met = hn::AndNot(other_triangle, hn::And(same_cell, hn::Ge(approach, least_approach)));
+    on_facet = hn::AndNot(other_triangle, hn::And(same_cell, hn::Ge(approach, least_approach)));
   }
 };
 

@@ -34,7 +34,8 @@ void FastSurface::Draw(NormalStream stream, Workspace& workspace) const {
     workspace.long_slope -= amplitudes[m].imag() * long_waves_.waves()[m].wavenumber;
   }
 
-  // At the nodes (columns along y): the real part of phases_x diag(A) phases_y^T.
+  // SumOfWaves at the nodes (columns along y), as one product in single precision without allocation:
+  // [Re(phases_x diag(A)), Im(phases_x diag(A))] times [Re phases_y, -Im phases_y]^T.
   const Eigen::Index waves = amplitudes.size();
   Eigen::MatrixXf& of_row = workspace.long_waves_of_row;
   of_row.resize(phases_x_.rows(), 2 * waves);
@@ -47,7 +48,7 @@ void FastSurface::Draw(NormalStream stream, Workspace& workspace) const {
   at_nodes.noalias() = of_row * cos_and_sin_y_;
   at_nodes.array() -= static_cast<float>(elevation);
 
-  // Along y to the points, then along x, onto the patch. Points along y are the rows: contiguous, as heights are.
+  // Interpolate along y, then along x, and add the patch. Points along y are the rows: contiguous, as in `heights`.
   Eigen::MatrixXf& refined = workspace.refined;
   refined.resize(points_, at_nodes.rows());
   for (Eigen::Index node = 0; node < at_nodes.rows(); ++node) {

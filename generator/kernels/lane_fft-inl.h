@@ -1,4 +1,4 @@
-// Runs a LaneFft. Included once for each instruction set.
+// Executes a LaneFft. Included once for each instruction set.
 #if defined(ALBTPU_LANE_FFT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALBTPU_LANE_FFT_INL_H
 #undef ALBTPU_LANE_FFT_INL_H
@@ -57,7 +57,7 @@ HWY_INLINE void StoreElement(ComplexLanes a, float* element) {
   hn::Store(a.im, Series(), element + LaneFft::kSeries);
 }
 
-// Inverse transforms in place of `kRadix` numbers, not scaled.
+// Unscaled inverse transforms of `kRadix` numbers in place.
 template <int kRadix>
 HWY_INLINE void Butterfly(ComplexLanes* x);
 
@@ -109,7 +109,7 @@ HWY_INLINE void Butterfly<8>(ComplexLanes* x) {
   Butterfly<4>(odd);
   const SeriesLanes root = Number(0.70710678118654752);
   odd[1] = root * PlusI(odd[1], odd[1]);  // exp(i pi / 4) odd
-  odd[3] = root * PlusI(odd[3], odd[3]);  // exp(3 i pi / 4) odd, but for a factor i
+  odd[3] = root * PlusI(odd[3], odd[3]);  // exp(3 i pi / 4) odd without a factor i, which comes below
   x[0] = even[0] + odd[0];
   x[1] = even[1] + odd[1];
   x[2] = PlusI(even[2], odd[2]);
@@ -120,7 +120,7 @@ HWY_INLINE void Butterfly<8>(ComplexLanes* x) {
   x[7] = MinusI(even[3], odd[3]);
 }
 
-// The radix-fold transforms of one pass, each given to `store(index, element)`.
+// Combines transforms into transforms kRadix times as long; passes each element to `store(index, element)`.
 template <int kRadix, class Store>
 HWY_INLINE void RunPass(const LaneFft::Pass& pass, int size, const float* data, const Store& store) {
   const int length = pass.length;
@@ -155,8 +155,8 @@ HWY_INLINE void RunPass(const LaneFft::Pass& pass, int size, const float* data, 
   }
 }
 
-// The sum over j of the elements, each at its Place, times exp(2 pi i index j / size), for the indices from
-// `begin` to `end` - 1: the element of `index` goes to `at(index)`. Overwrites the data, `size` elements.
+// The sums over j of element j, which lies at Place(j), times exp(2 pi i index j / size), for the indices from `begin`
+// to `end` - 1. The sum for `index` is stored at `at(index)`. Overwrites the data, `size` elements.
 template <class At>
 HWY_INLINE void Transform(const LaneFft& fft, float* data, int begin, int end, const At& at) {
   for (std::size_t lane = 0; lane < LaneFft::kSeries; lane += hn::MaxLanes(Series())) {

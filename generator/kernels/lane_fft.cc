@@ -25,7 +25,8 @@ LaneFft::LaneFft(int size) : size_(size), place_(size) {
   }
   assert(length == size);
 
-  // The last pass takes the elements i = q, q + radix, ... as its transform q, and so on down.
+  // The last pass combines `radix` transforms, of which transform q holds the elements i = q, q + radix, ...; each of
+  // these comes from the pass before in the same way.
   for (int i = 0; i < size; ++i) {
     int rest = i;
     for (auto pass = passes_.rbegin(); pass != passes_.rend(); ++pass) {

@@ -1,5 +1,5 @@
-// Standard normal numbers in single precision, a block of four in each lane: the numbers of NormalStream to
-// rounding. Included once for each instruction set.
+// Standard normal numbers in single precision, a block of four in each lane: the numbers of NormalStream, its slow
+// twin, up to rounding. Included once for each instruction set.
 #if defined(ALBTPU_NORMAL_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALBTPU_NORMAL_LANES_INL_H
 #undef ALBTPU_NORMAL_LANES_INL_H
@@ -30,18 +30,18 @@ struct NormalPair {
   FloatLanes cosine, sine;
 };
 
-// Box and Muller, as BoxMuller of random_stream.cc. With e = 2^-24, half of the last place of 1, the squared
-// radius is right to 4 e relatively, and in the lower half of u, where r > 1, to 4 e more absolutely (the
-// rounding of u + 1/2 and of it to a float): the radius r to (3 r + 2 / r) e. Sine and cosine are right to
-// 2 e, their product with the radius to (6 r + 2 / r) e.
+// The transform of Box and Muller, as BoxMuller in random_stream.cc. Its error, with e = 2^-24, half a unit in the last
+// place of 1: the squared radius has a relative error of 4 e and, in the lower half of u, where r > 1, an additional
+// absolute error of 4 e from rounding u + 1/2 and converting it to a float. The radius r therefore has an error of
+// (3 r + 2 / r) e. Sine and cosine have errors of 2 e, their products with the radius of (6 r + 2 / r) e.
 HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
   const Floats f;
   const Words w;
   const Integers s;
   const auto number = [&](double x) { return hn::Set(f, static_cast<float>(x)); };
 
-  // x = (u + 1/2) 2^-32 is 2^-halvings (1 - g) with g in [0, 1/2]. In the upper half g comes from the
-  // complement of u: it keeps its digits where x, beside 1, has none left.
+  // Write x = (u + 1/2) 2^-32 as 2^-halvings (1 - g) with g in [0, 1/2]. In the upper half of u, g comes from the
+  // complement of u, which keeps its digits where x is too close to 1.
   const auto as_signed = hn::BitCast(s, u);
   const auto sign_of_u = hn::BroadcastSignBit(as_signed);
   const auto upper = hn::RebindMask(f, hn::MaskFromVec(sign_of_u));
@@ -54,7 +54,7 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
   const FloatLanes g = hn::IfThenElse(upper, hn::Mul(scaled, number(0x1p-32)), hn::Sub(number(1), mantissa));
   const FloatLanes halvings = hn::IfThenZeroElse(upper, lower_halvings);
 
-  // -2 ln(1 - g) = 2 g + g^2 Q(g), Q the minimax polynomial on [0, 1/2], within 2^-28 of the logarithm.
+  // -2 ln(1 - g) = 2 g + g^2 Q(g), with the minimax polynomial Q on [0, 1/2], within 2^-28 of the logarithm.
   FloatLanes q = number(3.49188614);
   for (const double c :
        {-4.96464109, 3.95342422, -1.1907326, 0.68209374, 0.351380289, 0.503777087, 0.666524291, 1.00000179}) {
@@ -64,8 +64,8 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
       hn::MulAdd(halvings, number(1.3862943611198906), hn::MulAdd(hn::Mul(g, g), q, hn::Add(g, g)));
   const FloatLanes radius = hn::Sqrt(squared);
 
-  // 2 pi v 2^-32 is a number of quarter turns, to the nearest, and a rest in [-pi/4, pi/4), of which sine and
-  // cosine are the polynomials of Moshier's Cephes (sinf.c).
+  // The angle 2 pi v 2^-32 is the nearest number of quarter turns and a remainder in [-pi/4, pi/4). Sine and cosine of
+  // the remainder are the polynomials of Moshier's Cephes (sinf.c).
   const FloatLanes rest =
       hn::Mul(hn::ConvertTo(f, hn::BitCast(s, hn::ShiftLeft<2>(v))), number(1.5707963267948966 * 0x1p-32));
   const FloatLanes square = hn::Mul(rest, rest);
@@ -77,7 +77,7 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
   cosine = hn::MulAdd(cosine, square, number(-0.5));
   cosine = hn::MulAdd(cosine, square, number(1));
 
-  const WordLanes turns = hn::Add(v, hn::Set(w, 0x20000000u));  // the highest two bits count the quarters
+  const WordLanes turns = hn::Add(v, hn::Set(w, 0x20000000u));  // the highest two bits count quarter turns
   const WordLanes sign = hn::Set(w, 0x80000000u);
   const auto odd =
       hn::RebindMask(f, hn::MaskFromVec(hn::BroadcastSignBit(hn::BitCast(s, hn::ShiftLeft<1>(turns)))));
@@ -87,7 +87,7 @@ HWY_INLINE NormalPair BoxMuller(WordLanes u, WordLanes v) {
           hn::Mul(radius, hn::Xor(hn::IfThenElse(odd, cosine, sine), sine_sign))};
 }
 
-// The blocks of one realization, those of one part after the other.
+// The blocks of normal numbers of one realization.
 class NormalLanes {
  public:
   explicit NormalLanes(const NormalStream& stream)
@@ -96,14 +96,14 @@ class NormalLanes {
   struct Four {
     NormalPair first, second;
   };
-  // Blocks `first`, `first` + 1, ... of a part, numbers 4 `first`, ... of it.
+  // The blocks `first`, `first` + 1, ... of a part, one in each lane; block b holds the numbers from 4 b on.
   HWY_INLINE Four operator()(std::uint32_t part, std::uint32_t first) const {
     WordLanes word[4];
     Philox(part, first, word);
     return {BoxMuller(word[0], word[1]), BoxMuller(word[2], word[3])};
   }
 
-  // The random words of these blocks: the first two make the first pair, the others the second.
+  // The random words of these blocks: the first two make the first pair of normal numbers, the others the second.
 #if HWY_TARGET == HWY_SCALAR
   void Philox(std::uint32_t part, std::uint32_t block, WordLanes* word) const {
     const r123::Philox4x32::key_type key = {
@@ -130,8 +130,8 @@ class NormalLanes {
 #if HWY_TARGET != HWY_SCALAR
   using WideWords = hn::Repartition<std::uint64_t, Words>;
 
-  // Philox4x32-10 on every other lane, so that the products of 64 bits need no shuffling. The odd lanes of
-  // the words hold rubbish.
+  // Philox4x32-10 in the even lanes only, so that 64-bit products need no shuffling. The odd lanes of the words are
+  // undefined.
   HWY_INLINE void PhiloxOfEvenLanes(std::uint32_t part, WordLanes block, WordLanes* word) const {
     const Words w;
     word[0] = block;

@@ -28,7 +28,7 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   double mean[kPacketSums];
   for (int k = 0; k < kPacketSums; ++k) mean[k] = sums.sum[k] / rays.count();
   const RefractedRay still = RefractAtSlope(rays.direction(), {0, 0}, rays.refractive_index());
-  const Eigen::Vector2d tangent(mean[kTangentX], mean[kTangentY]);  // less that of still water
+  const Eigen::Vector2d tangent(mean[kTangentX], mean[kTangentY]);  // less the tangent in still water
   TracedBundle traced;
   traced.beam.tangent = still.tangent + tangent;
   traced.beam.height_tangent =
@@ -42,7 +42,7 @@ TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums) {
   traced.unshifted_slope_squares = {mean[kUnshiftedXX], mean[kUnshiftedYY], mean[kUnshiftedXY]};
   traced.unshifted_height_slope = Eigen::Vector2d(mean[kUnshiftedHeightX], mean[kUnshiftedHeightY]) -
                                   mean[kUnshiftedHeight] * traced.unshifted_slope;
-  traced.met_alone = sums.met_alone;
+  traced.unsettled_rays = sums.unsettled_rays;
   return traced;
 }
 

@@ -1,4 +1,5 @@
-// What the kernels of the packet tracer share with the rest of it, whatever they are compiled for.
+// The part of the packet tracer that does not depend on the instruction set. packet_tracer.cc is compiled once for each
+// instruction set, so these types are declared here, once.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +10,10 @@
 
 namespace albtpu {
 
-// What is summed over the rays: the height [m] where they met the water, tangent and secant less those of
-// still water, the product of the height and these, slopes of the facets that they met, and their squares; of
-// what is undisturbed the slopes, their squares, the height and its product with the slopes.
+// The sums over the rays: the height [m] of the intersection with the water; tangent and secant less those of still
+// water; the products of height and these; slopes of the intersected facets and their squares. The unshifted sums are
+// taken where the rays cross z = 0, where they would intersect the water if its height did not shift them: slopes,
+// their squares, the height and its products with the slopes.
 enum PacketSum {
   kHeight,
   kTangentX,
@@ -36,16 +38,16 @@ enum PacketSum {
   kPacketSums
 };
 
-// Which of them; a beam needs none of the undisturbed.
+// Which sums to compute. A traced beam needs none of the unshifted ones; control variates do.
 enum class Wanted { kBeam, kBeamAndUnshifted };
 
 struct PacketSums {
   double sum[kPacketSums] = {};
-  int met_alone = 0;
+  int unsettled_rays = 0;
 };
 
-// A ray in still water: with r = 1 / n, c the cosine of the incidence and h the horizontal part of the
-// incident direction.
+// A ray in still water, with r = 1 / n, c the cosine of the incidence and h the horizontal part of the incident
+// direction.
 struct StillWater {
   float s0;            // cosine of the refracted direction, sqrt(1 - r^2 + r^2 c^2)
   float rc, rhx, rhy;  // r c and r h
@@ -56,19 +58,20 @@ StillWater StillWaterOf(const RayBundle& rays);
 // Means over the rays of a bundle.
 struct TracedBundle {
   TracedBeam beam;
-  double height;  // m, of where the rays met the water
-  // Of the facets over or under which the rays cross z = 0, where they would meet the water were its height
-  // not to shift them: linear and quadratic in the heights.
+  double height;  // of the intersections with the water, m
+  // Unshifted means, over the facets above or below the points where the rays cross z = 0. The mean slope is linear in
+  // the heights, the mean squares are quadratic.
   Eigen::Vector2d unshifted_slope;
   Eigen::Vector3d unshifted_slope_squares;  // as SlopeSquares
-  Eigen::Vector2d unshifted_height_slope;   // m, covariance of height and slope (height_slope_product.h)
-  int met_alone;  // rays that had to be met one by one, because their packet did not settle
+  Eigen::Vector2d unshifted_height_slope;   // covariance of height and slope over the rays, m
+  // Rays whose packet did not converge; each was intersected by the exact search of height_field.h.
+  int unsettled_rays;
 };
 
 TracedBundle MeansOf(const RayBundle& rays, const PacketSums& sums);
 
-// The meeting of one ray by Intersect's exact search: its height [m] and the rises [m a step of the grid] of
-// the facet.
+// Intersects one ray with the exact search of height_field.h: the height [m], and the rises of the facet in m per step
+// of the grid.
 void IntersectOne(const RayBundle& rays, const HeightView& surface, int ray, float& height, float& rise_x,
                   float& rise_y);
 

@@ -4,7 +4,7 @@
 
 #include "generator/kernels/packet_sums.h"
 
-// What follows is compiled once for each instruction set.
+// The following is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "generator/kernels/packet_tracer.cc"
 #include <hwy/foreach_target.h>
@@ -19,11 +19,11 @@ namespace {
 
 constexpr int kMostSteps = 8;
 
-// Rays of a bundle and where they meet the water. All that is done with them is done in short passes over all
-// of them: packets overlap on their way through the processor, and what a pass needs stays in registers.
+// A block of rays of a bundle and their intersections with the water. Each operation is a short pass over all rays, so
+// that the processor overlaps the work on several packets and the constants of a pass stay in registers.
 class Block {
  public:
-  // The rays `first` and on.
+  // The rays from `first` on.
   Block(const Grid& grid, const RayBundle& rays, const HeightView& surface, int first)
       : grid_(grid),
         rays_(rays),
@@ -32,20 +32,21 @@ class Block {
         count_(HWY_MIN(rays.count() - first, kBlock)),
         end_((count_ + RayBundle::kStrips - 1) / RayBundle::kStrips * RayBundle::kStrips) {}
 
-  // As if the rays were vertical through where they cross z = 0.
-  void MeetUndisturbed() {
+  // Intersects vertical lines through the points where the rays cross z = 0.
+  void IntersectUnshifted() {
     for (int ray = 0; ray < end_; ray += kLanes) Enter(ray, hn::Zero(d));
     for (int ray = 0; ray < end_; ray += kLanes) {
       const Facets facets(grid_, cells_, ray);
       Keep(ray, facets.height, facets);
     }
-    KeepFirst();
+    ClearSurplus();
   }
 
-  // By two steps, which bring all but a few packets to the water: half of them are there after one, and the
-  // branch would be as good as random. The first starts from where it led the ray before in the same strip, a
-  // good guess: `heights` [m], of the last row in the end. Adds to `met_alone` the rays that do not settle.
-  void Meet(float* heights, int* met_alone) {
+  // Intersects the rays by two Newton steps, after which all but a few packets have converged. Half of them have
+  // converged after one step, so a branch there would be as good as random. The first step of a ray starts from the
+  // height to which it led the previous ray of the same strip, a good first guess. `heights` [m] holds these heights,
+  // in the end those of the last row. Adds the rays that do not converge to `unsettled_rays`.
+  void Intersect(float* heights, int* unsettled_rays) {
     for (int row = 0; row < end_; row += RayBundle::kStrips) {
       for (int i = 0; i < RayBundle::kStrips; i += kLanes) Enter(row + i, hn::Load(d, heights + i));
       for (int i = 0; i < RayBundle::kStrips; i += kLanes) {
@@ -57,16 +58,20 @@ class Block {
     }
     for (int ray = 0; ray < end_; ray += kLanes) Enter(ray, hn::Load(d, z_ + ray));
     for (int ray = 0; ray < end_; ray += kLanes) {
-      if (HWY_UNLIKELY(!hn::AllTrue(d, Advance(ray).met))) *met_alone += MeetFarther(ray);
+      if (HWY_UNLIKELY(!hn::AllTrue(d, Advance(ray).on_facet))) *unsettled_rays += IntersectFurther(ray);
     }
-    KeepFirst();
+    ClearSurplus();
   }
 
-  // Snell's law as RefractAtSlope has it, less what still water does. With r = 1 / n, c the cosine of the
-  // incidence, h the horizontal part of the incident direction and s0 = sqrt(1 - r^2 + r^2 c^2), on a slope
-  // m, with mu = r m . h,
-  //     D = |m|^2 (1 - r^2) + 2 r c mu + mu^2,    s = sqrt(s0^2 + D),    lift = s - r c - mu,
-  //     q = r c (1 + |m|^2) + lift,
+  // Snell's law as in RefractAtSlope, less the refraction by still water, without cancellation.
+  //
+  // Derivation: with r = 1 / n, c the cosine of the incidence, h the horizontal part of the incident direction, the
+  // slope m, L^2 = 1 + |m|^2 and mu = r m . h, Eq. 17 (docs/physics.md, section 3) multiplied by L^2 is the vector
+  //     horizontal: L^2 r h + m lift,    downward: q = r c L^2 + lift,    lift = s - r c - mu,
+  //     s^2 = L^2 (1 - r^2) + (r c + mu)^2 = s0^2 + D,
+  //     s0^2 = 1 - r^2 + r^2 c^2,    D = |m|^2 (1 - r^2) + 2 r c mu + mu^2.
+  // It has the length L^2, so secant = L^2 / q and tangent = r h secant + m lift / q. Still water has m = 0, q = s0.
+  // With s - s0 = D / (s + s0), the differences are
   //     secant - 1 / s0 = (|m|^2 (s0 - r c) + mu - D / (s + s0)) / (s0 q),
   //     tangent - r h / s0 = r h (secant - 1 / s0) + m lift / q.
   void AddRefracted(const StillWater& still, PacketSums* sums) const {
@@ -104,7 +109,7 @@ class Block {
     for (int k = 0; k <= kHeightSecant; ++k) AddLanes(sum[k], &sums->sum[k]);
   }
 
-  // Slopes and their squares: to the sum `slope_x` and the four after it.
+  // Adds slopes and their squares to the sum `slope_x` and the four sums after it.
   void AddSlopes(PacketSum slope_x, PacketSums* sums) const {
     V x = hn::Zero(d), y = x, xx = x, yy = x, xy = x;
     for (int ray = 0; ray < end_; ray += kLanes) {
@@ -119,7 +124,7 @@ class Block {
     for (const V& lanes : {x, y, xx, yy, xy}) AddLanes(lanes, sum++);
   }
 
-  // What the undisturbed heights make with the slopes under them.
+  // Adds the unshifted heights and their products with the slopes.
   void AddHeightSlopes(PacketSums* sums) const {
     V height = hn::Zero(d), x = height, y = height;
     for (int ray = 0; ray < end_; ray += kLanes) {
@@ -151,15 +156,16 @@ class Block {
     return step;
   }
 
-  // Goes on with the packet at `ray`. Rays that do not settle are met one by one and counted. Settled are
-  // those that are met and those that a step hardly moves: on an edge either of two facets is right.
-  HWY_NOINLINE int MeetFarther(int ray) {
+  // Takes further steps for the packet at `ray`. Rays that do not converge are intersected one by one; returns their
+  // number. A ray has converged when its intersection lies on its facet, or when a step hardly moves it: on an edge,
+  // either of two facets is correct.
+  HWY_NOINLINE int IntersectFurther(int ray) {
     const V tolerance = hn::Set(d, 0x1p-14f * surface_.spacing);
     HWY_ALIGN float settled[kLanes];
     for (int i = 0; i < kMostSteps; ++i) {
       Enter(ray, hn::Load(d, z_ + ray));
       const Step step = Advance(ray);
-      const M now = hn::Or(step.met, hn::Le(hn::Abs(step.rise), tolerance));
+      const M now = hn::Or(step.on_facet, hn::Le(hn::Abs(step.rise), tolerance));
       if (hn::AllTrue(d, now)) return 0;
       hn::Store(hn::IfThenElseZero(now, hn::Set(d, 1.0f)), d, settled);
     }
@@ -173,8 +179,8 @@ class Block {
     return count;
   }
 
-  // Rays that stand for none meet still water, which adds nothing to any sum.
-  void KeepFirst() {
+  // Gives surplus rays an intersection with still water, which adds nothing to any sum.
+  void ClearSurplus() {
     for (int ray = count_; ray < end_; ++ray) z_[ray] = rise_x_[ray] = rise_y_[ray] = 0;
   }
 
@@ -190,10 +196,10 @@ class Block {
   const RayBundle& rays_;
   const HeightView& surface_;
   int first_, count_;
-  int end_;  // the rows are full, of `count_` rays and of some that stand for none
+  int end_;  // the end of the full rows, which hold `count_` rays and some surplus ones
   Cells cells_;
   HWY_ALIGN float z_[kBlock];                        // m
-  HWY_ALIGN float rise_x_[kBlock], rise_y_[kBlock];  // m a step, of the facets that are met
+  HWY_ALIGN float rise_x_[kBlock], rise_y_[kBlock];  // of the intersected facets, m per step
 };
 
 void SumRays(const RayBundle& rays, const HeightView& surface, Wanted wanted, PacketSums* sums) {
@@ -202,13 +208,13 @@ void SumRays(const RayBundle& rays, const HeightView& surface, Wanted wanted, Pa
   HWY_ALIGN float heights[RayBundle::kStrips] = {};
   for (int first = 0; first < rays.count(); first += kBlock) {
     Block block(grid, rays, surface, first);
-    const bool undisturbed = wanted == Wanted::kBeamAndUnshifted;
-    if (undisturbed || rays.vertical()) block.MeetUndisturbed();
-    if (undisturbed) {
+    const bool unshifted = wanted == Wanted::kBeamAndUnshifted;
+    if (unshifted || rays.vertical()) block.IntersectUnshifted();
+    if (unshifted) {
       block.AddSlopes(kUnshiftedX, sums);
       block.AddHeightSlopes(sums);
     }
-    if (!rays.vertical()) block.Meet(heights, &sums->met_alone);
+    if (!rays.vertical()) block.Intersect(heights, &sums->unsettled_rays);
     block.AddSlopes(kSlopeX, sums);
     block.AddRefracted(still, sums);
   }
@@ -224,7 +230,7 @@ namespace albtpu {
 
 namespace {
 
-// Indexes are exact in single precision.
+// Below 2^23, indices are exact in single precision.
 [[maybe_unused]] bool MayBeTraced(const HeightView& surface) {
   return surface.points >= 3 && surface.points % 2 == 1 && surface.stride >= surface.points &&
          surface.points * surface.stride < 1 << 23;

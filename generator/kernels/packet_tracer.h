@@ -1,8 +1,8 @@
 // A collimated beam through one piece of sea surface, several rays at a time in single precision.
 //
-// The same geometry as height_field.h and the same means as ray_tracer.h, which are its slow twins. Single
-// precision is enough because everything is small: positions and heights count from where the axis of the
-// beam meets the water, and what is summed are departures from still water, computed without cancellation.
+// The geometry is that of height_field.h and the means are those of ray_tracer.h, its slow twins. Single precision is
+// enough because all numbers are small: positions and heights are relative to the point where the axis of the beam
+// meets the water, and the sums are of departures from still water, computed without cancellation.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,10 @@
 
 namespace albtpu {
 
-// On the best instruction set of this machine. A result depends on that, by rounding, and on nothing else.
+// Runs on the best instruction set of this machine, on which the result depends by rounding.
 TracedBundle TracePackets(const RayBundle& rays, const HeightView& surface);
 
-// The same without what is undisturbed: the single-precision twin of Trace(rays, surface, refractive_index).
+// The same without the unshifted means: the single-precision twin of Trace(rays, surface, refractive_index).
 TracedBeam Trace(const RayBundle& rays, const HeightView& surface);
 
 }  // namespace albtpu

@@ -8,7 +8,7 @@
 namespace albtpu {
 namespace {
 
-// The bits of `x` and `y` in turn, those of x the higher.
+// The interleaved bits of `x` and `y`, x with the higher bit of each pair.
 std::uint32_t Interleave(std::uint16_t x, std::uint16_t y) {
   std::uint32_t both = 0;
   for (int bit = 0; bit < 16; ++bit) {
@@ -29,7 +29,7 @@ RayBundle::RayBundle(const std::vector<Ray>& rays, double refractive_index)
     low = low.cwiseMin(ray.at_zero);
     high = high.cwiseMax(ray.at_zero);
   }
-  // One scale for both axes, so that the curve goes through squares.
+  // Both axes have the same scale, so that the curve fills squares.
   const double least_width = 1e-9;
   const double per_metre = 65535 / std::max((high - low).maxCoeff(), least_width);
   std::vector<std::pair<std::uint32_t, int>> order(rays.size());

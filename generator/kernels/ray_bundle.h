@@ -1,4 +1,4 @@
-// The rays of a collimated beam as the packet tracer wants them: in single precision, neighbours together.
+// The rays of a collimated beam in the layout of the packet tracer: in single precision, with neighbours together.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +8,10 @@
 
 namespace albtpu {
 
-// Immutable. All rays have one direction and enter water of one refractive index; they differ in where they
-// cross z = 0. A Morton curve through these places is cut into strips of even length, and the rays are stored
-// strip beside strip, the first of each, the second of each, ...: a ray and the one kStrips before it meet
-// the water side by side.
+// Immutable. All rays have the same direction and enter water of the same refractive index; they differ in where they
+// cross z = 0. A Morton curve through these points is divided into strips of equal length. The rays are stored
+// interleaved: the first of each strip, the second of each strip, and so on. A ray and the one kStrips before it
+// therefore meet the water side by side.
 class RayBundle {
  public:
   static constexpr int kStrips = 32;
@@ -28,8 +28,7 @@ class RayBundle {
   double y_per_height() const { return direction_.y() / direction_.z(); }
   bool vertical() const { return direction_.x() == 0 && direction_.y() == 0; }
 
-  // Where the rays cross z = 0, m about the centre of the beam. Both go on past the last ray, repeating it,
-  // up to a multiple of kStrips.
+  // Where the rays cross z = 0, m from the centre of the beam. The last ray is repeated up to a multiple of kStrips.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 

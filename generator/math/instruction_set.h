@@ -1,4 +1,4 @@
-// The instructions that this machine runs our libraries with.
+// The instruction set on which this machine runs FFTW, the C library and the kernels.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace albtpu {
 namespace {
 
-// Two uniform words to two normals. The half keeps the logarithm finite; the greatest normal is 6.8.
+// From two uniform words to two normals. The added half keeps the logarithm finite; the largest normal is 6.8.
 void BoxMuller(std::uint32_t u, std::uint32_t v, double* normals) {
   const double radius = std::sqrt(-2 * std::log((u + 0.5) * 0x1p-32));
   const double angle = 2 * std::numbers::pi * (v * 0x1p-32);

@@ -1,5 +1,5 @@
-// Standard normal numbers that depend on nothing but (seed, cell, realization): the same on any thread, in
-// any order.
+// Standard normal numbers that are a function of (seed, cell, realization, part) alone: the same on any thread and
+// in any order.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace albtpu {
 
-// The counter-based generator Philox4x32-10 (Salmon et al. (2011), doi:10.1145/2063384.2063405) and Box and
-// Muller.
+// The counter-based generator Philox4x32-10 (Salmon et al. (2011), doi:10.1145/2063384.2063405) with the transform of
+// Box and Muller.
 class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization, std::uint32_t part = 0)
       : seed_(seed), cell_(cell), realization_(realization), part_(part) {}
 
-  // Another part of the same realization, from its beginning, independent of all others.
+  // Another part of the same realization, from its beginning. Parts are independent of each other.
   NormalStream Part(std::uint32_t part) const { return {seed_, cell_, realization_, part}; }
 
-  // Fills `normals` with independent numbers of mean 0 and variance 1. Each call goes on where the last one
-  // ended, rounded up to four numbers.
+  // Fills `normals` with independent numbers of mean 0 and variance 1. Each call continues where the previous one
+  // ended, rounded up to a multiple of four numbers.
   void Fill(std::span<double> normals);
 
   std::uint64_t seed() const { return seed_; }
@@ -29,7 +29,7 @@ class NormalStream {
  private:
   std::uint64_t seed_;
   std::uint32_t cell_, realization_, part_;
-  std::uint32_t block_ = 0;
+  std::uint32_t block_ = 0;  // of four numbers
 };
 
 }  // namespace albtpu

@@ -7,10 +7,10 @@
 namespace albtpu {
 namespace {
 
-// The exponent of the least significant digit, when there are `bits` of them.
+// The binary exponent of the last of `bits` significant digits.
 int LastDigit(double value, int bits) { return std::ilogb(value) + 1 - bits; }
 
-// Adding zero makes a plain zero of a negative one.
+// Adding zero turns -0 into +0.
 double RoundToMultiple(double value, int exponent) {
   return std::ldexp(std::nearbyint(std::ldexp(value, -exponent)), exponent) + 0.0;
 }

@@ -1,21 +1,20 @@
-// The binary digits of a number that are worth storing: those below its standard error are noise, which no
-// file compresses.
+// How many binary digits of an estimate are stored. Digits below its standard error are noise, which does not compress.
 #pragma once
 
 #include "generator/math/statistics.h"
 
 namespace albtpu {
 
-// The nearest number of at most `bits` significant binary digits, halves to even; `bits` from 1 to 24, so that
-// a float holds it. Its relative error is at most 2^-bits.
+// The nearest number with at most `bits` significant binary digits; ties go to even. `bits` is from 1 to 24, so that a
+// float holds the result. The relative error is at most 2^-bits.
 double RoundToBits(double value, int bits);
 
-inline constexpr int kValueBits = 13;         // of an estimate, at most: 1.2e-4 of it
-inline constexpr int kStandardErrorBits = 4;  // 6 % of it
+inline constexpr int kValueBits = 13;         // of an estimate, at most: a relative error of 1.2e-4
+inline constexpr int kStandardErrorBits = 4;  // a relative error of 6 %
 
-// The standard error to kStandardErrorBits; the value to the nearest multiple of a power of two, the largest
-// that is not above a quarter of that, and to kValueBits if they are coarser: off by an eighth of the standard
-// error (0.07 rms) or by 2^-kValueBits of the value, whichever is more.
+// Rounds the standard error to kStandardErrorBits. Rounds the value to a multiple of the largest power of two that is
+// at most a quarter of that error, or to kValueBits where those are coarser. The value changes by at most an eighth of
+// the standard error (0.07 rms) or 2^-kValueBits of itself, whichever is larger.
 Estimate Rounded(const Estimate& estimate);
 
 }  // namespace albtpu

@@ -6,31 +6,33 @@
 namespace albtpu {
 namespace {
 
-constexpr Eigen::Index kFewestToFit = 64;  // realizations; with fewer the fit hides some of the scatter
+constexpr Eigen::Index kFewestToFit = 64;  // realizations; with fewer, the fit absorbs part of the scatter
 
-// The slope of a straight line through (x, y), zero where x does not scatter.
+// The least-squares slope of y over x, zero where x is constant.
 double Slope(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   const Eigen::ArrayXd deviation = x - x.mean();
   const double scatter = deviation.square().sum();
   return scatter > 0 ? (deviation * y).sum() / scatter : 0;
 }
 
-// What is left of the squares when each half of the sample is corrected by the control as the other half says.
+// The squares less b times the excess of the control over its expectation. Each half of the sample takes b from the
+// regression over the other half: b is then independent of what it multiplies, and the corrected mean is unbiased.
 Eigen::ArrayXd Corrected(const Eigen::ArrayXd& squares, const Control& control) {
   const Eigen::Index n = squares.size(), half = n / 2;
   const Eigen::ArrayXd excess = control.sample - control.expectation;
   Eigen::ArrayXd corrected(n);
   for (const bool first : {true, false}) {
     const Eigen::Index begin = first ? 0 : half, count = first ? half : n - half;
-    const Eigen::Index other = first ? half : 0, others = n - count;
-    const double b = Slope(excess.segment(other, others), squares.segment(other, others));
+    const Eigen::Index other_begin = first ? half : 0, other_count = n - count;
+    const double b =
+        Slope(excess.segment(other_begin, other_count), squares.segment(other_begin, other_count));
     corrected.segment(begin, count) = squares.segment(begin, count) - b * excess.segment(begin, count);
   }
   return corrected;
 }
 
-// The scatter of a sample about the means of its halves: b differs from one to the other.
-double ScatterInHalves(const Eigen::ArrayXd& sample) {
+// The variance about the mean of each half: b, and with it the mean, differs between the halves.
+double VarianceWithinHalves(const Eigen::ArrayXd& sample) {
   const Eigen::Index n = sample.size(), half = n / 2;
   const auto first = sample.head(half), second = sample.tail(n - half);
   return ((first - first.mean()).square().sum() + (second - second.mean()).square().sum()) / (n - 2);
@@ -41,22 +43,24 @@ double ScatterInHalves(const Eigen::ArrayXd& sample) {
 Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& control) {
   const double n = static_cast<double>(sample.size());
   assert(n >= 2);
-  const Eigen::ArrayXd rest = control ? Eigen::ArrayXd(sample - control->sample) : sample;
-  const double standard_error = std::sqrt((rest - rest.mean()).square().sum() / (n - 1) / n);
-  return {rest.mean() + (control ? control->expectation : 0), standard_error};
+  const Eigen::ArrayXd residual = control ? Eigen::ArrayXd(sample - control->sample) : sample;
+  const double standard_error = std::sqrt((residual - residual.mean()).square().sum() / (n - 1) / n);
+  return {residual.mean() + (control ? control->expectation : 0), standard_error};
 }
 
-// The standard error of 2 sqrt(V) is that of V over sqrt(V).
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double of_mean,
+// d(2 sqrt(V)) = dV / sqrt(V): the standard error of 2 sqrt(V) is that of V over sqrt(V).
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double mean_correction,
                            const std::optional<Control>& control) {
   const double n = static_cast<double>(squares.size());
   assert(n >= 2);
   if (control && squares.size() >= kFewestToFit) {
     const Eigen::ArrayXd corrected = Corrected(squares, *control);
-    const double variance = corrected.mean() + of_mean;
-    if (variance > 0) return {2 * std::sqrt(variance), std::sqrt(ScatterInHalves(corrected) / n / variance)};
+    const double variance = corrected.mean() + mean_correction;
+    if (variance > 0) {
+      return {2 * std::sqrt(variance), std::sqrt(VarianceWithinHalves(corrected) / n / variance)};
+    }
   }
-  const double variance = squares.mean() + of_mean;
+  const double variance = squares.mean() + mean_correction;
   if (variance <= 0) return {};
   const double scatter = (squares - squares.mean()).square().sum() / (n - 1);
   return {2 * std::sqrt(variance), std::sqrt(scatter / n / variance)};

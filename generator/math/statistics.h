@@ -1,4 +1,4 @@
-// From a sample of realizations to estimates with standard errors.
+// Estimates with standard errors from a sample of realizations.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,26 +11,27 @@ struct Estimate {
   double standard_error = 0;
 };
 
-// A control variate: something that goes with what is averaged, realization by realization, and of which the
+// A control variate: a quantity that correlates with the one to be averaged, realization by realization, and whose
 // expectation is known.
 struct Control {
   Eigen::ArrayXd sample;
   double expectation = 0;
 };
 
-// The mean; with a control, the expectation of that and the sample's mean difference from it.
+// The mean of a sample. With a control: the control's expectation plus the mean difference of the sample from it.
 Estimate Mean(const Eigen::ArrayXd& sample, const std::optional<Control>& control = {});
 
-// Twice the root of a variance, from the squared deviations of each realization from a mean that the same
-// realizations gave, with `of_mean` to make up for that. The standard error comes from the scatter of the squares
-// themselves, so that it holds for distributions that are not normal (vertical errors at nadir are closer to
-// chi-squared). Zero for a sample that does not scatter.
+// Twice the square root of a variance, from the squared deviations of the realizations from a mean that was estimated
+// from the same realizations. The sample mean is closer to the sample than the true mean is; adding `mean_correction`
+// to the mean square corrects this bias. The standard error comes from the scatter of the squares themselves, so it
+// also holds for distributions that are not normal (vertical errors at nadir are closer to chi-squared). Zero for a
+// constant sample.
 //
-// With a control of the squares it is the expectation of that times b and the mean difference between the
-// squares and b times the control. b is fitted to the other half of the sample, so that the variance is
-// unbiased; with fewer than 64 realizations there is nothing to fit it to, b = 0. Where the correction leaves no
-// variance, as chance may where there is next to none, the control is left alone too.
-Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double of_mean,
+// With a control of the squares, the variance is b times the control's expectation plus the mean of the squares less b
+// times the control. b is fitted to the other half of the sample, so that the variance is unbiased. With fewer than 64
+// realizations there are too few to fit it, and b = 0. The control is also ignored where the corrected variance is not
+// positive, which can happen by chance where the variance is close to zero.
+Estimate TwoSigmaOfSquares(const Eigen::ArrayXd& squares, double mean_correction,
                            const std::optional<Control>& control = {});
 
 // Twice the standard deviation of a sample.

@@ -16,7 +16,7 @@
 namespace albtpu {
 namespace {
 
-// A beam with what does not change from realization to realization.
+// A beam with everything that is the same in all realizations.
 struct PreparedBeam {
   BeamOptions options;
   Eigen::Vector2d per_height;
@@ -26,8 +26,9 @@ struct PreparedBeam {
   std::optional<KnownSlopes> known;
 };
 
-// E[(1 - per_height . long slope) mean slope] over the surfaces: slopes go together with those of the same
-// waves.
+// The expectation of the mean slope with the weight of FastSurface, E[(1 - p . long slope) mean slope], p being
+// `per_height`. Only slopes of the same wave correlate: a wave of variance V and wavenumber k adds
+// -V (k . p) W(k) k, where W is the footprint's average of the wave.
 Eigen::Vector2d ExpectedSlope(const LongWaveModel& long_waves, const BeamOptions& beam,
                               const Eigen::Vector2d& per_height) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -41,7 +42,7 @@ Eigen::Vector2d ExpectedSlope(const LongWaveModel& long_waves, const BeamOptions
 
 class AntitheticTracing final : public BeamTracing {
  public:
-  AntitheticTracing(const SurfaceModel& model, const TracedBeams& traced) : window_(model) {
+  AntitheticTracing(const SurfaceModel& model, const TracedBeams& traced) : surface_(model) {
     const double spacing = model.patch().spacing();
     const double n = traced.refractive_index;
     std::vector<std::vector<Ray>> rays;
@@ -78,13 +79,13 @@ class AntitheticTracing final : public BeamTracing {
   void Realize(const NormalStream& stream, const std::vector<bool>& wanted,
                std::vector<BeamRealization>& realized) const override {
     Workspace& workspace = workspaces_.local();
-    window_.Draw(stream, workspace.window);
-    const std::vector<float>& heights = workspace.window.heights;
-    workspace.turned.resize(heights.size());
-    std::transform(heights.begin(), heights.end(), workspace.turned.begin(), std::negate<>());
-    const int points = window_.points();
-    const HeightView upright{heights.data(), points, points, window_.spacing()};
-    const HeightView turned{workspace.turned.data(), points, points, window_.spacing()};
+    surface_.Draw(stream, workspace.surface);
+    const std::vector<float>& heights = workspace.surface.heights;
+    workspace.inverted.resize(heights.size());
+    std::transform(heights.begin(), heights.end(), workspace.inverted.begin(), std::negate<>());
+    const int points = surface_.points();
+    const HeightView upright{heights.data(), points, points, surface_.spacing()};
+    const HeightView inverted{workspace.inverted.data(), points, points, surface_.spacing()};
     for (std::size_t b = 0; b < beams_.size(); ++b) {
       if (!wanted[b]) continue;
       const PreparedBeam& beam = beams_[b];
@@ -92,16 +93,17 @@ class AntitheticTracing final : public BeamTracing {
         realized[b] = realized[b - 1];
         continue;
       }
-      const double lean = beam.per_height.dot(workspace.window.long_slope);
+      // The weight of this surface is 1 - lean, that of the inverted one 1 + lean.
+      const double lean = beam.per_height.dot(workspace.surface.long_slope);
       const auto part = [&](double weight, const TracedBeam& traced) {
         return BeamRealization::Part{
             0.5 * weight, ErrorsOf(WithUnresolvedWaves(traced, beam.unresolved), beam.still_water)};
       };
-      const TracedBundle first = TracePackets(beam.rays, upright);
-      realized[b].parts = {part(1 - lean, first.beam), part(1 + lean, Trace(beam.rays, turned))};
-      realized[b].mean_slope = first.unshifted_slope;
-      realized[b].mean_squares = first.unshifted_slope_squares;
-      realized[b].height_slope = first.unshifted_height_slope;
+      const TracedBundle bundle = TracePackets(beam.rays, upright);
+      realized[b].parts = {part(1 - lean, bundle.beam), part(1 + lean, Trace(beam.rays, inverted))};
+      realized[b].mean_slope = bundle.unshifted_slope;
+      realized[b].mean_squares = bundle.unshifted_slope_squares;
+      realized[b].height_slope = bundle.unshifted_height_slope;
     }
   }
 
@@ -111,16 +113,16 @@ class AntitheticTracing final : public BeamTracing {
 
  private:
   struct Workspace {
-    FastSurface::Workspace window;
-    std::vector<float> turned;
+    FastSurface::Workspace surface;
+    std::vector<float> inverted;
   };
 
-  // At nadir there is no azimuth: one beam stands for those of all azimuths.
+  // At nadir the azimuth has no meaning: one beam stands for all azimuths.
   static bool OneBeam(const BeamOptions& a, const BeamOptions& b) {
     return a.incidence == 0 && b.incidence == 0;
   }
 
-  FastSurface window_;
+  FastSurface surface_;
   std::vector<PreparedBeam> beams_;
   mutable tbb::enumerable_thread_specific<Workspace> workspaces_;
 };

@@ -7,7 +7,7 @@
 namespace albtpu {
 namespace {
 
-// One quantity of a beam in all realizations: the parts are the columns.
+// One quantity of a beam in all realizations (rows) and their two parts (columns).
 class Column {
  public:
   template <typename Value>
@@ -22,46 +22,50 @@ class Column {
   }
 
   Eigen::ArrayXd Means() const { return (shares_ * values_).rowwise().sum(); }
-  // Squared deviations from the mean as it is best known, and what to add to their mean for the variance: the
-  // realizations that gave that mean lie closer to it than to the true one. With r for the rest that the
-  // control leaves of the values v, (2 cov(r, v) - var(r)) / n; without a control r is v.
+  // Squared deviations from the best estimate m of the mean, and the correction that makes their mean an unbiased
+  // estimate of the variance: the sample mean is closer to the sample than the true mean is.
+  //
+  // Derivation: with the control c and the residual r = v - c of the values v, m is the sample mean of r plus E[c].
+  // About the true mean, E[(v - m)^2] = var(v) - 2 cov(v, m) + var(m), with cov(v, m) = cov(v, r) / n and var(m) =
+  // var(r) / n. The correction is (2 cov(r, v) - var(r)) / n = cov(v - c, v + c) / n; without a control, c = 0.
   struct Squares {
     Eigen::ArrayXd sample;
-    double of_mean;
+    double mean_correction;
   };
-  Squares SquaresAbout(const std::optional<Control>& control) const {
+  Squares SquaresAboutMean(const std::optional<Control>& control) const {
     const double mean = Mean(Means(), control).value;
     const Eigen::ArrayXd v = Means() - Means().mean();
-    const Eigen::ArrayXd excess = control ? Eigen::ArrayXd(control->sample - control->sample.mean()) : 0 * v;
+    const Eigen::ArrayXd c = control ? Eigen::ArrayXd(control->sample - control->sample.mean()) : 0 * v;
     const double n = static_cast<double>(v.size());
-    return {(shares_ * (values_ - mean).square()).rowwise().sum(),
-            ((v - excess) * (v + excess)).sum() / (n - 1) / n};
+    return {(shares_ * (values_ - mean).square()).rowwise().sum(), ((v - c) * (v + c)).sum() / (n - 1) / n};
   }
 
  private:
   Eigen::ArrayX2d values_, shares_;
 };
 
-// The control variates of a beam. None where nothing is known.
-class Prediction {
+// The control variates of a beam: its errors to first and second order in slope, with their known expectations. There
+// are none where no statistics of the slopes are known.
+class ControlVariates {
  public:
-  Prediction(const std::vector<BeamRealization>& sample, const BeamOptions& beam, double refractive_index,
-             const std::optional<KnownSlopes>& known)
+  ControlVariates(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
+                  double refractive_index, const std::optional<KnownSlopes>& known)
       : known_(known), azimuth_(std::cos(beam.azimuth), std::sin(beam.azimuth)) {
     if (!known) return;
-    const Eigen::Matrix2d answer = TangentResponse(beam.incidence, beam.azimuth, refractive_index);
-    expectation_ = answer * known->mean;
-    covariance_ = answer * known->footprint_covariance * answer.transpose();
-    offset_covariance_ = answer * known->height_slope_covariance * answer.transpose();
+    const Eigen::Matrix2d response = TangentResponse(beam.incidence, beam.azimuth, refractive_index);
+    expectation_ = response * known->mean;
+    covariance_ = response * known->footprint_covariance * response.transpose();
+    offset_covariance_ = response * known->height_slope_covariance * response.transpose();
     const Eigen::Matrix2d form = SecantCurvature(beam.incidence, beam.azimuth, refractive_index);
-    // The path per depth is 1 / cos(theta_r), of which sin(theta_r) is the derivative by the in-plane tangent.
+    // The vertical error per depth is 1 - secant cos(theta_r). The secant is 1 / cos(theta_r) in still water; its
+    // derivative with respect to the in-plane tangent is sin(theta_r), its second-order term in slope m^T form m / 2.
     const double refracted = StillWaterRefraction(beam.incidence, refractive_index);
     vertical_ = -std::sin(refracted) * std::cos(refracted) * azimuth_;
     square_gain_ = -0.5 * std::cos(refracted);
-    const auto of_form = [&](const Eigen::Vector3d& squares) {
+    const auto value_of_form = [&](const Eigen::Vector3d& squares) {
       return form(0, 0) * squares[0] + form(1, 1) * squares[1] + 2 * form(0, 1) * squares[2];
     };
-    expected_form_ = of_form(known->moments.expected_squares);
+    expected_form_ = value_of_form(known->moments.expected_squares);
 
     const Eigen::Index n = static_cast<Eigen::Index>(sample.size());
     tangent_.resize(n, 2);
@@ -69,13 +73,14 @@ class Prediction {
     form_.resize(n);
     imbalance_.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      tangent_.row(i) = (answer * sample[i].mean_slope).transpose().array();
-      offset_.row(i) = -(answer * sample[i].height_slope).transpose().array();
-      form_[i] = of_form(sample[i].mean_squares);
+      tangent_.row(i) = (response * sample[i].mean_slope).transpose().array();
+      offset_.row(i) = -(response * sample[i].height_slope).transpose().array();
+      form_[i] = value_of_form(sample[i].mean_squares);
       imbalance_[i] = sample[i].parts[0].share - sample[i].parts[1].share;
     }
   }
 
+  // Controls of the squared errors.
   std::optional<Control> SquaredTangent(int axis) const {
     if (!known_) return std::nullopt;
     return Control{tangent_.col(axis).square(), covariance_(axis, axis)};
@@ -97,7 +102,7 @@ class Prediction {
         depth * depth * (both(covariance_) + square_gain_ * square_gain_ * known_->moments.variance_of_form) +
             both(offset_covariance_)};
   }
-  // Of the errors themselves.
+  // Controls of the errors themselves.
   std::optional<Control> Tangent(int axis) const {
     if (!known_) return std::nullopt;
     return Control{imbalance_ * tangent_.col(axis), expectation_[axis]};
@@ -126,15 +131,15 @@ class Prediction {
 
   std::optional<KnownSlopes> known_;
   Eigen::Vector2d azimuth_;
-  Eigen::Vector2d expectation_;  // of the predicted tangent, less that of still water
+  Eigen::Vector2d expectation_;  // of the tangent less that in still water
   Eigen::Matrix2d covariance_, offset_covariance_;
-  Eigen::Vector2d vertical_;  // the vertical error per depth and tangent
-  double square_gain_ = 0;    // the vertical error per depth and form
-  double expected_form_ = 0;  // of the squared slopes
-  Eigen::ArrayX2d tangent_;   // predicted on the surfaces of parts[0]; on the others it is the opposite
-  Eigen::ArrayX2d offset_;    // m, the horizontal error at depth 0; alike on both
-  Eigen::ArrayXd form_;       // alike on both
-  Eigen::ArrayXd imbalance_;  // of the shares of the two
+  Eigen::Vector2d vertical_;  // vertical error per depth and tangent
+  double square_gain_ = 0;    // vertical error per depth and value of the form
+  double expected_form_ = 0;  // expectation of the form of the squared slopes
+  Eigen::ArrayX2d tangent_;   // on the surfaces of parts[0]; on the inverted ones it has the opposite sign
+  Eigen::ArrayX2d offset_;    // horizontal error at depth 0, m; equal on both
+  Eigen::ArrayXd form_;       // equal on both
+  Eigen::ArrayXd imbalance_;  // share of parts[0] minus share of parts[1]
 };
 
 }  // namespace
@@ -142,14 +147,14 @@ class Prediction {
 BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths) {
-  const Prediction prediction(sample, beam, refractive_index, known);
+  const ControlVariates controls(sample, beam, refractive_index, known);
   const Eigen::Vector2d azimuth(std::cos(beam.azimuth), std::sin(beam.azimuth));
   BeamUncertainty result;
   result.realizations = static_cast<int>(sample.size());
   const auto refraction = [&](int axis) {
     const Column angle(sample, [&](const BeamErrors& e) { return std::atan(e.tangent[axis]); });
-    const auto [squares, of_mean] = angle.SquaresAbout(prediction.Tangent(axis));
-    return TwoSigmaOfSquares(squares, of_mean, prediction.SquaredTangent(axis));
+    const auto [squares, mean_correction] = angle.SquaresAboutMean(controls.Tangent(axis));
+    return TwoSigmaOfSquares(squares, mean_correction, controls.SquaredTangent(axis));
   };
   result.refraction_along_wind = refraction(0);
   result.refraction_cross_wind = refraction(1);
@@ -160,19 +165,18 @@ BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const 
       });
     };
     const auto squares_along = [&](const Eigen::Vector2d& direction) {
-      return horizontal(direction).SquaresAbout(prediction.Horizontal(depth, direction));
+      return horizontal(direction).SquaresAboutMean(controls.Horizontal(depth, direction));
     };
     const Column::Squares x = squares_along(Eigen::Vector2d::UnitX()),
                           y = squares_along(Eigen::Vector2d::UnitY());
-    result.thu.push_back(
-        TwoSigmaOfSquares(x.sample + y.sample, x.of_mean + y.of_mean, prediction.SquaredHorizontal(depth)));
+    result.thu.push_back(TwoSigmaOfSquares(x.sample + y.sample, x.mean_correction + y.mean_correction,
+                                           controls.SquaredHorizontal(depth)));
     const Column vertical(
         sample, [&](const BeamErrors& e) { return e.vertical_offset + depth * e.vertical_per_depth; });
-    const Column::Squares z = vertical.SquaresAbout(prediction.Vertical(depth));
-    result.tvu.push_back(TwoSigmaOfSquares(z.sample, z.of_mean, prediction.SquaredVertical(depth)));
-    result.bias_along_beam.push_back(
-        Mean(horizontal(azimuth).Means(), prediction.Horizontal(depth, azimuth)));
-    result.bias_vertical.push_back(Mean(vertical.Means(), prediction.Vertical(depth)));
+    const Column::Squares z = vertical.SquaresAboutMean(controls.Vertical(depth));
+    result.tvu.push_back(TwoSigmaOfSquares(z.sample, z.mean_correction, controls.SquaredVertical(depth)));
+    result.bias_along_beam.push_back(Mean(horizontal(azimuth).Means(), controls.Horizontal(depth, azimuth)));
+    result.bias_vertical.push_back(Mean(vertical.Means(), controls.Vertical(depth)));
   }
   return result;
 }

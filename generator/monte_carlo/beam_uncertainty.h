@@ -1,47 +1,82 @@
-// From the errors of a beam in many realizations to its uncertainty.
+// From the errors of a beam in many realizations of the sea to its uncertainty.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "generator/math/statistics.h"
-#include "generator/monte_carlo/beam_errors.h"
 #include "generator/monte_carlo/slope_moments.h"
 #include "generator/surface/beam.h"
+#include "generator/surface/ray_tracer.h"
 
 namespace albtpu {
 
-// What one beam comes to. Refraction in rad, the others in m, one for each depth. docs/physics.md has the
-// definitions.
+// The position that is reported for a beam through one surface, minus the true one. Errors are linear in the depth d.
+struct BeamErrors {
+  Eigen::Vector2d tangent = Eigen::Vector2d::Zero();  // t - t_still
+  // The horizontal error of the spot is offset [m] + d per_depth.
+  Eigen::Vector2d horizontal_offset = Eigen::Vector2d::Zero();
+  Eigen::Vector2d horizontal_per_depth = Eigen::Vector2d::Zero();
+  double vertical_offset = 0;  // m, likewise of the elevation
+  double vertical_per_depth = 0;
+};
+
+// In still water the spot would lie t_still d from the intersection, at the end of a path of length d sec_still. The
+// true centroid is the traced one, and the reported depth is the mean path length over sec_still.
+inline BeamErrors ErrorsOf(const TracedBeam& traced, const TracedBeam& still) {
+  const Eigen::Vector2d tangent = traced.tangent - still.tangent;
+  return {tangent, -traced.height_tangent, -tangent, -traced.height_secant / still.secant,
+          1 - traced.secant / still.secant};
+}
+
+// The effect of one realization of the sea on a beam: the errors on its surface and, where that is also traced upside
+// down (which is as likely in a Gaussian sea), on the inverted surface. Each part has a share in the means of the
+// realization; the shares add up to 1.
+struct BeamRealization {
+  struct Part {
+    double share = 0;
+    BeamErrors errors;
+  };
+  std::array<Part, 2> parts;
+  // Means over the rays, of the facets above or below the points where they cross z = 0, on the surface of parts[0].
+  // Their statistics are known (slope_moments.h, height_slope_product.h). Zero where only tracing is used.
+  Eigen::Vector2d mean_slope = Eigen::Vector2d::Zero();
+  Eigen::Vector3d mean_squares = Eigen::Vector3d::Zero();
+  Eigen::Vector2d height_slope = Eigen::Vector2d::Zero();  // covariance of height and slope over the rays, m
+};
+
+// The uncertainty of one beam. Refraction in rad; the others in m, one value for each depth. docs/physics.md, section
+// 1, has the definitions.
 struct BeamUncertainty {
   Estimate refraction_along_wind, refraction_cross_wind;
   std::vector<Estimate> thu, tvu, bias_along_beam, bias_vertical;
   int realizations = 0;
 };
 
-// What is known beforehand of the slopes that a beam averages over: the expectations of the control variates.
-// The `form` of the moments is SecantCurvature (refraction.h).
+// The known statistics of the slopes over which a beam averages: the expectations of the control variates. The `form`
+// of the moments is SecantCurvature (refraction.h).
 struct KnownSlopes {
-  // Of what the rays make of the slopes.
+  // Of the means over the rays.
   SlopeMoments moments;
-  // Of the slope averaged over the footprint itself: with this as the expectation, what too few rays add is
-  // taken back.
+  // Covariance of the slope averaged over the footprint itself. As the expectation of the control variate, it removes
+  // the variance that too few rays add.
   Eigen::Matrix2d footprint_covariance;
   // Of the covariance of height and slope within the footprint (HeightSlopeProduct), m^2.
   Eigen::Matrix2d height_slope_covariance;
-  // Of the mean slope. A slanted line meets the side of the long waves that faces it more often: not zero,
-  // though slopes are as often up as down.
+  // Expectation of the mean slope. It is not zero although slopes are symmetric, because a slanted line meets the side
+  // of the long waves that faces it more often.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
 };
 
-// `depths` in m. Without `known` it is the sample's own statistics: tracing alone. With it, they are
-// corrected by what the sample shows of the slopes and what is known of them (statistics.h): to first order
-// in slope the tangent answers to the mean slope by the gains of Snell's law and the vertical error to the
-// tangent; to second order, which is all there is of it at nadir, the vertical error answers to the mean
-// squares of the slopes, and the error at depth 0, in both directions, to how height and slope go together
-// within the footprint. First and second order do not go together in a Gaussian sea, nor do the two of second
-// order, of which one is odd in space and one is even, so that the variance of their sum is that of each.
+// The uncertainty at `depths` [m]. Without `known`, the sample's own statistics: tracing alone. With it, these are
+// corrected by control variates (statistics.h), the known part of the errors. To first order in slope, the tangent
+// responds to the mean slope by the gains of Snell's law, and the vertical error to the tangent. To second order, which
+// is all there is at nadir, the vertical error responds to the mean squares of the slopes. The errors at depth 0, in
+// both directions, respond to the covariance of height and slope within the footprint. In a Gaussian sea, first and
+// second order are uncorrelated, and so are the two of second order, because one is odd in space and the other even.
+// The variance of their sum is therefore the sum of their variances.
 BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths);

@@ -4,19 +4,17 @@
 #include <cmath>
 #include <utility>
 
-#include "generator/math/fast_size.h"
-#include "generator/math/forward_fft.h"
-#include "generator/math/inverse_fft.h"
+#include "generator/math/fft.h"
 
 namespace albtpu {
 namespace {
 
-using Waves = Eigen::MatrixXcd;  // as ForwardFft gives them
+using Waves = Eigen::MatrixXcd;  // in the layout of ForwardFft
 
 // The axes a and b of each of the three elements of a symmetric matrix.
 constexpr std::array<std::pair<int, int>, 3> kElements = {{{0, 0}, {0, 1}, {1, 1}}};
 
-// A function of the lag (x, y), at (x + reach, y + reach), or of the point, on a periodic grid.
+// Wraps a function of the lag or the point (x, y), given at the element (x + reach, y + reach), onto a periodic grid.
 Eigen::MatrixXd Wrapped(const Eigen::MatrixXd& centred, int size) {
   const int reach = static_cast<int>(centred.rows() - 1) / 2;
   const auto wrapped = [&](int lag) { return lag < 0 ? lag + size : lag; };
@@ -27,7 +25,7 @@ Eigen::MatrixXd Wrapped(const Eigen::MatrixXd& centred, int size) {
   return grid;
 }
 
-// The back of Wrapped, for the points about the centre.
+// The inverse of Wrapped, for the points about the centre.
 Eigen::ArrayXXd Centred(const std::vector<double>& grid, int size, int reach) {
   const auto wrapped = [&](int lag) { return lag < 0 ? lag + size : lag; };
   Eigen::ArrayXXd centred(2 * reach + 1, 2 * reach + 1);
@@ -58,7 +56,7 @@ Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
   return shares / shares.sum();
 }
 
-// The sum over all waves, both halves, of `power` times what `waves` has of them, for a function that is even.
+// The sum over all modes, those not stored included, of `power` times `waves`, which transforms an even function.
 double SumOver(const Eigen::MatrixXd& power, const Waves& waves) {
   const Eigen::Index last = waves.cols() - 1;
   const Eigen::MatrixXd each = power.cwiseProduct(waves.real());
@@ -96,7 +94,7 @@ Eigen::Matrix2d HeightSlopeProduct::Covariance(const BeamOptions& beam) const {
     InverseFft::Modes modes = transform.Allocate();
     for (Eigen::Index row = 0; row < waves.rows(); ++row) {
       for (Eigen::Index j = 0; j < waves.cols(); ++j) {
-        // The other way round than ForwardFft, which is that of the functional, not of the function.
+        // Conjugate: ForwardFft transforms a functional, and this is the transform of a function.
         modes[row * waves.cols() + j] = std::conj(waves(row, j)) * footprint(row, j);
       }
     }

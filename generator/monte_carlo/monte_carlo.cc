@@ -15,37 +15,40 @@
 namespace albtpu {
 namespace {
 
-// Below these nobody asks for an error.
+// The relative error of values below these does not matter.
 const double kNegligibleAngle = RadiansOfDegrees(0.01);
 constexpr double kNegligibleLength = 1e-3;  // m
 
-bool Meets(const BeamUncertainty& beam, double relative_error) {
-  const auto meets = [&](const Estimate& estimate, double negligible) {
+bool HasConverged(const BeamUncertainty& beam, double relative_error) {
+  const auto has_converged = [&](const Estimate& estimate, double negligible) {
     return estimate.value < negligible || estimate.standard_error <= relative_error * estimate.value;
   };
-  const auto length_meets = [&](const Estimate& estimate) { return meets(estimate, kNegligibleLength); };
-  return meets(beam.refraction_along_wind, kNegligibleAngle) &&
-         meets(beam.refraction_cross_wind, kNegligibleAngle) &&
-         std::all_of(beam.thu.begin(), beam.thu.end(), length_meets) &&
-         std::all_of(beam.tvu.begin(), beam.tvu.end(), length_meets);
+  const auto length_has_converged = [&](const Estimate& estimate) {
+    return has_converged(estimate, kNegligibleLength);
+  };
+  return has_converged(beam.refraction_along_wind, kNegligibleAngle) &&
+         has_converged(beam.refraction_cross_wind, kNegligibleAngle) &&
+         std::all_of(beam.thu.begin(), beam.thu.end(), length_has_converged) &&
+         std::all_of(beam.tvu.begin(), beam.tvu.end(), length_has_converged);
 }
 
-// The beams of the least and of the greatest incidence, one of them at nadir: what holds for these holds
-// between them.
+// The beams of the least and the greatest incidence, of which only one is needed at nadir. Slope fractions of beams in
+// between lie between theirs.
 std::vector<BeamOptions> Extremes(const std::vector<BeamOptions>& beams) {
   const auto less = [](const BeamOptions& a, const BeamOptions& b) { return a.incidence < b.incidence; };
   const auto [least, greatest] = std::minmax_element(beams.begin(), beams.end(), less);
   std::vector<BeamOptions> extremes;
   for (const BeamOptions& beam : beams) {
-    const bool again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
-    if (!again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence))
+    const bool nadir_again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
+    if (!nadir_again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence)) {
       extremes.push_back(beam);
+    }
   }
   return extremes;
 }
 
-// How many realizations there should be when `done` were not enough: a half more, in whole batches.
-int More(int done, const Effort& effort) {
+// The number of realizations to reach when `done` were not enough: half as many again, in whole batches.
+int NextCount(int done, const Effort& effort) {
   const int batches = std::max(1, done / 2 / kBatch);
   return std::min(done + batches * kBatch, effort.most_realizations);
 }
@@ -90,9 +93,9 @@ SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint6
 
   const std::size_t count = sea_case.beams.size();
   result.beams.resize(count);
-  std::vector<bool> wanted(count, true);  // those that want more realizations
+  std::vector<bool> wanted(count, true);  // beams that need more realizations
   std::vector<std::vector<BeamRealization>> realizations;
-  for (int goal = effort.realizations; true; goal = More(result.realizations, effort)) {
+  for (int goal = effort.realizations; true; goal = NextCount(result.realizations, effort)) {
     const int first = result.realizations;
     result.realizations = goal;
     realizations.resize(goal, std::vector<BeamRealization>(count));
@@ -105,7 +108,7 @@ SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint6
       for (const std::vector<BeamRealization>& realization : realizations) sample.push_back(realization[b]);
       result.beams[b] = UncertaintyOf(sample, sea_case.beams[b], sea_case.refractive_index,
                                       tracing->known_slopes(b), sea_case.depths);
-      wanted[b] = effort.relative_error > 0 && !Meets(result.beams[b], effort.relative_error);
+      wanted[b] = effort.relative_error > 0 && !HasConverged(result.beams[b], effort.relative_error);
       result.converged = result.converged && !wanted[b];
     }
     if (result.converged || goal >= effort.most_realizations) return result;

@@ -1,4 +1,4 @@
-// The Monte Carlo: beams through many realizations of one sea, and the uncertainty that comes out.
+// The Monte Carlo: the uncertainty of beams from many realizations of one sea.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,29 @@
 namespace albtpu {
 
 enum class Estimator {
-  kControlVariate,  // what is known of each surface's slopes, and by tracing what differs from it
-  kPlain,           // tracing alone: the slow twin
+  kControlVariate,  // known statistics of the surface's slopes, with the departures from them by tracing
+  kPlain,           // tracing alone, the slow twin
 };
 std::string_view Name(Estimator estimator);  // "control_variate", "plain"
 std::optional<Estimator> FindEstimator(std::string_view name);
 
-// How long to go on. Realizations beyond the first are counted in whole batches of `kBatch`; every beam goes
-// on for itself, on the surfaces that all share.
+// When to stop. Realizations beyond the first `realizations` come in whole batches of `kBatch`. Each beam stops on its
+// own; all beams share the surfaces.
 struct Effort {
-  int realizations = 1000;       // at least so many, 2 or more
-  int most_realizations = 1000;  // and no more
-  // Go on until refraction, THU and TVU have this standard error over their value, where they are 0.01
-  // degrees or 1 mm and more; 0: don't.
+  int realizations = 1000;       // the least number, 2 or more
+  int most_realizations = 1000;  // the greatest number
+  // Continue until the standard errors of refraction, THU and TVU, relative to their values, are at most this large.
+  // Values below 0.01 degrees or 1 mm do not count. 0 disables the criterion.
   double relative_error = 0;
   Estimator estimator = Estimator::kControlVariate;
 };
 inline constexpr int kBatch = 64;
 
-// Seas and beams that share their surfaces: one footprint and profile.
+// One sea with all beams that are traced on the same surfaces: they share footprint, profile and source.
 struct SeaCase {
   SeaOptions sea;
   double refractive_index = 1.33;
-  std::vector<BeamOptions> beams;                // not empty; the same footprint, profile and source
+  std::vector<BeamOptions> beams;                // not empty
   std::vector<double> depths;                    // m, not negative
   std::optional<int> rays;                       // of each beam; chosen from sea and beams where absent
   std::optional<Discretization> discretization;  // chosen from sea and beams where absent
@@ -45,13 +45,13 @@ struct SeaCase {
 struct SeaCaseResult {
   std::vector<BeamUncertainty> beams;
   int realizations = 0;   // the most of any beam
-  bool converged = true;  // false: `most_realizations` came before `relative_error`
-  // What the surface was.
+  bool converged = true;  // false when `most_realizations` was reached before `relative_error`
+  // The discretization of the surface.
   int rays = 0;
   double patch_length = 0, spacing = 0;  // m
-  // Slope variance that the facets show the footprint, over that of the closed form; the least of the beams.
+  // Slope variance of the facets over the footprint, divided by that of the closed form; the least of the beams.
   double footprint_slope_fraction = 0;
-  double resolved_slope_fraction = 0;  // mean square slope of the facets, over the sea's
+  double resolved_slope_fraction = 0;  // mean square slope of the facets, divided by that of the sea
 };
 
 // Runs on all threads of the current TBB arena. The result is a function of its arguments alone.

@@ -30,10 +30,10 @@ class PlainTracing final : public BeamTracing {
         realized[b] = realized[b - 1];
         continue;
       }
-      const SeaSurface::LocalSurface window = surface.SurfaceUnder(prepared.beam);
+      const SeaSurface::LocalSurface local = surface.SurfaceUnder(prepared.beam);
       const TracedBeam traced =
-          Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(window.elevation),
-                window.heights, refractive_index_);
+          Trace(std::isinf(options.source_height) ? prepared.rays : prepared.beam.Rays(local.elevation),
+                local.heights, refractive_index_);
       realized[b].parts[0] = {
           1, ErrorsOf(WithUnresolvedWaves(traced, prepared.unresolved), prepared.still_water)};
     }
@@ -44,7 +44,7 @@ class PlainTracing final : public BeamTracing {
  private:
   struct PreparedBeam {
     Beam beam;
-    std::vector<Ray> rays;  // of a collimated beam: those of a point source depend on the elevation
+    std::vector<Ray> rays;  // of a collimated beam; the rays of a point source depend on the elevation
     TracedBeam still_water;
     UnresolvedWaves unresolved;
   };

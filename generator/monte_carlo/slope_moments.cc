@@ -6,15 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "generator/math/fast_size.h"
-#include "generator/math/forward_fft.h"
-#include "generator/math/inverse_fft.h"
+#include "generator/math/fft.h"
 #include "generator/surface/height_field.h"
 
 namespace albtpu {
 namespace {
 
-using Waves = Eigen::MatrixXcd;  // as ForwardFft gives them
+using Waves = Eigen::MatrixXcd;  // in the layout of ForwardFft
 
 double FarthestOf(const std::vector<Ray>& rays) {
   double farthest = 0;
@@ -22,7 +20,8 @@ double FarthestOf(const std::vector<Ray>& rays) {
   return farthest;
 }
 
-// The shares of the rays that meet the triangles of each kind, by cell, transformed on a grid of `size` cells.
+// The shares of the rays on the triangles of each kind (beside y, beside x), by cell, transformed on a grid of `size`
+// cells.
 std::array<Waves, 2> SharesOfTriangles(const std::vector<Ray>& rays, double spacing, int cells, int size) {
   const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0),
                           cells + 1, spacing);
@@ -35,7 +34,8 @@ std::array<Waves, 2> SharesOfTriangles(const std::vector<Ray>& rays, double spac
   return {ForwardFft(shares[0]), ForwardFft(shares[1])};
 }
 
-// Of the covariance matrix R of two slopes: R itself for their means, and what it gives the form.
+// Accumulates the covariance matrices R of pairs of slopes: R itself for the covariance of the means, and
+// tr(form R form R^T) for the variance of the form.
 class Sums {
  public:
   explicit Sums(const Eigen::Matrix2d& form) : form_(form) {}
@@ -45,9 +45,9 @@ class Sums {
     covariance_[1] += pairs * (xy + yx);
     covariance_[2] += pairs * yy;
     const double a = form_(0, 0), b = form_(0, 1), c = form_(1, 1);
-    // form R, by its elements
+    // The elements of form R,
     const double p = a * xx + b * yx, q = a * xy + b * yy, r = b * xx + c * yx, s = b * xy + c * yy;
-    // and form R^T
+    // and of form R^T.
     const double t = a * xx + b * xy, u = a * yx + b * yy, v = b * xx + c * xy, w = b * yx + c * yy;
     form_squares_ += pairs * (p * t + q * v + r * u + s * w);
   }
@@ -74,18 +74,20 @@ Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, 
     return FootprintOverlap(beam.profile,
                             std::hypot(lag.dot(along) * std::cos(beam.incidence), lag.dot(across)));
   };
-  double xx = 0, xy = 0, yy = 0, weights = 0, half_a_cell_away = 0;
+  // The double integral of R over the footprint depends on the lag alone, with the footprint's overlap as the weight.
+  double xx = 0, xy = 0, yy = 0, whole_weights = 0, half_weights = 0;
   for (int x = -correlation.reach(); x <= correlation.reach(); ++x) {
     for (int y = -correlation.reach(); y <= correlation.reach(); ++y) {
-      const double at_lag = overlap(x, y), beyond = overlap(x + 0.5, y + 0.5);
-      weights += at_lag;
-      half_a_cell_away += beyond;
-      xx += at_lag * correlation.xx(x, y);
-      yy += at_lag * correlation.yy(x, y);
-      xy += beyond * correlation.xy(x, y);
+      const double whole = overlap(x, y),
+                   half = overlap(x + 0.5, y + 0.5);  // lags of whole and of half cells
+      whole_weights += whole;
+      half_weights += half;
+      xx += whole * correlation.xx(x, y);
+      yy += whole * correlation.yy(x, y);
+      xy += half * correlation.xy(x, y);
     }
   }
-  return (Eigen::Matrix2d() << xx / weights, xy / half_a_cell_away, xy / half_a_cell_away, yy / weights)
+  return (Eigen::Matrix2d() << xx / whole_weights, xy / half_weights, xy / half_weights, yy / whole_weights)
       .finished();
 }
 
@@ -96,13 +98,13 @@ int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
 SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
                              double spacing, const Eigen::Matrix2d& form) {
   const int cells = 2 * (static_cast<int>(FarthestOf(rays) / spacing) + 1);
-  const int reach = cells - 1;  // of two cells
+  const int reach = cells - 1;  // the greatest lag between two cells
   assert(reach + 1 <= correlation.reach());
   const int size = FastSize(2 * cells);
   const auto [beside_y, beside_x] = SharesOfTriangles(rays, spacing, cells, size);
 
-  // How many pairs of rays, over their number squared, lie a lag apart: on triangles of the same kind, and on
-  // one of each.
+  // The number of pairs of rays at each lag, divided by the squared number of rays: pairs on triangles of the same
+  // kind, and pairs on one triangle of each kind.
   const InverseFft transform(size);
   InverseFft::Modes same = transform.Allocate(), mixed = transform.Allocate();
   const double points = static_cast<double>(size) * size;
@@ -122,13 +124,13 @@ SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::v
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {
       const std::size_t lag = static_cast<std::size_t>(wrapped(x)) * size + wrapped(y);
-      // Of triangles beside y the two mixed ones change places, to the same effect.
+      // For two triangles beside y, the two mixed covariances change places, which gives the same sums.
       sums.Add(same_pairs[lag], r.xx(x, y), r.xy(x, y), r.xy(x - 1, y - 1), r.yy(x, y));
-      // From the triangle beside y to the one beside x, and back.
+      // From a triangle beside y to one beside x, and the reverse.
       sums.Add(2 * mixed_pairs[lag], r.xx(x, y - 1), r.xy(x, y - 1), r.xy(x, y - 1), r.yy(x + 1, y));
     }
   }
-  // Within a triangle the middles of the sides lie half a cell apart along both axes.
+  // Within a triangle, the midpoints of the two sides are half a cell apart along both axes.
   return {sums.covariance(), {r.xx(0, 0), r.yy(0, 0), r.xy(0, 0)}, sums.variance_of_form()};
 }
 

@@ -7,7 +7,7 @@
 namespace albtpu {
 namespace {
 
-// The periodic `correlations` of the patch, at the lags of `sum`.
+// Adds the periodic `correlations` of the patch at the lags of `sum`.
 void AddPatch(const std::vector<double>& correlations, int size, Eigen::MatrixXd& sum) {
   const int reach = static_cast<int>(sum.rows() - 1) / 2;
   const auto wrapped = [&](int lag) { return (lag % size + size) % size; };
@@ -31,20 +31,13 @@ Eigen::MatrixXcd Phases(const Eigen::ArrayXd& phase_per_lag, int reach) {
   return phases;
 }
 
-// The real part of phases_x diag(power) phases_y^T.
-Eigen::MatrixXd Sum(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& power,
-                    const Eigen::MatrixXcd& phases_y) {
-  const Eigen::MatrixXcd weighted = phases_x * power.asDiagonal();
-  return weighted.real() * phases_y.real().transpose() - weighted.imag() * phases_y.imag().transpose();
-}
-
 }  // namespace
 
 SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : reach_(reach) {
   assert(2 * reach < model.patch().size());
   const double spacing = model.patch().spacing();
   const std::vector<LongWaveModel::Wave>& waves = model.long_waves().waves();
-  Eigen::ArrayX2d phase(waves.size(), 2);  // along a cell
+  Eigen::ArrayX2d phase(waves.size(), 2);  // across one cell
   for (std::size_t m = 0; m < waves.size(); ++m) {
     phase.row(m) = (spacing * waves[m].wavenumber).transpose().array();
   }
@@ -54,11 +47,11 @@ SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : r
     for (std::size_t m = 0; m < waves.size(); ++m) {
       power[m] = waves[m].variance * factor(phase(m, 0), phase(m, 1));
     }
-    Eigen::MatrixXd sum = Sum(x, power, y);
+    Eigen::MatrixXd sum = SumOfWaves(x, power, y);
     AddPatch(model.patch().Correlate(factor), model.patch().size(), sum);
     return sum;
   };
-  // What a side makes of a wave of height 1, over i: a little less than its wavenumber.
+  // The slope of a side for a wave of amplitude 1 is i times this quotient, a little less than the wavenumber.
   const auto quotient = [&](double phase_along) { return std::sin(phase_along / 2) * (2 / spacing); };
   using Complex = std::complex<double>;
   xx_ = correlate([&](double px, double) { return Complex(std::pow(quotient(px), 2)); });

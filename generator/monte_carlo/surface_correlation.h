@@ -1,4 +1,4 @@
-// How the heights and slopes of a surface go together from place to place.
+// Covariances of the heights and slopes of a surface between two points.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,9 @@
 
 namespace albtpu {
 
-// Covariances of heights and slopes as functions of what lies between them, for the waves of a SurfaceModel,
-// all of them stationary: exact for the modes of the patch and for the plane waves (of which the window holds
-// an interpolation, right to 1e-3 of their own slopes and better). Immutable.
+// Covariances of heights and slopes as functions of the lag, for the waves of a SurfaceModel, all of which are
+// stationary. Exact for the modes of the patch and for the plane waves. (A local surface holds an interpolation of the
+// plane waves, whose slopes are accurate to 1e-3 or better.) Immutable.
 class SurfaceCorrelation {
  public:
   // For lags up to `reach` cells along each axis; less than half the patch.
@@ -17,18 +17,18 @@ class SurfaceCorrelation {
 
   int reach() const { return reach_; }
 
-  // Of the slopes of two sides of triangles, by what lies between their middles. Sides along x lie whole cells
-  // apart from each other, and so do those along y; the one kind lies half a cell along both axes away from
-  // the other: xy is at (lag_x + 1/2, lag_y + 1/2).
+  // Of the slopes of two sides of triangles, by the lag in cells between their midpoints. Two sides along x are whole
+  // cells apart, and so are two sides along y. A side along x and one along y are offset by half a cell on both axes:
+  // xy is at the lag (lag_x + 1/2, lag_y + 1/2).
   double xx(int lag_x, int lag_y) const { return At(xx_, lag_x, lag_y); }
   double yy(int lag_x, int lag_y) const { return At(yy_, lag_x, lag_y); }
   double xy(int lag_x, int lag_y) const { return At(xy_, lag_x, lag_y); }
 
-  // At the points of the grid, with the slope that a side about the point would have: at lag (i, j) in
+  // At the points of the grid, where the slope is that of a side centred on the point. The lag (i, j) is at the element
   // (i + reach(), j + reach()).
   struct AtPoints {
-    // E[h(0) h(lag)] - E[h^2]: only differences of height have a meaning under a footprint, and the heights
-    // of long waves would swamp them. m^2.
+    // E[h(0) h(lag)] - E[h^2], m^2. Only differences of height matter within a footprint, and the variance of the long
+    // waves would swamp them.
     Eigen::MatrixXd height;
     Eigen::MatrixXd height_x, height_y;            // E[h(0) slope(lag)], m
     Eigen::MatrixXd slope_xx, slope_xy, slope_yy;  // E[slope(0) slope(lag)]

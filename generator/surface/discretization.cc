@@ -9,21 +9,22 @@
 namespace albtpu {
 namespace {
 
-// A deviation is the root of a variance: half a per cent of variance is a quarter of a per cent of what is
-// reported. Where the search begins is enough for footprints narrower than the waves; where it ends bounds the
-// cost of those that see next to nothing. convergence_validation_test holds the result.
+// Limits on variances. A reported deviation is the square root of a variance: half a per cent of variance is a quarter
+// of a per cent of the result. convergence_validation_test checks what comes out.
 constexpr double kGridLoss = 0.004;
 constexpr double kPatchDeparture = 0.005;
-// The estimate of what aliases is half of what doubling the rays was seen to take away.
+// AliasedSlopeVariance finds about half of the variance that doubling the rays was observed to remove.
 constexpr double kAliasedFraction = 0.0075;
+// The search starts at values that suffice for footprints narrower than the waves. Its ends limit the cost for
+// footprints over which the waves nearly average out.
 constexpr double kNarrowestPatch = 2.5, kWidestPatch = 8;    // widths of the beam
 constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footprint
-// Fewer rays sample the squares of slopes too coarsely, on which vertical errors at nadir rest: 1000 were seen to
-// add 3 % to them, 4000 add 0.1 %.
+// Vertical errors at nadir depend on the squares of the slopes, which few rays sample too coarsely: 1000 rays were
+// observed to add 3 % to these errors, 4000 rays add 0.1 %.
 constexpr int kFewestRays = 4000;
 
-// The part of the slope variance seen by the footprint that facets of the side `spacing` take away: waves
-// under two facets long, and of the others what a difference quotient misses of the slope.
+// The fraction of the slope variance over the footprint that is lost on facets with the side `spacing` [m]: all of the
+// waves shorter than two facets, and of the others the difference between slope and difference quotient.
 double GridLoss(const SeaState& sea, const BeamOptions& beam, double spacing, double seen) {
   const Eigen::Matrix2d facets = SlopeCovariance(sea, [&](double k, double psi) {
     const double x = k * std::cos(psi) * spacing / 2, y = k * std::sin(psi) * spacing / 2;
@@ -34,9 +35,9 @@ double GridLoss(const SeaState& sea, const BeamOptions& beam, double spacing, do
   return 1 - facets.trace() / seen;
 }
 
-// The variance of a beam's mean slope that comes from waves which its rays are too far apart to sample: their
-// slope variance over the number of rays. Two rays a wave is the limit of a square lattice; 2.5 are asked of
-// a spiral.
+// The variance of a beam's mean slope that comes from waves too short for the spacing of its rays: each ray sees them
+// independently, so it is their slope variance over the number of rays. A square lattice needs two rays for each
+// wavelength; 2.5 are required of the spiral.
 double AliasedSlopeVariance(const SurfaceModel& model, const BeamOptions& beam, int rays) {
   const double spacing = beam.footprint * std::sqrt(std::numbers::pi / 4 / rays);
   const double sampled = 2 * std::numbers::pi / (2.5 * spacing);

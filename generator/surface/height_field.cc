@@ -9,14 +9,17 @@
 namespace albtpu {
 namespace {
 
-// `surface` has TriangleAt, FacetOf and reach as HeightField.
+// Newton's method on the facet under the ray, with bisection as a safeguard. `surface` has TriangleAt, FacetOf and
+// reach as HeightField does.
 template <typename Surface>
 Hit IntersectTriangles(const Surface& surface, const Ray& ray) {
   constexpr int kMostSteps = 100;
-  constexpr double kLeastApproach = 0.1;  // a step goes the right way even over a facet that turns away
+  constexpr double kLeastApproach =
+      0.1;  // keeps the direction of a step right even over a facet that turns away
   const Eigen::Vector2d per_height = ray.per_height();
-  double below = -std::numeric_limits<double>::infinity();  // heights at which the ray is known to be under
-  double above = std::numeric_limits<double>::infinity();   // and over the surface
+  // Heights at which the ray is known to be below and above the surface: they bracket the intersection.
+  double below = -std::numeric_limits<double>::infinity();
+  double above = std::numeric_limits<double>::infinity();
   double z = 0;
   HeightField::Triangle triangle = surface.TriangleAt(ray.at_zero);
   HeightField::Facet facet;
@@ -24,8 +27,8 @@ Hit IntersectTriangles(const Surface& surface, const Ray& ray) {
     facet = surface.FacetOf(triangle);
     const double clearance = z - facet.HeightAt(ray.at_zero + z * per_height);
     (clearance < 0 ? below : above) = z;
-    // The meeting with the plane of the facet under the ray; if it lies outside of what is known, which then
-    // is finite, halve what is known.
+    // Go to the intersection with the plane of the facet under the ray. Where that is outside the bracket, which is
+    // then finite, bisect the bracket.
     const double approach = 1 - facet.slope.dot(per_height);
     double next = z - clearance / std::max(kLeastApproach, approach);
     const bool on_the_plane = next >= below && next <= above && approach >= kLeastApproach;
@@ -51,8 +54,8 @@ HeightField::Facet HeightField::FacetOf(const Triangle& triangle) const {
   const auto [ix, iy, beside_x] = triangle;
   const double* low = &heights_[static_cast<std::size_t>(ix) * points_ + iy];
   const double* high = low + points_;
-  // From the low corner to the high one: first along x, then along y, or the other way round. Which of them is
-  // as good as random, so that addresses are chosen and not branches.
+  // From the low corner to the high one, first along x and then along y, or the other way round. The choice is as good
+  // as random, so it selects addresses and does not branch.
   const int first = beside_x ? 0 : 1;
   const double* last = beside_x ? high : low;
   const Eigen::Vector2d rise(high[first] - low[first], last[1] - last[0]);

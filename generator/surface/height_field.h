@@ -1,4 +1,4 @@
-// A triangulated piece of sea surface, and where a ray meets it.
+// A triangulated piece of sea surface and its intersection with a ray.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace albtpu {
 
-// Elevations on a square grid about the origin, each cell cut into two triangles along the diagonal from its
-// low corner to its high corner. That is a Delaunay triangulation of the grid's points. Immutable.
+// Elevations on a square grid about the origin. The diagonal from the low corner (least x and y) to the high corner
+// divides each cell into two triangles, which is a Delaunay triangulation of the grid's points. Immutable.
 class HeightField {
  public:
   // `heights` [m] at ((ix - centre) spacing, (iy - centre) spacing), ix slow, with centre = (points - 1) / 2;
@@ -21,10 +21,10 @@ class HeightField {
   // One of the two triangles of a cell.
   struct Triangle {
     int ix, iy;     // the low corner of the cell
-    bool beside_x;  // the one that has the side from the low corner along x
+    bool beside_x;  // the triangle with the side from the low corner along x
     bool operator==(const Triangle&) const = default;
   };
-  // The triangle over or under `x`; beyond the edge, one of the outermost cells.
+  // The triangle above or below `x`. Beyond the edge of the grid, a triangle of the nearest outermost cell.
   Triangle TriangleAt(const Eigen::Vector2d& x) const {
     const double last_cell = points_ - 2;
     const Eigen::Vector2d at = (x * points_per_metre_).array() + (points_ - 1) / 2;
@@ -53,11 +53,11 @@ class HeightField {
   double spacing_, points_per_metre_;
 };
 
-// The surface of HeightField in memory that somebody else owns.
+// A height field in single precision in memory that it does not own.
 struct HeightView {
   const float* heights;   // m, at ((ix - centre) spacing, (iy - centre) spacing), ix slow
   int points;             // along a side, odd, at least 3
-  std::ptrdiff_t stride;  // floats from a row to the next, at least `points`
+  std::ptrdiff_t stride;  // floats from one row to the next, at least `points`
   float spacing;          // m
 
   HeightField::Triangle TriangleAt(const Eigen::Vector2d& x) const;
@@ -65,15 +65,15 @@ struct HeightView {
   double reach() const { return (points - 1) / 2 * static_cast<double>(spacing); }
 };
 
-// Where a ray meets a surface.
+// The point where a ray intersects a surface.
 struct Hit {
   double height;  // m
   HeightField::Facet facet;
 };
 
-// The meeting of `ray` and `surface`: exact, on the plane of one triangle. The height of the ray above the
-// surface grows steadily upward as long as no facet turns away from the ray, which takes a slope of 1 /
-// tan(incidence), 2.1 at 25 degrees: then the meeting is the only one.
+// The exact intersection of `ray` and `surface`, on the plane of one triangle. It is unique as long as no facet turns
+// away from the ray, because the ray's height above the surface then increases monotonically with z. A facet turns
+// away at a slope of 1 / tan(incidence), which is 2.1 at 25 degrees.
 Hit Intersect(const HeightField& surface, const Ray& ray);
 Hit Intersect(const HeightView& surface, const Ray& ray);
 

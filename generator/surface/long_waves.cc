@@ -8,21 +8,22 @@
 namespace albtpu {
 namespace {
 
-// A ring whose waves the footprint sees as more than a tilt is cut narrow, the longer ones wider. Narrower rings
-// change the slope variance that a footprint sees by less than 0.2 %.
+// Rings are narrow where the footprint sees more of a wave than a tilt, and wider for longer waves. Still narrower
+// rings change the slope variance within a footprint by less than 0.2 %.
 constexpr double kNarrowRing = 1.18;  // ratio of the outer to the inner wavenumber
 constexpr double kWideRing = 1.7;
 constexpr int kNarrowRings = 12;
 constexpr int kSectors = 12;  // of the half plane
 
-// Gauss and Legendre's nodes and weights of four points on (-1, 1); Abramowitz and Stegun, table 25.4.
+// Gauss-Legendre nodes and weights of four points on (-1, 1); Abramowitz and Stegun, table 25.4.
 constexpr std::array<double, 4> kGaussNodes = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
                                                0.861136311594053};
 constexpr std::array<double, 4> kGaussWeights = {0.347854845137454, 0.652145154862546, 0.652145154862546,
                                                  0.347854845137454};
-constexpr int kPanels = 4;  // of each ring: the peak of a young sea is narrow
+constexpr int kPanels = 4;  // of each ring, because the spectral peak of a young sea is narrow
 
-// The variance of elevation and of slope in a ring and a sector of the half plane and their mirror images.
+// One wave with the variances of elevation and slope of a cell: a ring and a sector of the half plane, together with
+// their mirror image. Its wavenumber is the square root of the ratio of the two variances.
 LongWaveModel::Wave CellWave(const SeaState& sea, const CrossFade& patch_share, double k_inner,
                              double k_outer, double psi, double d_psi) {
   double elevation = 0, slope = 0;
@@ -94,12 +95,19 @@ Eigen::VectorXcd LongWaveModel::Shifted(const Eigen::VectorXcd& amplitudes,
   return shifted;
 }
 
+// Two products of real matrices: Eigen computes them faster than a complex product, whose imaginary part is not needed.
+Eigen::MatrixXd SumOfWaves(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& amplitudes,
+                           const Eigen::MatrixXcd& phases_y) {
+  const Eigen::MatrixXcd weighted = phases_x * amplitudes.asDiagonal();
+  return weighted.real() * phases_y.real().transpose() - weighted.imag() * phases_y.imag().transpose();
+}
+
 double HeightOfIntersection(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
                             const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height) {
   constexpr int kMostSteps = 50;
   constexpr double kCloseEnough = 1e-9;  // m
   double z = 0;
-  for (int step = 0; step < kMostSteps; ++step) {  // Newton
+  for (int step = 0; step < kMostSteps; ++step) {  // Newton's method
     const Eigen::VectorXcd here = model.Shifted(amplitudes, at_zero + z * per_height);
     double height = 0, height_per_z = 0;
     for (std::size_t m = 0; m < model.waves().size(); ++m) {

@@ -1,4 +1,4 @@
-// The waves that are longer than the patch under a beam: plane waves, so that no grid has to hold them.
+// The waves that are longer than the patch under a beam, as plane waves: no grid has to hold them.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "generator/math/random_stream.h"
-#include "generator/surface/cross_fade.h"
+#include "generator/surface/wave_patch.h"
 #include "sea/sea_state.h"
 
 namespace albtpu {
 
-// The part 1 - share(k) of a sea, cut into rings and sectors of the half plane; each cell is one plane wave
-// with the cell's variance of elevation and of slope. The sum is exactly Gaussian. Immutable.
+// The part 1 - share(k) of a sea's spectrum, divided into rings and sectors of the half plane. Each cell becomes one
+// plane wave with the cell's variances of elevation and slope and Gaussian amplitudes, so the sum is exactly Gaussian.
+// Immutable.
 class LongWaveModel {
  public:
   struct Wave {
@@ -37,8 +38,13 @@ class LongWaveModel {
   std::vector<Wave> waves_;
 };
 
-// Where the line that stands over `at_zero + z * per_height` at height z meets the long waves: the height z
-// [m]. The line must be steeper than the waves, which every beam within 60 degrees of nadir is.
+// The sum of plane waves on a grid: the real part of phases_x diag(amplitudes) phases_y^T. The columns of `phases_x`
+// are exp(i k_x x) of each wave at the grid's x (rows of the result), those of `phases_y` exp(i k_y y) (columns).
+Eigen::MatrixXd SumOfWaves(const Eigen::MatrixXcd& phases_x, const Eigen::VectorXcd& amplitudes,
+                           const Eigen::MatrixXcd& phases_y);
+
+// The height z [m] at which the line through `at_zero + z * per_height` intersects the long waves. The line must be
+// steeper than the waves, as every beam within 60 degrees of nadir is.
 double HeightOfIntersection(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
                             const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height);
 

@@ -25,8 +25,8 @@ TracedBeam Trace(const std::vector<Ray>& rays, const HeightField& surface, doubl
   const double count = static_cast<double>(rays.size());
   TracedBeam mean{sum.tangent / count,       sum.height_tangent / count, sum.secant / count,
                   sum.height_secant / count, sum.slope / count,          sum.slope_squares / count};
-  mean.height_tangent -=
-      height / count * mean.tangent;  // from heights above z = 0 to heights above their mean
+  // From heights above z = 0 to heights above their mean.
+  mean.height_tangent -= height / count * mean.tangent;
   mean.height_secant -= height / count * mean.secant;
   return mean;
 }

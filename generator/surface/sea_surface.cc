@@ -5,21 +5,21 @@
 #include <cmath>
 #include <numbers>
 
-#include "generator/math/fast_size.h"
+#include "generator/math/fft.h"
 
 namespace albtpu {
 namespace {
 
-// Waves that fit into the side of the patch this often are all plane waves, and all patch. In between,
-// sampling the spectrum on the patch's lattice of wavenumbers becomes as good as the rings and sectors of the
-// plane waves.
+// The limits of the cross-fade, in wavelengths along the side of the patch: waves below the first are plane waves
+// only, waves above the second are in the patch only. Between them, the patch's lattice of wavenumbers begins to
+// sample the spectrum as well as the rings and sectors of the plane waves do.
 constexpr double kAllLong = 3, kAllPatch = 6;
-// Nodes along the shortest plane wave, about. Cubic interpolation of heights is then right to 2e-4 amid the
-// cross-fade.
+// Approximate number of nodes along the shortest plane wave. The relative error of cubic interpolation of heights is
+// then 2e-4 in the middle of the cross-fade.
 constexpr double kNodesPerLongWave = 14;
 
-// The patch is no narrower than the window, which goes a node or two beyond the reach on either side. Beams
-// steeper than some 40 degrees want that.
+// The patch is at least as wide as the local surface, which extends one or two nodes beyond the reach on either side.
+// This decides the patch for incidences above some 40 degrees.
 constexpr double kPatchPerReach = 2.2;
 
 CrossFade PatchShare(double patch_length) {
@@ -27,15 +27,17 @@ CrossFade PatchShare(double patch_length) {
   return CrossFade(kAllLong * dk, kAllPatch * dk);
 }
 
-// How far from its axis the rays of a beam meet the water, m: half the footprint, and the shift of rays that
-// meet waves as much as six standard deviations above or below the point on the axis.
+// The distance from the axis within which the rays of a beam intersect the water, m: half the footprint, plus the
+// horizontal shift of rays that meet the water up to six standard deviations above or below the point on the axis.
+// The height difference over the distance r has the variance 2 sum P (1 - cos(k . r)) over waves of power P (the
+// structure function); each term is approximated by P times the lesser of (k r)^2 and 2.
 double Reach(const SeaState& sea, const BeamOptions& widest) {
   const double half_width = 0.5 * WidthOnWater(widest);
-  const double tilt = 6 * std::sqrt(SlopeCovariance(sea, [&](double k, double) {
-                                      const double across =
-                                          k * half_width;  // structure function, 2 (1 - cos)
-                                      return std::min(1.0, 2 / (across * across));
-                                    }).trace());
+  const auto structure = [&](double k, double) {
+    const double across = k * half_width;
+    return std::min(1.0, 2 / (across * across));
+  };
+  const double tilt = 6 * std::sqrt(SlopeCovariance(sea, structure).trace());
   return half_width * (1 + tilt * std::tan(widest.incidence));
 }
 
@@ -59,14 +61,14 @@ Eigen::MatrixXcd Phases(const LongWaveModel& long_waves, int half_nodes, double 
   return phases;
 }
 
-// Lagrange's cubic through four equidistant nodes at -1, 0, 1, 2.
+// The weights of Lagrange's cubic through four equidistant nodes at -1, 0, 1, 2.
 std::array<double, 4> CubicWeights(double t) {
   return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
           (t + 1) * t * (t - 1) / 6};
 }
 
-// The matrix that takes values at 2 half_nodes + 1 nodes to the points between them, `stride` from node to node,
-// without the outermost intervals, by cubic Lagrange interpolation.
+// The matrix of cubic Lagrange interpolation from 2 half_nodes + 1 nodes to points, `stride` points from one node to
+// the next. The outermost intervals hold no points.
 Eigen::MatrixXd CubicRefinement(int half_nodes, int stride) {
   const int intervals = 2 * (half_nodes - 1);
   Eigen::MatrixXd refinement = Eigen::MatrixXd::Zero(intervals * stride + 1, 2 * half_nodes + 1);
@@ -86,8 +88,8 @@ SurfaceModel::SurfaceModel(const SeaState& sea, const BeamOptions& widest,
   const int stride =
       std::max(1, static_cast<int>(std::lround(patch_.size() / (kAllPatch * kNodesPerLongWave))));
   const double node_spacing = stride * patch_.spacing();
-  const int half_nodes =
-      static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;  // one for the cubic
+  // The cubic needs one node beyond the reach.
+  const int half_nodes = static_cast<int>(std::ceil(Reach(sea, widest) / node_spacing)) + 1;
   refine_ = CubicRefinement(half_nodes, stride);
   phase_x_ = Phases(long_waves_, half_nodes, node_spacing, 0);
   phase_y_ = Phases(long_waves_, half_nodes, node_spacing, 1);
@@ -113,10 +115,7 @@ SeaSurface::LocalSurface SeaSurface::SurfaceUnder(const Beam& beam) const {
       HeightOfIntersection(model_.long_waves_, long_amplitudes_, Eigen::Vector2d::Zero(), per_height);
   const Eigen::VectorXcd amplitudes = model_.long_waves_.Shifted(long_amplitudes_, elevation * per_height);
 
-  // The real part of phase_x diag(A) phase_y^T, as two products of real matrices.
-  const Eigen::MatrixXcd weighted = model_.phase_x_ * amplitudes.asDiagonal();
-  Eigen::MatrixXd at_nodes = weighted.real() * model_.phase_y_.real().transpose() -
-                             weighted.imag() * model_.phase_y_.imag().transpose();
+  Eigen::MatrixXd at_nodes = SumOfWaves(model_.phase_x_, amplitudes, model_.phase_y_);
   at_nodes.array() -= elevation;
 
   const Eigen::MatrixXd long_waves = model_.refine_ * at_nodes * model_.refine_.transpose();

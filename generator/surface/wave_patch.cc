@@ -37,7 +37,7 @@ std::vector<double> WavePatchModel::Draw(const NormalStream& stream) const {
           std::sqrt(power_[mode] / 2) * std::complex<double>(normals[2 * j], normals[2 * j + 1]);
     }
   }
-  // Both halves of the column j = 0 are stored: the lower one must be the mirror of the upper.
+  // Both halves of the column j = 0 are stored: amplitude(-i, 0) must be the conjugate of amplitude(i, 0).
   for (int i = 1; i < size_ / 2; ++i) amplitude[(size_ - i) * half] = std::conj(amplitude[i * half]);
   return transform_(std::move(amplitude));
 }
@@ -59,8 +59,8 @@ std::vector<double> WavePatchModel::Correlate(
 double WavePatchModel::elevation_variance() const {
   double sum = 0;
   for (std::size_t m = 0; m < power_.size(); ++m) {
-    const bool own_mirror_column = m % (size_ / 2 + 1) == 0;
-    sum += power_[m] * (own_mirror_column ? 1 : 2);
+    const bool holds_both_halves = m % (size_ / 2 + 1) == 0;  // the column j = 0
+    sum += power_[m] * (holds_both_halves ? 1 : 2);
   }
   return sum;
 }
@@ -78,7 +78,8 @@ Eigen::Matrix2d WavePatchModel::FacetSlopeCovariance(
       const double phase_x = i * dk * dx / 2, phase_y = j * dk * dx / 2;
       const Eigen::Vector2d quotient(2 * std::sin(phase_x) / dx, 2 * std::sin(phase_y) / dx);
       Eigen::Matrix2d squares = quotient * quotient.transpose();
-      squares(0, 1) *= std::cos(phase_x + phase_y);  // the two sides of a triangle are half a diagonal apart
+      // The midpoints of a triangle's two sides are half a diagonal apart, in phase by phase_x + phase_y.
+      squares(0, 1) *= std::cos(phase_x + phase_y);
       squares(1, 0) = squares(0, 1);
       covariance += power * (j == 0 ? 1 : 2) * weight(dk * std::hypot(i, j), std::atan2(j, i)) * squares;
     }

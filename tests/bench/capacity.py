@@ -1,10 +1,11 @@
-"""What it takes to answer the surveys of a laptop, a nation, the world: replicas, bandwidth, cost. A simulation.
+"""Simulates the replicas, bandwidth and cost of a service for the surveys of a company, a nation, the world.
 
 Usage: capacity.py            prints a Markdown table, the same in every run
 
-Surveys come at random in the busiest hour, each a file whose size is lognormal, over a client's own line. Clients take
-turns with the replicas message by message, so replicas are one pool of processors and of network, which all surveys
-under way share alike; none is faster than its line. What is not measured here is a flag of `Service` or `Load` below.
+In the busiest hour, surveys arrive at random. Each is a file of lognormal size and comes over its client's own line.
+Clients alternate between the replicas message by message, so the replicas are one pool of processors and network that
+all active surveys share equally; no survey is faster than its line. Assumed values are fields of `Service` and `Load`
+below.
 """
 
 import heapq
@@ -14,22 +15,22 @@ from dataclasses import dataclass
 import numpy as np
 
 SECONDS_A_YEAR = 365.25 * 86400
-SURVEYS = 20_000  # Simulated in each case.
-MOST_SLOWDOWN = 2.0  # At the 99th percentile: who waits longer notices.
+SURVEYS = 20_000  # Simulated for each load.
+MOST_SLOWDOWN = 2.0  # At the 99th percentile: users notice longer waits.
 
 
 @dataclass(frozen=True)
 class Service:
-    pulses_a_core: float = 26e6  # A second, six quantities by TLS; tests/bench/sizing.py.
-    bytes_there: float = 8  # A pulse, incidence and depth in columns; the same.
+    pulses_a_core: float = 26e6  # Per second, six quantities over TLS; measured by tests/bench/sizing.py.
+    bytes_there: float = 8  # Per pulse, incidence and depth in columns; measured likewise.
     bytes_back: float = 26
     cores: int = 2  # Of a replica.
-    network: float = 10e9 / 8  # Of a replica: bytes a second in each direction. Assumed.
-    dollars_a_core_hour: float = 0.05  # List prices of big clouds, roughly. Assumed.
+    network: float = 10e9 / 8  # Of a replica, bytes per second in each direction. Assumed.
+    dollars_a_core_hour: float = 0.05  # Approximate list price of large clouds. Assumed.
     dollars_a_gigabyte_out: float = 0.08
 
     def capacity(self):
-        """Pulses a second of a replica, and what bounds it."""
+        """Pulses per second of a replica, and the resource that limits them."""
         return min((self.cores * self.pulses_a_core, "processor"), (self.network / self.bytes_back, "network"))
 
 
@@ -37,16 +38,16 @@ class Service:
 class Load:
     name: str
     pulses_a_year: float
-    busiest: float  # The busiest hour over the mean of the year. Assumed.
-    line: float = 1e9 / 8  # Of a client, bytes a second. Assumed.
-    median_survey: float = 20e6  # Pulses. Assumed, with the spread of its logarithm.
+    busiest: float  # Rate in the busiest hour over the mean of the year. Assumed.
+    line: float = 1e9 / 8  # Of a client, bytes per second. Assumed.
+    median_survey: float = 20e6  # Pulses. Assumed, as is the standard deviation of the logarithm.
     spread: float = 1.0
 
     def mean_survey(self):
         return self.median_survey * math.exp(self.spread**2 / 2)
 
     def peak(self):
-        """Pulses a second in the busiest hour."""
+        """Pulses per second in the busiest hour."""
         return self.pulses_a_year / SECONDS_A_YEAR * self.busiest
 
 
@@ -55,10 +56,10 @@ LOADS = (Load("a company", 1e9, 50), Load("a nation", 1e11, 20), Load("the world
 
 
 def shared(arrivals, sizes, capacity, most):
-    """When each job ends: all under way progress alike, `capacity` in all and `most` each at most.
+    """The time at which each job ends. Active jobs progress equally, by at most `capacity` in total and `most` each.
 
-    They all have progressed equally since they met, so jobs end in the order of their size plus the progress that
-    others had made when they came.
+    All active jobs progress at the same rate, so they end in the order of their size plus the common progress at the
+    time of their arrival.
     """
     ends = np.empty(len(arrivals))
     under_way, now, progress = [], 0.0, 0.0
@@ -77,7 +78,7 @@ def shared(arrivals, sizes, capacity, most):
 
 
 def slowdown(load, service, replicas):
-    """The 99th percentile of how much longer a survey takes than it does alone."""
+    """The 99th percentile of the time that a survey takes, over the time that it takes alone."""
     capacity = replicas * service.capacity()[0]
     if replicas == 0 or load.peak() >= capacity:
         return math.inf
@@ -90,7 +91,7 @@ def slowdown(load, service, replicas):
 
 
 def fewest_replicas(load, service):
-    """One of which may be lost."""
+    """The fewest replicas that suffice when one of them is lost."""
     replicas = 2
     while slowdown(load, service, replicas - 1) > MOST_SLOWDOWN:
         replicas += 1

@@ -1,7 +1,7 @@
 """Our interpolation against its peers as a Markdown table.
 
 Usage: interpolation_ratios.py BUILD_FOLDER [--rounds N]
-Each round asks every peer once; figures are medians over the rounds, of processor time on one core.
+Each round runs every peer once. Figures are medians over the rounds, of processor time on one core.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from ratios import compiler, processor
 HERE = pathlib.Path(__file__).resolve().parent
 MEGABYTES = 15
 PULSES = 1 << 17  # as in interpolation_bench
-PEERS = (  # who, whose rate, beside which of ours
+PEERS = (  # description, benchmark of the peer, our benchmark to compare with
     ("scalar double C++, quantities apart", "plain", "columns"),
     ("scalar double C++, quantities side by side", "plain_side_by_side", "columns"),
     ("SciPy RegularGridInterpolator", "RegularGridInterpolator", "columns"),
@@ -26,7 +26,7 @@ PEERS = (  # who, whose rate, beside which of ours
 
 
 def rates(programs, order):
-    """Pulses a second of ours and of all peers, once."""
+    """Pulses per second of our code and of all peers, measured once."""
     names = {ours for _, _, ours in PEERS} | {"plain", "plain_side_by_side", "rows"}
     pattern = f"^({'|'.join(sorted(names))})/{MEGABYTES}/{order}/{PULSES}$"
     report = json.loads(subprocess.run(
@@ -47,8 +47,8 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     arguments = parser.parse_args()
     programs = arguments.build / "tests" / "bench"
-    print(f"{processor()}; {compiler(arguments.build)}. One core, six axes, table of {MEGABYTES} MB; THU, TVU and "
-          "both biases, beside `Interpolate` all six quantities and standard errors.\n")
+    print(f"{processor()}; {compiler(arguments.build)}. One core, six axes, table of {MEGABYTES} MB. THU, TVU and "
+          "both biases; in the row of `Interpolate` all six quantities and standard errors.\n")
     print("| against | order | ours | peer | ratio |\n|---|---|---:|---:|---:|")
     for order in ("scan", "random"):
         rounds = [rates(programs, order) for _ in range(arguments.rounds)]

@@ -1,9 +1,9 @@
-"""albtpu-query las, file to file, beside a plain copy: in this process and through a server.
+"""`albtpu-query las` from file to file, in its own process and through a server, compared with a plain copy.
 
-Usage: las_bench.py BUILD [--millions N] [--sample IN.las --classes N --water-level Z] [--folder DIR] [--csv]
+Usage: las_bench.py BUILD [--millions N] [--sample IN.las --classes N --water-level Z] [--folder DIR]
 
-The file is the sample, the survey that lies beside the checkout or else a simulated flight, repeated. Prints a Markdown
-table: points a second by the clock, processor seconds of client and server, and the most memory each had at a time.
+The input repeats the sample, the survey beside the checkout or else a simulated flight. Prints a Markdown table: points
+per second of elapsed time, processor seconds of client and server, and the peak memory of each.
 """
 
 import argparse
@@ -28,7 +28,7 @@ FLAGS = ("--wind-speed", "6.5", "--fetch", "30000", "--altitude", "400", "--dive
 
 
 def repeat(sample, target, points):
-    """The records of `sample` again and again until there are so many; nothing behind them."""
+    """Repeats the records of `sample` until there are `points` of them, with nothing after them."""
     data = bytearray(sample.read_bytes())
     offset, = struct.unpack_from("<I", data, 96)
     length, legacy_count = struct.unpack_from("<HI", data, 105)
@@ -50,12 +50,12 @@ def repeat(sample, target, points):
 
 
 def run(command):
-    """Wall seconds, processor seconds and peak MB of a command."""
+    """Elapsed seconds, processor seconds and peak MB of a command."""
     start = time.monotonic()
     process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE)
     peak = 0.0
 
-    def watch():  # What `wait4` tells of memory counts this process too, until it became another.
+    def watch():  # The memory that `wait4` reports includes that of this process before exec.
         nonlocal peak
         with contextlib.suppress(OSError):
             while (now := peak_memory(process.pid)) > 0:
@@ -82,7 +82,7 @@ def peak_memory(pid):
     for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
         if line.startswith("VmHWM"):
             return int(line.split()[1]) / 1024
-    return 0.0  # It has ended.
+    return 0.0  # The process has ended.
 
 
 def row(what, points, seconds, client, memory, server="", server_memory=""):
@@ -98,7 +98,7 @@ def main():
     parser.add_argument("--classes", default="26")
     parser.add_argument("--water-level", default="-23.09")
     parser.add_argument("--table", type=pathlib.Path, default=SOURCE / "tables" / "shipped" / "survey.h5")
-    parser.add_argument("--folder", help="Where the files are made; they need three times their size")
+    parser.add_argument("--folder", help="where to write the files, which need three times the size of the input")
     options = parser.parse_args()
     programs = options.build / "bin"
     points = int(options.millions * 1e6)
@@ -128,7 +128,7 @@ def main():
             row("through a server", points, seconds, client, memory,
                 f"{processor_seconds(server.process.pid) - before:.1f}", f"{peak_memory(server.process.pid):.0f}")
         if local is not None and target.read_bytes() != local:
-            raise SystemExit("the server gave other bytes than the table file")
+            raise SystemExit("las_bench.py: the output through the server differs from that of the table file")
 
 
 if __name__ == "__main__":

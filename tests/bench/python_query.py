@@ -1,9 +1,9 @@
-"""Pulses a second of the Python package, from NumPy arrays through a service on the same machine.
+"""Pulses per second of the Python package, from NumPy arrays through a service on the same machine.
 
 Usage: python_query.py ALBTPU_SERVE TABLES_FOLDER [MILLIONS_OF_PULSES]
 
-A flight line: wind, fetch and footprint constant, incidence and depth of each pulse in scan order. Medians
-and ranges of interleaved repetitions, with the processor time of client and server a million pulses.
+A flight line: constant wind, fetch and footprint, with incidence and depth of each pulse in scan order. Prints medians
+and ranges of interleaved repetitions, and the processor time of client and server per million pulses.
 """
 
 import os
@@ -49,7 +49,7 @@ def main():
         cases = {f"{name}, {dtype}": dict(options, **flight_line(PULSES, dtype))
                  for name, options in CASES.items() for dtype in ("float32", "float64")}
         measured = {name: [] for name in cases}
-        service.query(**next(iter(cases.values())))  # Not measured: the first pays for memory.
+        service.query(**next(iter(cases.values())))  # Not measured: the first call allocates memory.
         for _ in range(REPETITIONS):
             for name, query in cases.items():
                 before = time.perf_counter(), time.process_time(), processor_seconds(server.process.pid)

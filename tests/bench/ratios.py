@@ -1,8 +1,8 @@
-"""Ours against its peers as a Markdown table: runs the benchmarks of a build folder and takes the best of each peer.
+"""Our code against its peers as a Markdown table: runs the benchmarks of a build folder, takes the best of each peer.
 
 Usage: ratios.py BUILD_FOLDER [--repetitions N] [--min-time SECONDS]
-What is in a row, NumPy aside, was measured in one run, repetitions interleaved at random; figures are medians of
-processor time.
+The figures of a row, except those of NumPy, are measured in one run with randomly interleaved repetitions. They are
+medians of processor time.
 """
 
 import argparse
@@ -13,13 +13,13 @@ import re
 import subprocess
 import sys
 
-MANY = 64  # realizations at a time in the benchmarks of ours
+MANY = 64  # realizations at a time in our benchmarks
 CASES = {"0": "nadir", "20": "20°"}
 HERE = pathlib.Path(__file__).resolve().parent
 
 
 def medians(program, repetitions, min_time, names=()):
-    """Of each benchmark of a program, or of those named: its median (cpu_time, real_time, ...) by name."""
+    """The median (cpu_time, real_time, ...) of each benchmark of a program, or of those in `names`, by name."""
     command = [program, "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",
                f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={min_time}", "--benchmark_format=json"]
     if names:
@@ -33,8 +33,8 @@ def medians(program, repetitions, min_time, names=()):
 
 
 def finals(program, patterns, arguments):
-    """Medians of those that count: a short run of all finds the three fastest of each pattern, a long run of these
-    gives the figures."""
+    """Medians of the fastest benchmarks: a short run of all finds the three fastest of each pattern, and a long run of
+    these gives the figures."""
     print(f"{program.name} ...", file=sys.stderr)
     heats = medians(program, 3, arguments.min_time / 4)
     names = set()
@@ -45,7 +45,7 @@ def finals(program, patterns, arguments):
 
 
 def best(runs, pattern):
-    """The name of the fastest whose name matches; None if there is none."""
+    """The name of the fastest run whose name matches; None if there is none."""
     return min((name for name in runs if re.fullmatch(pattern, name)), key=lambda name: runs[name]["cpu_time"],
                default=None)
 
@@ -68,7 +68,7 @@ def mode_of(name):
 
 def add_rays(table, program, arguments):
     peers = {"the scalar walk": "scalar", "Embree": "embree/.*"}
-    ours = {"": "packets", " with the control variates' sums,": "packets_and_undisturbed"}
+    ours = {"": "packets", " with the control variates' sums,": "packets_and_unshifted"}
     patterns = [f"{pattern}/{degrees}" for pattern in (*ours.values(), *peers.values()) for degrees in CASES]
     runs = finals(program, patterns, arguments)
     for degrees, where in CASES.items():
@@ -139,7 +139,7 @@ def main():
     table = Table()
     add_rays(table, programs / "rays_bench", arguments)
     add_realizations(table, programs / "realization_bench", arguments, numpy)
-    print(f"{processor()}; {compiler(arguments.build)}. One core but for the last row; a "
+    print(f"{processor()}; {compiler(arguments.build)}. One core except in the last row. A "
           "realization is 512² points of sea, 10 000 rays, 5 depths.\n")
     print(table.markdown())
 

@@ -1,9 +1,9 @@
-"""Pulses a second from two replicas behind one address beside one of them, each held to a share of a core.
+"""Pulses per second from two replicas behind one address and from one replica, each limited to a share of a core.
 
 Usage: replicas.py BUILD_FOLDER [--share S] [--repetitions N]
 
-Clients and servers share this machine: only where two replicas and the client have processors enough can two do twice
-as much, so each replica gets a share of a core, by a control group. Needs root.
+Clients and servers share this machine. Two replicas can be twice as fast as one only if there is enough processor time
+for both and for the client, so a control group limits each replica to a share of a core. Needs root.
 """
 
 import argparse
@@ -21,17 +21,17 @@ sys.path.insert(0, str(ROOT / "tests/e2e"))
 
 from serving import Server  # noqa: E402
 
-TABLES = ROOT / "tables"
-PERIOD = 10_000  # us: short beside the time of a message.
+TABLES = ROOT / "tables/shipped"
+PERIOD = 10_000  # us, short compared with the time of a message.
 
 
 class ControlGroup:
-    """Of one process: at most `share` of a core."""
+    """Limits one process to `share` of a core."""
 
     count = itertools.count()
 
     def __init__(self, process, share):
-        first = pathlib.Path("/sys/fs/cgroup/cpu")  # Of version 1.
+        first = pathlib.Path("/sys/fs/cgroup/cpu")  # Of cgroups version 1.
         parent = first if first.exists() else first.parent
         self.folder = parent / f"albtpu-{os.getpid()}-{next(self.count)}"
         quota = int(share * PERIOD)
@@ -44,7 +44,7 @@ class ControlGroup:
                 (self.folder / "cpu.max").write_text(f"{quota} {PERIOD}")
             (self.folder / "cgroup.procs").write_text(str(process.pid))
         except OSError as error:
-            sys.exit(f"replicas.py: no control group of processor time: {error}")
+            sys.exit(f"replicas.py: cannot make a control group for processor time ({error}); run it as root")
 
     def remove(self):
         self.folder.rmdir()
@@ -52,7 +52,7 @@ class ControlGroup:
 
 @contextlib.contextmanager
 def replicas(serve, count, share):
-    """The address of so many servers."""
+    """The common address of `count` servers, and the process of the first."""
     with contextlib.ExitStack() as stack:
         servers = [stack.enter_context(Server(serve, "--tables", TABLES)) for _ in range(count)]
         for group in [ControlGroup(server.process, share) for server in servers]:
@@ -62,7 +62,7 @@ def replicas(serve, count, share):
 
 
 def rate(bench, address, process):
-    # Lines of 16 x 16384 pulses, a call each: the last calls of a run are short and leave no replica without work.
+    # Lines of 16 x 16384 pulses, one call for each: calls are short, so no replica idles long at the end of a run.
     command = [bench, "stream", "--callers", "16", "--batch", "16384", "--table", TABLES / "survey.h5",
                "--address", address, "--server-pid", str(process), "--seconds", "10"]
     return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)["pulses_per_second"]
@@ -71,7 +71,7 @@ def rate(bench, address, process):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--share", type=float, default=0.3, help="of a core, for each replica")
+    parser.add_argument("--share", type=float, default=0.3, help="share of a core for each replica")
     parser.add_argument("--repetitions", type=int, default=5)
     arguments = parser.parse_args()
     rates = {1: [], 2: []}

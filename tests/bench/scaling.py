@@ -1,8 +1,8 @@
-"""How the cost of a table grows with its axes and its error: the tables of docs/scaling.md.
+"""The cost of a table as a function of its axes and its error: prints the tables of docs/scaling.md.
 
-Usage: scaling.py BUILD_FOLDER [CAMPAIGN]
+Usage: scaling.py BUILD_FOLDER
 
-Times are of one core, by `albtpu-generate table --threads 1` on small campaigns about a moderate case.
+Times are those of one core, by `albtpu-generate table --threads 1` on small campaigns about a moderate case.
 """
 
 import pathlib
@@ -24,26 +24,26 @@ def campaign(folder, **changes):
     path = folder / "campaign.toml"
     path.write_text(f'id = "scaling"\nversion = "1"\ntitle = "Scaling"\n[axes]\n{axes}\n[effort]\nrealizations = 64\n'
                     f'most_realizations = {values["most"]}\n{error}[interpolation]\nchecked_pulses = 1\n')
-    encounters = len(values["wind_speed"]) * len(values["fetch"]) * len(values["footprint"])
-    return path, encounters
+    sea_cases = len(values["wind_speed"]) * len(values["fetch"]) * len(values["footprint"])
+    return path, sea_cases
 
 
 def cost(**changes):
-    """Seconds of one core for each sea case."""
+    """Seconds of one core per sea case."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        path, encounters = campaign(folder, **changes)
+        path, sea_cases = campaign(folder, **changes)
         times = []
         for _ in range(3):
             start = time.monotonic()
             subprocess.run([GENERATE, "table", "--campaign", path, "--output", folder / "table.h5", "--overwrite",
                             "--threads", "1"], check=True, capture_output=True)
             times.append(time.monotonic() - start)
-        return sorted(times)[1] / encounters
+        return sorted(times)[1] / sea_cases
 
 
 def rows(title, name, values):
-    print(f"\n| {title} | one core, each sea case | over the first |\n|---|---:|---:|")
+    print(f"\n| {title} | one core, per sea case | relative to the first |\n|---|---:|---:|")
     first = None
     for label, value in values:
         seconds = cost(**(value if isinstance(value, dict) else {name: value}))
@@ -60,6 +60,6 @@ rows("wind, m/s", None,
 rows("footprint, m", "footprint", [(str(d), [d, round(d * 1.02, 4)]) for d in (0.1, 0.5, 2, 5)])
 rows("footprint, m, at 2 m/s and 1 km of fetch", None,
      [(str(d), {"wind_speed": [2, 2.1], "fetch": ["1000", "1100", "inf"], "footprint": [d]}) for d in (0.5, 2, 5)])
-rows("standard error asked for", None,
+rows("requested standard error", None,
      [(f"{100 * error:g} %", {"relative_error": error, "most": 100000, "depth": [1, 60]}) for error in
       (0.01, 0.003, 0.001)])

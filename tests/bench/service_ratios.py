@@ -1,8 +1,8 @@
-"""The service beside bare TCP connections and rows of messages, as a Markdown table.
+"""The service against plain TCP connections and messages of rows, as a Markdown table.
 
 Usage: service_ratios.py BUILD_FOLDER [--repetitions N] [--seconds S]
-Everything runs in turn, again and again, on this machine, client and server beside each other; figures are medians.
-Of each peer the best way to ask counts: how many callers, messages in flight and connections.
+All cases run in turn, repeatedly, with client and server on this machine. Figures are medians. Each peer is represented
+by its fastest numbers of callers, messages in flight and connections.
 """
 
 import argparse
@@ -28,7 +28,7 @@ BULK = [("raw", 10000, BARE), ("raw", 65536, BARE), ("columns", 10000, CALLS), (
 
 @contextlib.contextmanager
 def server(command, ready):
-    """Runs a server and gives (process, what `ready` found in the line with which it says that it is ready)."""
+    """Runs a server. Yields the process and the match of `ready` in the line that announces that it is ready."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
         line = process.stdout.readline()
@@ -65,7 +65,7 @@ def median(runs, *path):
 
 
 def measure(peers, repetitions):
-    """Runs by (peer, batch, way to ask)."""
+    """Runs by (peer, batch, callers and messages in flight and connections)."""
     cases = {(peer, batch, way): {"batch": batch} | dict(zip(("callers", "in-flight", "connections"), way))
              for peer, batch, ways in BULK for way in ways}
     cases |= {(peer, 1, 64): {"batch": 1, "in-flight": 64} for peer in ("raw-single", "rows", "stream-single")}
@@ -79,7 +79,7 @@ def measure(peers, repetitions):
 
 
 def best(runs, peer, batch):
-    """The way to ask that brings most pulses a second, in words, and its runs."""
+    """The runs with the most pulses per second, and their callers, messages in flight and connections in words."""
     (_, _, (callers, in_flight, connections)), of = max(
         ((case, of) for case, of in runs.items() if case[:2] == (peer, batch)),
         key=lambda case_and_runs: median(case_and_runs[1], "pulses_per_second"))
@@ -118,9 +118,9 @@ def main():
     theirs = [program, "serve-raw", "--table", TABLE]
     with server(ours, r"ready on (\S+),") as service, server(theirs, r"^(\d+)$") as raw:
         runs = measure(Peers(program, service, raw, arguments.seconds), arguments.repetitions)
-    print(f"{processor()}, shared by client and server; {compiler(arguments.build)}. Table `survey`, 4 columns of "
-          "each pulse asked, 4 quantities answered; processor time a pulse, client + server, in ns. In "
-          "brackets, of ours and of the peer: callers × messages in flight.\n")
+    print(f"{processor()}, shared by client and server; {compiler(arguments.build)}. Table `survey`; 4 columns per "
+          "pulse in the request, 4 quantities in the response; processor time per pulse, client + server, in ns. In "
+          "brackets, for ours and for the peer: callers × messages in flight.\n")
     print("| what | ours | peer | ratio | ours, CPU | peer, CPU | ratio |\n|---|---:|---:|---:|---:|---:|---:|")
     for row in rows_of(runs):
         print("| " + " | ".join(row) + " |")

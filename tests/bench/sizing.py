@@ -1,8 +1,8 @@
-"""What one albtpu-serve takes: processor time by kind of question, bytes on the wire, memory, time to start.
+"""The resources of one albtpu-serve: processor time by kind of query, bytes on the wire, memory, time to start.
 
-Usage: sizing.py BUILD_FOLDER          prints a Markdown table; medians, in some minutes
+Usage: sizing.py BUILD_FOLDER          prints a Markdown table of medians, within some minutes
 
-Processor time is the server's alone, so clients on the same machine do not matter.
+Only the server's processor time is counted, so clients on the same machine do not matter.
 """
 
 import os
@@ -48,7 +48,7 @@ def resident_megabytes(server):
 
 
 def serve(tables, tls=()):
-    """A server of so many copies of the table, and the seconds until it was ready."""
+    """A server with `tables` copies of the table, and the seconds until it was ready."""
     folder = tempfile.mkdtemp()
     for copy in range(tables):
         shutil.copy(TABLE, pathlib.Path(folder, f"survey{copy or ''}.h5"))
@@ -73,7 +73,7 @@ def at_random(count):
 
 
 def bytes_a_pulse(pulses, quantities, count=32768):
-    """There and back, as messages hold them."""
+    """Bytes per pulse of the request and the response messages."""
     columns = {axis: np.atleast_1d(column)[:count].astype(np.float32).tobytes() for axis, column in pulses.items()}
     request = wire.StreamColumnsRequest(query=dict(pulses=columns, quantities=range(1, quantities + 1)))
     return request.ByteSize() / count, quantities * 4 + 2

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "generator/math/inverse_fft.h"
+#include "generator/math/fft.h"
 #include "generator/math/random_stream.h"
 #include "sea/sea_state.h"
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "generator/surface/cross_fade.h"
 #include "generator/surface/height_field.h"
 #include "generator/surface/wave_patch.h"
 #include "sea/angle.h"

@@ -1,14 +1,14 @@
-// Interpolation, pulses a second: names are WHO/MEGABYTES of the table/ORDER/..., WHO one of
+// Interpolated pulses per second. Names are WHO/MEGABYTES/ORDER/BATCH, the size of the table in megabytes and the
+// number of pulses in a batch. WHO is one of
 //   columns            THU, TVU and both biases by ColumnInterpolator
-//   columns_all        all six quantities, outcomes included
-//   columns_errors     all six and their standard errors
-//   columns_p95        all six at 95 %
-//   columns_absent     THU, TVU and both biases, azimuth absent
+//   columns_all        all six quantities and outcomes
+//   columns_errors     all six quantities, their standard errors and outcomes
+//   columns_p95        all six quantities at 95 %, and outcomes
+//   columns_absent     THU, TVU and both biases, without azimuth
 //   columns_threads    as columns, by AnswerOnAllCores
-//   rows               Interpolate, one pulse after the other: all six and their standard errors
-//   plain              PlainInterpolator, quantities apart: THU, TVU and both biases
-//   plain_side_by_side the same, quantities side by side
-// and, after the order, the number of pulses in a batch.
+//   rows               Interpolate, one pulse after the other: all six quantities and their standard errors
+//   plain              PlainInterpolator, one array for each quantity: THU, TVU and both biases
+//   plain_side_by_side the same, with the quantities side by side
 #include <absl/strings/str_cat.h>
 #include <benchmark/benchmark.h>
 
@@ -48,7 +48,7 @@ struct Wanted {
   bool outcomes = false;
 };
 
-// Columns for answers.
+// Memory for the columns of answers.
 class Answers {
  public:
   Answers(std::size_t count, const Wanted& wanted) : numbers_(2 * kQuantityCount * count), bytes_(2 * count) {

@@ -1,4 +1,4 @@
-// What interpolators are timed on: tables of a size, pulses in an order.
+// The input on which interpolators are timed: tables of a given size and pulses in a given order.
 #pragma once
 
 #include <array>
@@ -10,15 +10,16 @@
 
 namespace albtpu::bench {
 
-// Six axes, all quantities with standard errors, values without any physics. `megabytes` is the size of four
+// A table with six axes and random values for all quantities and standard errors. `megabytes` is the size of four
 // quantities in single precision: 5, 15 or 200.
 UncertaintyTable TableOf(int megabytes);
 
 enum class Order {
-  // A flight line: the wind and the fetch stay, between nodes; lines of 1000 pulses sweep the incidence from
-  // -20 to 20 degrees and back, each half at its own azimuth; the footprint follows, the depth changes slowly.
+  // A flight line. Wind and fetch are constant, between nodes. Lines of 1000 pulses sweep the scan angle from -20 to 20
+  // degrees and back, with a different azimuth on each side. The footprint follows the incidence; the depth changes
+  // slowly.
   kScan,
-  kRandom,  // Each coordinate anywhere on its axis, uniformly or log-uniformly.
+  kRandom,  // All coordinates are random on their axes, uniform or log-uniform.
 };
 
 class PulseBatch {

@@ -1,8 +1,8 @@
 // interpolation_case_files FOLDER MEGABYTES scan|random PULSES
 //
-// Writes what interpolators are timed on, and what ours answers, for peers in other languages: little-endian
-// single precision numbers in files named as axes and quantities: nodes/wind_speed, pulses/wind_speed (one number
-// where all pulses have it), values/thu, answers/thu.
+// Writes the input of the interpolation benchmarks and the answers of our interpolator, for peers in other languages:
+// little-endian single-precision numbers in files named after axes and quantities, such as nodes/wind_speed,
+// pulses/wind_speed (a single number where all pulses have the same value), values/thu and answers/thu.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,7 +50,7 @@ void WriteCase(const std::filesystem::path& folder, int megabytes, Order order, 
 int main(int argc, char** argv) {
   const std::string order = argc == 5 ? argv[3] : "";
   if (order != "scan" && order != "random") {
-    std::cerr << "interpolation_case_files: bad usage: give FOLDER MEGABYTES scan|random PULSES\n";
+    std::cerr << "interpolation_case_files: wrong arguments; give FOLDER MEGABYTES scan|random PULSES\n";
     return 2;
   }
   using albtpu::bench::Order;

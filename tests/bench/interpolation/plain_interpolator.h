@@ -1,4 +1,4 @@
-// A table interpolated as one would by hand, in scalar double precision: peers of ColumnInterpolator.
+// Straightforward interpolation of a table in scalar double precision: the peers of ColumnInterpolator.
 #pragma once
 
 #include <array>
@@ -10,14 +10,15 @@
 
 namespace albtpu::bench {
 
-// How the quantities lie in memory.
+// The layout of the quantities in memory.
 enum class Quantities {
-  kApart,       // an array each, in the table's single precision
+  kApart,       // one array for each, in the table's single precision
   kSideBySide,  // at each node, in double precision
 };
 
-// THU, TVU and both biases, multilinear. Nodes are searched by halves; index and weight of each corner are found
-// once for all four quantities. No outcomes: pulses are inside the domain and have an azimuth of 0 to 90 degrees.
+// Multilinear interpolation of THU, TVU and both biases. Nodes are found by binary search; index and weight of each
+// corner are computed once for all four quantities. There are no outcomes: pulses must be inside the domain and have an
+// azimuth from 0 to 90 degrees.
 template <Quantities kLayout>
 class PlainInterpolator {
  public:
@@ -25,7 +26,7 @@ class PlainInterpolator {
 
   explicit PlainInterpolator(const UncertaintyTable& table);
 
-  // To `kQuantities` columns.
+  // Writes `kQuantities` columns.
   void Answer(const PulseColumns& pulses, std::size_t begin, std::size_t end,
               const std::array<float*, kQuantities>& answers) const;
 

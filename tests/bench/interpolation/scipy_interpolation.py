@@ -1,4 +1,4 @@
-"""The pulses of interpolation_bench by SciPy: pulses a second as JSON, after a check against our answers.
+"""The pulses of interpolation_bench by SciPy: prints pulses per second as JSON, after a check against our answers.
 
 Usage: scipy_interpolation.py INTERPOLATION_CASE_FILES MEGABYTES scan|random PULSES
 """

@@ -12,20 +12,20 @@ namespace albtpu::bench {
 namespace {
 
 constexpr std::uint64_t kSeed = 20;
-// The window over the footprint: some cells at the edge, and what waves of a tenth of the footprint's width
-// shift rays.
+// The width of the surface over that of the footprint: some cells at the edge, and the shift of rays by waves of a
+// tenth of the footprint's width.
 double Margin(double incidence) { return 1.02 + 0.2 * std::tan(incidence); }
 
 double WidthOnWater(const CaseOptions& options) { return options.footprint / std::cos(options.incidence); }
 
 double PatchLength(const CaseOptions& options) { return options.patch_per_beam * WidthOnWater(options); }
 
-CrossFade PatchShare(double length) {  // as SurfaceModel has it
+CrossFade PatchShare(double length) {  // as in SurfaceModel
   const double dk = 2 * std::numbers::pi / length;
   return CrossFade(3 * dk, 6 * dk);
 }
 
-// Bits of a and b in turn: places near each other on the plane are mostly near each other in this order.
+// The interleaved bits of a and b: points that are close in the plane are mostly close in this order.
 std::uint64_t Morton(std::uint32_t a, std::uint32_t b) {
   std::uint64_t code = 0;
   for (int bit = 0; bit < 16; ++bit) {
@@ -35,7 +35,7 @@ std::uint64_t Morton(std::uint32_t a, std::uint32_t b) {
   return code;
 }
 
-// `reach` m from the centre are all rays; the curve goes from cell to cell of `spacing`.
+// All rays are within `reach` [m] of the centre. The curve visits cells with the side `spacing` [m].
 FloatRays AlongMortonCurve(const std::vector<Ray>& rays, double reach, double spacing) {
   const auto cell = [&](double x) { return static_cast<std::uint32_t>((x + reach) / spacing); };
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
@@ -84,19 +84,19 @@ std::vector<Ray> BeamCase::SortedRays() const {
 
 NormalStream BeamCase::Stream(std::uint32_t realization) { return {kSeed, 0, realization}; }
 
-FloatWindow BeamCase::Draw(std::uint32_t realization, int points) const {
+FloatSurface BeamCase::Draw(std::uint32_t realization, int points) const {
   const std::vector<double> patch = patch_.Draw(Stream(realization));
   const int size = options_.size;
   const int first = size - (points - 1) / 2;  // the patch repeats
-  FloatWindow window{{}, points, static_cast<float>(patch_.spacing())};
-  window.heights.reserve(static_cast<std::size_t>(points) * points);
+  FloatSurface surface{{}, points, static_cast<float>(patch_.spacing())};
+  surface.heights.reserve(static_cast<std::size_t>(points) * points);
   for (int i = 0; i < points; ++i) {
     for (int j = 0; j < points; ++j) {
       const std::size_t at = static_cast<std::size_t>((first + i) % size) * size + (first + j) % size;
-      window.heights.push_back(static_cast<float>(patch[at]));
+      surface.heights.push_back(static_cast<float>(patch[at]));
     }
   }
-  return window;
+  return surface;
 }
 
 BeamMeans MeansOf(const TracedBeam& traced) {

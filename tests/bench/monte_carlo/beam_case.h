@@ -1,4 +1,4 @@
-// One beam over one piece of sea: what all tracers and all realizations of the benchmarks are given alike.
+// One beam over one piece of sea: the common input of all tracers and realizations of the benchmarks.
 #pragma once
 
 #include <array>
@@ -10,7 +10,6 @@
 #include "generator/kernels/ray_bundle.h"
 #include "generator/math/random_stream.h"
 #include "generator/surface/beam.h"
-#include "generator/surface/cross_fade.h"
 #include "generator/surface/height_field.h"
 #include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
@@ -29,12 +28,11 @@ struct CaseOptions {
   BeamOptions BeamOf() const { return {.incidence = incidence, .azimuth = azimuth, .footprint = footprint}; }
 };
 
-// The depths [m] at which a realization wants centroid and path.
+// The depths [m] at which a realization computes centroid and path.
 inline constexpr double kDepths[] = {1, 2, 5, 10, 20};
 
-// Heights in single precision about the centre of the beam, row-major, ix slow: every peer gets these
-// numbers.
-struct FloatWindow {
+// Heights in single precision about the centre of the beam, row-major, ix slow. Every peer gets these numbers.
+struct FloatSurface {
   std::vector<float> heights;  // m
   int points;                  // along a side, odd
   float spacing;               // m
@@ -42,8 +40,8 @@ struct FloatWindow {
   HeightField InDouble() const { return {{heights.begin(), heights.end()}, points, spacing}; }
 };
 
-// The rays of a collimated beam in single precision along a Morton curve, so that neighbours meet
-// neighbouring cells: the order in which peers are fastest.
+// The rays of a collimated beam in single precision along a Morton curve, so that successive rays meet neighbouring
+// cells: the order in which the peers are fastest.
 struct FloatRays {
   std::vector<float> x, y;    // m, where they cross z = 0
   Eigen::Vector3d direction;  // unit vector, downward
@@ -59,19 +57,19 @@ class BeamCase {
   // The expected |amplitude|^2 of the patch's mode (i, j), m^2.
   double ModePower(int i, int j) const;
   const Beam& beam() const { return beam_; }
-  const std::vector<Ray>& rays() const { return rays_; }  // as the beam gives them
-  const RayBundle& bundle() const { return bundle_; }     // for ours
-  const FloatRays& sorted() const { return sorted_; }     // for others
+  const std::vector<Ray>& rays() const { return rays_; }  // in the order of the beam
+  const RayBundle& bundle() const { return bundle_; }     // for our tracer
+  const FloatRays& sorted() const { return sorted_; }     // for the peers
   std::vector<Ray> SortedRays() const;                    // as in sorted()
 
-  // Points along the side of a window, odd: one that holds every ray with a margin for the shift by waves;
-  // the patch.
+  // Odd numbers of points along the side of a surface: one that holds every ray with a margin for the shift by waves,
+  // and the whole patch.
   int footprint_points() const { return footprint_points_; }
   int whole_points() const { return options_.size - 1; }
 
   static NormalStream Stream(std::uint32_t realization);
   // The surface of one realization about patch point 0, by the double transform.
-  FloatWindow Draw(std::uint32_t realization, int points) const;
+  FloatSurface Draw(std::uint32_t realization, int points) const;
 
  private:
   CaseOptions options_;
@@ -85,8 +83,7 @@ class BeamCase {
   FloatRays sorted_;
 };
 
-// Of what peers compute, that which all of them do, over heights above the mean of all meetings as in
-// TracedBeam.
+// The means that every peer computes, as in TracedBeam, with heights above the mean of all intersections.
 struct BeamMeans {
   double tangent_x, tangent_y, secant;
   double height_tangent_x, height_tangent_y, height_secant;  // m
@@ -94,11 +91,10 @@ struct BeamMeans {
 };
 BeamMeans MeansOf(const TracedBeam& traced);
 
-// The greatest difference of any two means, heights in units of `footprint`.
+// The greatest difference between corresponding means, with heights in units of `footprint`.
 double Difference(const BeamMeans& a, const BeamMeans& b, double footprint);
 
-// Where the centroid of the beam is below the mean of its meetings with the surface, and its mean path there,
-// m.
+// The centroid of the beam relative to the mean of its intersections with the surface, and its mean path length, m.
 struct SpotAtDepth {
   double x, y, path;
 };

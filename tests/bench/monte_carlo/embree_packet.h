@@ -1,5 +1,5 @@
-// Rays on their way through Embree, `kWidth` side by side: RTCRayHit, RTCRayHit4, 8 and 16 with one name, for
-// their layouts differ in nothing else.
+// A packet of `kWidth` rays for Embree: RTCRayHit, RTCRayHit4, RTCRayHit8 and RTCRayHit16 as one template. Their
+// layouts differ only in the width.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -13,7 +13,7 @@ template <int kWidth>
 struct alignas(std::clamp(4 * kWidth, 16, 64)) EmbreePacket {
   float origin_x[kWidth], origin_y[kWidth], origin_z[kWidth], near[kWidth];
   float direction_x[kWidth], direction_y[kWidth], direction_z[kWidth], time[kWidth];
-  float far[kWidth];  // m along the ray; after a hit, where that is
+  float far[kWidth];  // m along the ray; after a hit, the distance to it
   unsigned mask[kWidth], id[kWidth], flags[kWidth];
   float normal_x[kWidth], normal_y[kWidth], normal_z[kWidth];  // of the triangle, of any length
   float u[kWidth], v[kWidth];
@@ -23,7 +23,7 @@ static_assert(sizeof(EmbreePacket<1>) == sizeof(RTCRayHit) && sizeof(EmbreePacke
               sizeof(EmbreePacket<8>) == sizeof(RTCRayHit8) &&
               sizeof(EmbreePacket<16>) == sizeof(RTCRayHit16));
 
-// Packet by packet.
+// One packet at a time.
 inline void Intersect(RTCScene scene, RTCIntersectContext* context, EmbreePacket<1>& packet) {
   rtcIntersect1(scene, context, reinterpret_cast<RTCRayHit*>(&packet));
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kStart = 0.5f;  // m above the mean surface
 constexpr float kFar = 10;      // m along the ray
-constexpr int kBlock = 1024;    // rays that are traced before they are refracted
+constexpr int kBlock = 1024;    // number of rays that are traced and then refracted together
 
 RTCBuildQuality QualityOf(EmbreeBuild build) {
   switch (build) {
@@ -29,8 +29,8 @@ RTCBuildQuality QualityOf(EmbreeBuild build) {
   return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-// Embree cuts the cells of a grid along the diagonal from the end of their first row to the beginning of the
-// second: with columns counted backwards, that is from the low corner to the high one.
+// Embree divides the cells of a grid along the diagonal from the end of their first row to the beginning of the second.
+// With columns in reverse order, that is the diagonal from the low corner to the high one.
 int VertexAt(int ix, int iy, int points) { return ix * points + points - 1 - iy; }
 
 void SetTriangles(RTCGeometry geometry, int points) {
@@ -76,7 +76,7 @@ EmbreeTracer::EmbreeTracer(const EmbreeOptions& options, int points, float spaci
   const bool moving = options.build == EmbreeBuild::kRefit || options.build == EmbreeBuild::kLow;
   rtcSetSceneFlags(scene_, (options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE) |
                                (moving ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE));
-  // A refitted mesh lies in a scene of another quality.
+  // A scene with a refitted mesh needs the low build quality.
   rtcSetSceneBuildQuality(scene_, moving ? RTC_BUILD_QUALITY_LOW : QualityOf(options.build));
   const bool grid = options.geometry == EmbreeGeometry::kGrid;
   geometry_ = rtcNewGeometry(device_, grid ? RTC_GEOMETRY_TYPE_GRID : RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -116,7 +116,7 @@ void EmbreeTracer::SetHeights(const float* heights) {
   rtcCommitScene(scene_);
 }
 
-// What is left of a block of rays once they have met the surface; zeros for those that have not.
+// The intersections of a block of rays with the surface; zeros for rays that found none.
 struct EmbreeTracer::Hits {
   alignas(64) float height[kBlock];  // m
   alignas(64) float slope_x[kBlock], slope_y[kBlock];
@@ -133,7 +133,7 @@ void EmbreeTracer::TraceBlock(const FloatRays& rays, int first, int count, Hits&
   for (int p = 0; p < used; ++p) {
     EmbreePacket<kWidth>& packet = packets[p];
     for (int lane = 0; lane < kWidth; ++lane) {
-      const int r = first + std::min(p * kWidth + lane, count - 1);  // the last packet is filled up
+      const int r = first + std::min(p * kWidth + lane, count - 1);  // the last ray fills up the last packet
       packet.origin_x[lane] = rays.x[r] + shift.x();
       packet.origin_y[lane] = rays.y[r] + shift.y();
     }
@@ -198,7 +198,7 @@ BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
         TraceBlock<kBlock>(rays, first, count, hits);
         break;
     }
-    // RefractAtSlope of sea/response/refraction.h, side by side.
+    // RefractAtSlope of sea/response/refraction.h, vectorized.
     float found = 0, height = 0, tx = 0, ty = 0, secants = 0, htx = 0, hty = 0, hs = 0;
 #pragma omp simd reduction(+ : found, height, tx, ty, secants, htx, hty, hs)
     for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
-// Embree 3 as the tracer of a beam: the surface as a mesh in its tree, rays in its packets, then refraction
-// and sums.
+// Embree 3 as the tracer of a beam: the surface is a mesh in its tree and rays are in its packets; refraction and sums
+// follow.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -30,7 +30,7 @@ struct EmbreeOptions {
 };
 std::string Name(const EmbreeOptions& options);  // such as "triangles/high/8/robust/coherent"
 
-// On one thread. Rays start half a metre above the mean surface: waves are lower.
+// Runs on one thread. Rays start half a metre above the mean surface, higher than the waves.
 class EmbreeTracer {
  public:
   EmbreeTracer(const EmbreeOptions& options, int points, float spacing);
@@ -38,12 +38,12 @@ class EmbreeTracer {
   EmbreeTracer(const EmbreeTracer&) = delete;
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;
 
-  // The vertices at new heights (row-major, ix slow), and the tree built or refitted.
+  // Moves the vertices to new heights (row-major, ix slow) and builds or refits the tree.
   void SetHeights(const float* heights);
 
   BeamMeans Trace(const FloatRays& rays, double refractive_index);
 
-  // Of the last beam, in its order: where each ray met the surface, m; NaN for those that were lost.
+  // The heights at which the rays of the last beam met the surface, in its order, m; NaN for lost rays.
   const std::vector<float>& hit_heights() const { return hit_heights_; }
 
  private:

@@ -1,9 +1,9 @@
-"""One realization as the paper reads, in NumPy and SciPy: random amplitudes, FFT, Delaunay triangulation, refraction
-of each ray at its triangle, centroid at each depth.
+"""One realization as the paper describes it, in NumPy and SciPy: random amplitudes, FFT, Delaunay triangulation,
+refraction of each ray at its triangle, centroid at each depth.
 
 Usage: numpy_realization.py BEAM_CASE_SURFACE [SIZE INCIDENCE]
-Prints a JSON object: milliseconds of processor time for a realization, with a triangulation of its own and with one
-that is made once for all.
+Prints a JSON object: milliseconds of processor time for a realization, with its own triangulation and with one
+triangulation for all realizations.
 """
 
 import json
@@ -16,8 +16,8 @@ import time
 import numpy as np
 from scipy.spatial import Delaunay
 
-# A square's two diagonals are equally Delaunay. A shear too small to see decides for the one from the low corner to the
-# high one.
+# Both diagonals of a square give a Delaunay triangulation. A negligible shear selects the one from the low corner to
+# the high corner.
 SHEAR = 1e-4
 
 
@@ -50,7 +50,7 @@ def sheared(xy):
 
 
 def triangulate(points, spacing):
-    """Of a square grid about its point points // 2."""
+    """The triangulation of a square grid about its point points // 2."""
     side = (np.arange(points) - points // 2) * spacing
     return Delaunay(sheared(np.stack(np.meshgrid(side, side, indexing="ij"), -1).reshape(-1, 2)))
 
@@ -63,7 +63,7 @@ def refract(direction, slope, n):
 
 
 def trace(case, triangulation, heights):
-    """Centroid and path (x, y, path) at each depth, of rays that meet the triangles over `heights`."""
+    """Centroid and path (x, y, path) at each depth, of rays that intersect the triangles with these `heights`."""
     z = heights.ravel()
     per_height = case.direction[:2] / case.direction[2]
     height = np.zeros(len(case.rays))
@@ -81,12 +81,12 @@ def trace(case, triangulation, heights):
         over_corner = z[corners[:, 0]] + np.sum(slope * (case.rays - xy[:, 0]), axis=1)
         height = over_corner / (1 - slope @ per_height)
     refracted = refract(case.direction, slope, case.facts["refractive_index"])
-    meeting = case.rays + height[:, None] * per_height
+    intersection = case.rays + height[:, None] * per_height
     spots = []
     for depth in case.depths:
         path = (height.mean() - depth - height) / refracted[:, 2]
-        spot = meeting + path[:, None] * refracted[:, :2]
-        spots.append([*(spot.mean(axis=0) - meeting.mean(axis=0)), path.mean()])
+        spot = intersection + path[:, None] * refracted[:, :2]
+        spots.append([*(spot.mean(axis=0) - intersection.mean(axis=0)), path.mean()])
     return np.array(spots)
 
 

@@ -1,4 +1,4 @@
-"""The NumPy peer answers what the scalar walk does.
+"""The NumPy peer agrees with the scalar walk.
 
 Usage: numpy_realization_test.py BEAM_CASE_SURFACE
 """
@@ -21,7 +21,7 @@ class NumpyRealization(unittest.TestCase):
             case = peer.BeamCase(PROGRAM, 96, incidence)
             triangulation = peer.triangulate(case.facts["points"], case.facts["spacing"])
             spots = peer.trace(case, triangulation, case.heights)
-            # A ray of 10 000 that meets an edge within rounding may take either facet.
+            # One of the 10 000 rays may meet an edge within rounding and take either facet.
             np.testing.assert_allclose(spots, case.facts["spots"], rtol=0, atol=1e-4 * case.depths.max())
 
     def test_draws_the_sea_of_the_patch(self):

@@ -1,4 +1,4 @@
-// The peers of the benchmarks answer what ours does, or a ratio says nothing.
+// The peers of the benchmarks compute the same as our code; otherwise ratios would have no meaning.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,43 +24,44 @@ BeamCase SmallCase(double incidence) {
 }
 
 // The means of a beam by the scalar walk in double precision.
-BeamMeans Exact(const BeamCase& beam_case, const FloatWindow& window) {
-  return MeansOf(Trace(beam_case.rays(), window.InDouble(), kRefractiveIndex));
+BeamMeans Exact(const BeamCase& beam_case, const FloatSurface& surface) {
+  return MeansOf(Trace(beam_case.rays(), surface.InDouble(), kRefractiveIndex));
 }
 
-// Heights of some 0.01 m in single precision over the points of the patch, as PlainRealization lays them.
-std::vector<double> AroundTheCentre(const BeamCase& beam_case, const FloatWindow& window) {
+// The heights of `surface` (about 0.01 m) on the points of the patch as in PlainRealization, with zeros around them.
+std::vector<double> AroundTheCentre(const BeamCase& beam_case, const FloatSurface& surface) {
   const int size = beam_case.options().size;
   std::vector<double> heights(static_cast<std::size_t>(size) * size, 0.0);
-  const int first = size / 2 - (window.points - 1) / 2;
-  for (int i = 0; i < window.points; ++i) {
-    for (int j = 0; j < window.points; ++j) {
-      heights[static_cast<std::size_t>(first + i) * size + first + j] = window.heights[i * window.points + j];
+  const int first = size / 2 - (surface.points - 1) / 2;
+  for (int i = 0; i < surface.points; ++i) {
+    for (int j = 0; j < surface.points; ++j) {
+      heights[static_cast<std::size_t>(first + i) * size + first + j] =
+          surface.heights[i * surface.points + j];
     }
   }
   return heights;
 }
 
-TEST(PacketTracer, MeetsTheSurfaceWhereTheScalarWalkDoes) {
+TEST(PacketTracer, IntersectsTheSurfaceWhereTheScalarWalkDoes) {
   for (const double incidence : kIncidences) {
     const BeamCase beam_case = SmallCase(incidence);
-    const FloatWindow window = beam_case.Draw(1, beam_case.footprint_points());
-    const HeightField surface = window.InDouble();
+    const FloatSurface surface = beam_case.Draw(1, beam_case.footprint_points());
+    const HeightField twin = surface.InDouble();
     for (const Ray& ray : beam_case.SortedRays()) {
-      const double height = TracePackets(RayBundle({ray}, kRefractiveIndex), window.View()).height;
-      ASSERT_NEAR(height, Intersect(surface, ray).height, 1e-5 * std::cos(incidence));
+      const double height = TracePackets(RayBundle({ray}, kRefractiveIndex), surface.View()).height;
+      ASSERT_NEAR(height, Intersect(twin, ray).height, 1e-5 * std::cos(incidence));
     }
-    const BeamMeans means = MeansOf(Trace(beam_case.bundle(), window.View()));
-    // One ray that meets an edge within rounding may take the facet beside it.
-    EXPECT_LT(Difference(means, Exact(beam_case, window), beam_case.options().footprint),
+    const BeamMeans means = MeansOf(Trace(beam_case.bundle(), surface.View()));
+    // One ray that meets an edge within rounding may take the facet on the other side.
+    EXPECT_LT(Difference(means, Exact(beam_case, surface), beam_case.options().footprint),
               1.0 / beam_case.bundle().count());
   }
 }
 
-TEST(OurRealization, HasTheMeansOfTheSlowOne) {
+TEST(OurRealization, HasTheMeansOfTheSlowTwin) {
   for (const double incidence : kIncidences) {
     const BeamCase beam_case = SmallCase(incidence);
-    FloatWindow fast = beam_case.Draw(1, beam_case.footprint_points());
+    FloatSurface fast = beam_case.Draw(1, beam_case.footprint_points());
     const BeamMeans expected = Exact(beam_case, fast);
     std::fill(fast.heights.begin(), fast.heights.end(), 0.0f);
     FastPatch::Workspace workspace;
@@ -73,12 +74,12 @@ TEST(OurRealization, HasTheMeansOfTheSlowOne) {
 TEST(PlainRealization, PutsTheSpotWhereTheScalarWalkDoes) {
   for (const double incidence : kIncidences) {
     const BeamCase beam_case = SmallCase(incidence);
-    const FloatWindow window = beam_case.Draw(1, beam_case.footprint_points());
+    const FloatSurface surface = beam_case.Draw(1, beam_case.footprint_points());
     PlainRealization plain(beam_case);
-    plain.SetSurface(AroundTheCentre(beam_case, window));
+    plain.SetSurface(AroundTheCentre(beam_case, surface));
     const Spots spots = plain.Trace(kRefractiveIndex);
-    const Spots expected = SpotsOf(Exact(beam_case, window));
-    // The spacing of a window is a float: 6e-8 of slopes and tangents.
+    const Spots expected = SpotsOf(Exact(beam_case, surface));
+    // The spacing of the surface is a float, which has a relative error of 6e-8; so have slopes and tangents.
     for (std::size_t d = 0; d < spots.size(); ++d) {
       EXPECT_NEAR(spots[d].x, expected[d].x, 1e-6 * kDepths[d]);
       EXPECT_NEAR(spots[d].y, expected[d].y, 1e-6 * kDepths[d]);
@@ -123,22 +124,22 @@ std::vector<EmbreeOptions> AllModes() {
   return modes;
 }
 
-TEST(EmbreeTracer, MeetsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
+TEST(EmbreeTracer, IntersectsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
   for (const double incidence : kIncidences) {
     const BeamCase beam_case = SmallCase(incidence);
-    const FloatWindow still = beam_case.Draw(1, beam_case.footprint_points());
-    const FloatWindow window = beam_case.Draw(2, beam_case.footprint_points());
-    const HeightField surface = window.InDouble();
+    const FloatSurface first = beam_case.Draw(1, beam_case.footprint_points());
+    const FloatSurface second = beam_case.Draw(2, beam_case.footprint_points());
+    const HeightField surface = second.InDouble();
     const std::vector<Ray> rays = beam_case.SortedRays();
-    const BeamMeans expected = Exact(beam_case, window);
+    const BeamMeans expected = Exact(beam_case, second);
     for (const EmbreeOptions& mode : AllModes()) {
       SCOPED_TRACE(Name(mode));
-      EmbreeTracer tracer(mode, window.points, window.spacing);
-      tracer.SetHeights(still.heights.data());
-      tracer.SetHeights(window.heights.data());
+      EmbreeTracer tracer(mode, second.points, second.spacing);
+      tracer.SetHeights(first.heights.data());
+      tracer.SetHeights(second.heights.data());
       const BeamMeans means = tracer.Trace(beam_case.sorted(), kRefractiveIndex);
-      // Robust or not, rays that meet an edge within rounding may be lost or take the facet beside it. Such
-      // rays are few; each moves a mean by less than 1 / rays.
+      // Rays that meet an edge within rounding may be lost or take the facet on the other side, in robust mode too.
+      // Such rays are few, and each changes a mean by less than 1 / rays.
       const double rays_aside = mode.robust ? 1 : 5;
       EXPECT_LE(means.lost, mode.robust ? 0 : 5);
       EXPECT_LT(Difference(means, expected, beam_case.options().footprint), rays_aside / rays.size());
@@ -151,7 +152,7 @@ TEST(EmbreeTracer, MeetsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
   }
 }
 #else
-TEST(EmbreeTracer, MeetsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
+TEST(EmbreeTracer, IntersectsTheSurfaceWhereTheScalarWalkDoesInAllItsModes) {
   GTEST_SKIP() << "built without Embree (libembree-dev)";
 }
 #endif

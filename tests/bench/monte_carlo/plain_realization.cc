@@ -7,8 +7,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "generator/math/fftw_planner.h"
-#include "generator/math/inverse_fft.h"
+#include "generator/math/fft.h"
 
 namespace albtpu::bench {
 
@@ -60,15 +59,15 @@ void PlainRealization::SetSurface(const std::vector<double>& heights) {
   heights_ = heights;
 }
 
-PlainRealization::Meeting PlainRealization::Meet(double x, double y, const Ray& ray) const {
+PlainRealization::Intersection PlainRealization::Intersect(double x, double y, const Ray& ray) const {
   const double per_x = ray.direction.x() / ray.direction.z(), per_y = ray.direction.y() / ray.direction.z();
   const int centre = size_ / 2;
-  Meeting meeting{};
+  Intersection hit{};
   int last_ix = -1, last_iy = -1;
   bool last_beside_x = false;
   for (int step = 0; step < 20; ++step) {
-    const double at_x = (x + meeting.height * per_x) / spacing_ + centre;
-    const double at_y = (y + meeting.height * per_y) / spacing_ + centre;
+    const double at_x = (x + hit.height * per_x) / spacing_ + centre;
+    const double at_y = (y + hit.height * per_y) / spacing_ + centre;
     const int ix = std::clamp(static_cast<int>(at_x), 0, size_ - 2);
     const int iy = std::clamp(static_cast<int>(at_y), 0, size_ - 2);
     const double u = at_x - ix, v = at_y - iy;
@@ -78,15 +77,15 @@ PlainRealization::Meeting PlainRealization::Meet(double x, double y, const Ray& 
     const double* high = low + size_;
     const double rise_x = beside_x ? high[0] - low[0] : high[1] - low[1];
     const double rise_y = beside_x ? high[1] - high[0] : low[1] - low[0];
-    meeting.slope_x = rise_x / spacing_;
-    meeting.slope_y = rise_y / spacing_;
-    const double clearance = meeting.height - (low[0] + u * rise_x + v * rise_y);
-    meeting.height -= clearance / (1 - meeting.slope_x * per_x - meeting.slope_y * per_y);
+    hit.slope_x = rise_x / spacing_;
+    hit.slope_y = rise_y / spacing_;
+    const double clearance = hit.height - (low[0] + u * rise_x + v * rise_y);
+    hit.height -= clearance / (1 - hit.slope_x * per_x - hit.slope_y * per_y);
     last_ix = ix;
     last_iy = iy;
     last_beside_x = beside_x;
   }
-  return meeting;
+  return hit;
 }
 
 Spots PlainRealization::Trace(double refractive_index) const {
@@ -98,18 +97,18 @@ Spots PlainRealization::Trace(double refractive_index) const {
   below.clear();
   double mean_x = 0, mean_y = 0, mean_height = 0;
   for (const Ray& ray : rays_) {
-    const Meeting meeting = Meet(ray.at_zero.x(), ray.at_zero.y(), ray);
-    const Eigen::Vector3d normal = Eigen::Vector3d(-meeting.slope_x, -meeting.slope_y, 1).normalized();
+    const Intersection hit = Intersect(ray.at_zero.x(), ray.at_zero.y(), ray);
+    const Eigen::Vector3d normal = Eigen::Vector3d(-hit.slope_x, -hit.slope_y, 1).normalized();
     const double cosine = -normal.dot(ray.direction), ratio = 1 / refractive_index;
     const Eigen::Vector3d direction =
         ratio * ray.direction +
         (ratio * cosine - std::sqrt(1 - ratio * ratio * (1 - cosine * cosine))) * normal;
-    const double x = ray.at_zero.x() + meeting.height * ray.direction.x() / ray.direction.z();
-    const double y = ray.at_zero.y() + meeting.height * ray.direction.y() / ray.direction.z();
-    below.push_back({x, y, meeting.height, direction});
+    const double x = ray.at_zero.x() + hit.height * ray.direction.x() / ray.direction.z();
+    const double y = ray.at_zero.y() + hit.height * ray.direction.y() / ray.direction.z();
+    below.push_back({x, y, hit.height, direction});
     mean_x += x;
     mean_y += y;
-    mean_height += meeting.height;
+    mean_height += hit.height;
   }
   const double count = static_cast<double>(rays_.size());
   mean_x /= count;

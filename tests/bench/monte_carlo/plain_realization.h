@@ -1,6 +1,5 @@
-// One realization as a good engineer writes it in an afternoon: the standard library's random numbers, one
-// double FFTW transform of the whole patch, a walk from triangle to triangle, and sums over rays for each
-// depth.
+// One realization in straightforward C++: the standard library's random numbers, one FFTW transform of the whole patch
+// in double precision, a walk from triangle to triangle, and sums over the rays for each depth.
 #pragma once
 
 #include <complex>
@@ -24,14 +23,15 @@ class PlainRealization {
 
  private:
   struct Plan;
-  struct Meeting {
+  struct Intersection {
     double height, slope_x, slope_y;
   };
-  Meeting Meet(double x, double y, const Ray& ray) const;
+  Intersection Intersect(double x, double y, const Ray& ray) const;
 
   int size_;
   double spacing_;
-  std::vector<double> scale_;  // of the mode's normals; its sign puts patch point 0 at the centre
+  std::vector<double>
+      scale_;  // of the modes' normal numbers; the signs put the patch's point 0 at the centre
   std::vector<std::complex<double>> modes_;
   std::vector<double> heights_;
   std::vector<Ray> rays_;

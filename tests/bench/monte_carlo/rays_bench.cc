@@ -1,8 +1,9 @@
-// Rays traced, refracted and summed per second: the packet tracer against Embree in all its modes and against
-// a scalar walk in double precision, over the same surface.
+// Rays traced, refracted and summed per second: the packet tracer against Embree in all its modes and against a scalar
+// walk in double precision, over the same surface.
 //
-// Names are TRACER/INCIDENCE in degrees; items per second are rays, lost is the rays that found no surface,
-// miss_m the greatest distance of a hit from the scalar walk's, means_off the greatest difference of a mean.
+// Names are TRACER/INCIDENCE, in degrees. Items per second are rays; `lost` is the number of rays that found no
+// surface, `miss_m` the greatest distance of a hit from that of the scalar walk, `means_off` the greatest difference of
+// a mean.
 #include <absl/strings/str_cat.h>
 #include <benchmark/benchmark.h>
 
@@ -23,26 +24,26 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kSameHit = 1e-5;    // m
-constexpr double kSameMeans = 1e-5;  // few rays in 10 000 meet the facet beside their own
+constexpr double kSameMeans = 1e-5;  // a few of 10 000 rays take the facet on the other side of an edge
 
 // Under a beam of one incidence: 10 000 rays, 128 points across the footprint, 7 m/s.
 struct Bench {
   explicit Bench(int degrees)
       : beam_case({.size = 320, .wind_speed = 7, .incidence = degrees * kDegree}),
-        window(beam_case.Draw(1, beam_case.footprint_points())),
-        surface(window.InDouble()),
+        floats(beam_case.Draw(1, beam_case.footprint_points())),
+        surface(floats.InDouble()),
         rays(beam_case.SortedRays()) {
     for (const Ray& ray : rays) hit_heights.push_back(Intersect(surface, ray).height);
     means = MeansOf(Trace(rays, surface, kRefractiveIndex));
   }
-  // How far, m, ray `r` met the surface at `height` from where it should.
+  // The distance [m] along ray `r` between its hit at `height` and that of the scalar walk.
   double Miss(std::size_t r, double height) const {
     return std::abs(height - hit_heights[r]) / -beam_case.bundle().direction().z();
   }
 
   BeamCase beam_case;
-  FloatWindow window;
-  HeightField surface;
+  FloatSurface floats;
+  HeightField surface;              // the same in double precision
   std::vector<Ray> rays;            // sorted, in single precision
   std::vector<double> hit_heights;  // by the scalar walk, of these rays
   BeamMeans means;
@@ -64,7 +65,7 @@ void ScalarWalk(benchmark::State& state, const Bench& bench) {
   CountRays(state, bench);
 }
 
-// Says how far a tracer's answers are from the scalar walk's, and ends its benchmark if that is too far.
+// Reports how far the results of a tracer are from those of the scalar walk, and ends its benchmark if that is too far.
 bool Agrees(benchmark::State& state, const Bench& bench, const BeamMeans& means, double miss) {
   state.counters["lost"] = means.lost;
   state.counters["miss_m"] = miss;
@@ -79,25 +80,25 @@ void Packets(benchmark::State& state, const Bench& bench) {
   double miss = 0;
   for (std::size_t r = 0; r < bench.rays.size(); ++r) {
     const RayBundle alone({bench.rays[r]}, kRefractiveIndex);
-    miss = std::max(miss, bench.Miss(r, TracePackets(alone, bench.window.View()).height));
+    miss = std::max(miss, bench.Miss(r, TracePackets(alone, bench.floats.View()).height));
   }
   const RayBundle& bundle = bench.beam_case.bundle();
-  if (!Agrees(state, bench, MeansOf(Trace(bundle, bench.window.View())), miss)) return;
-  for (auto _ : state) benchmark::DoNotOptimize(Trace(bundle, bench.window.View()));
+  if (!Agrees(state, bench, MeansOf(Trace(bundle, bench.floats.View())), miss)) return;
+  for (auto _ : state) benchmark::DoNotOptimize(Trace(bundle, bench.floats.View()));
   CountRays(state, bench);
 }
 
-// With the sums that control variates want.
-void PacketsAndUndisturbed(benchmark::State& state, const Bench& bench) {
+// With the sums for the control variates.
+void PacketsAndUnshifted(benchmark::State& state, const Bench& bench) {
   const RayBundle& bundle = bench.beam_case.bundle();
-  for (auto _ : state) benchmark::DoNotOptimize(TracePackets(bundle, bench.window.View()));
+  for (auto _ : state) benchmark::DoNotOptimize(TracePackets(bundle, bench.floats.View()));
   CountRays(state, bench);
 }
 
 #ifdef ALBTPU_EMBREE
 void Embree(benchmark::State& state, const Bench& bench, const EmbreeOptions& options) {
-  EmbreeTracer tracer(options, bench.window.points, bench.window.spacing);
-  tracer.SetHeights(bench.window.heights.data());
+  EmbreeTracer tracer(options, bench.floats.points, bench.floats.spacing);
+  tracer.SetHeights(bench.floats.heights.data());
   const BeamMeans means = tracer.Trace(bench.beam_case.sorted(), kRefractiveIndex);
   double miss = 0;
   for (std::size_t r = 0; r < bench.rays.size(); ++r) {
@@ -133,7 +134,7 @@ void RegisterAt(int degrees) {
     })->MeasureProcessCPUTime();
   };
   add("packets", Packets);
-  add("packets_and_undisturbed", PacketsAndUndisturbed);
+  add("packets_and_unshifted", PacketsAndUnshifted);
   add("scalar", ScalarWalk);
 #ifdef ALBTPU_EMBREE
   for (EmbreeOptions mode : EmbreeModes()) {
@@ -141,7 +142,7 @@ void RegisterAt(int degrees) {
     add(absl::StrCat("embree/avx2/", Name(mode)),
         [mode](auto& state, const Bench& bench) { Embree(state, bench, mode); });
     if (mode.robust || mode.coherent || mode.geometry == EmbreeGeometry::kGrid) continue;
-    mode.device = "";  // AVX-512, where it is
+    mode.device = "";  // with AVX-512 where the machine has it
     add(absl::StrCat("embree/any/", Name(mode)),
         [mode](auto& state, const Bench& bench) { Embree(state, bench, mode); });
   }

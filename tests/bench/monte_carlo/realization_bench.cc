@@ -1,9 +1,8 @@
-// One realization, from random numbers to centroid and path at five depths: 512 x 512 points of sea, 10 000
-// rays. Beside it, as a yardstick, one FFTW transform of that size in single precision.
+// One realization, from random numbers to centroid and path at five depths: 512 x 512 points of sea, 10 000 rays. For
+// comparison, one FFTW transform of that size in single precision.
 //
-// Names are WHAT/INCIDENCE in degrees; ours are 64 realizations at a time. Embree is given the fast surface
-// of ours, so that tracing alone differs: the whole of it or what lies under the footprint, its tree built
-// anew or refitted.
+// Names are WHAT/INCIDENCE, in degrees. Ours compute 64 realizations at a time. Embree gets our fast surface, so that
+// only the tracing differs: the whole patch or the part under the footprint, with a new or a refitted tree.
 #include <absl/strings/str_cat.h>
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
@@ -19,7 +18,7 @@
 #include <vector>
 
 #include "generator/kernels/fast_patch.h"
-#include "generator/math/fftw_planner.h"
+#include "generator/math/fft.h"
 #include "sea/response/refraction.h"
 #include "tests/bench/monte_carlo/beam_case.h"
 #include "tests/bench/monte_carlo/plain_realization.h"
@@ -50,19 +49,19 @@ void Plain(benchmark::State& state, const BeamCase& beam_case) {
   }
 }
 
-// The fast surface, of `points` along a side.
+// Our fast surface with `points` along a side.
 class FastSurface {
  public:
   FastSurface(const BeamCase& beam_case, int points)
-      : window_(beam_case.patch(), points), heights_(static_cast<std::size_t>(points) * points) {}
+      : patch_(beam_case.patch(), points), heights_(static_cast<std::size_t>(points) * points) {}
 
   const std::vector<float>& Draw(std::uint32_t realization) {
-    window_.Draw(BeamCase::Stream(realization), heights_, workspace_);
+    patch_.Draw(BeamCase::Stream(realization), heights_, workspace_);
     return heights_;
   }
 
  private:
-  FastPatch window_;
+  FastPatch patch_;
   FastPatch::Workspace workspace_;
   std::vector<float> heights_;
 };
@@ -73,17 +72,17 @@ void OurSurface(benchmark::State& state, const BeamCase& beam_case) {
   for (auto _ : state) benchmark::DoNotOptimize(surface.Draw(++realization).data());
 }
 
-// Realizations `first` to before `last`.
+// The realizations from `first` to `last` - 1.
 void Realize(const BeamCase& beam_case, FastSurface& surface, std::uint32_t first, std::uint32_t last) {
   const int points = beam_case.footprint_points();
   const float spacing = static_cast<float>(beam_case.patch().spacing());
   for (std::uint32_t realization = first; realization < last; ++realization) {
-    const HeightView window{surface.Draw(realization).data(), points, points, spacing};
-    benchmark::DoNotOptimize(SpotsOf(MeansOf(Trace(beam_case.bundle(), window))));
+    const HeightView view{surface.Draw(realization).data(), points, points, spacing};
+    benchmark::DoNotOptimize(SpotsOf(MeansOf(Trace(beam_case.bundle(), view))));
   }
 }
 
-constexpr std::uint32_t kMany = 64;  // realizations, so that to start a thread costs nothing
+constexpr std::uint32_t kMany = 64;  // realizations, enough to make the start of a thread negligible
 
 void Ours(benchmark::State& state, const BeamCase& beam_case) {
   FastSurface surface(beam_case, beam_case.footprint_points());
@@ -103,7 +102,7 @@ void OursOnTwoThreads(benchmark::State& state, const BeamCase& beam_case) {
 }
 
 #ifdef ALBTPU_EMBREE
-// With `draw` unset, of the same surface again and again: what its tree and its tracing cost.
+// With `draw` unset, traces the same surface again and again, which measures the tree and the tracing alone.
 void Embree(benchmark::State& state, const BeamCase& beam_case, const EmbreeOptions& options, bool whole,
             bool draw) {
   const int points = whole ? beam_case.whole_points() : beam_case.footprint_points();
@@ -130,7 +129,7 @@ void Transform(benchmark::State& state, unsigned planner) {
     const std::lock_guard lock(FftwPlanner());
     plan = fftwf_plan_dft_c2r_2d(kSize, kSize, modes, heights, planner | FFTW_DESTROY_INPUT);
   }
-  for (int m = 0; m < kSize * (kSize / 2 + 1); ++m) modes[m][0] = modes[m][1] = 0;  // no number overflows
+  for (int m = 0; m < kSize * (kSize / 2 + 1); ++m) modes[m][0] = modes[m][1] = 0;  // avoids overflow
   for (auto _ : state) {
     fftwf_execute(plan);
     benchmark::ClobberMemory();

@@ -15,12 +15,12 @@
 namespace albtpu::bench {
 namespace {
 
-// One caller: asks again and again. `ask(pulses, answers)` is called for the line in batches of `batch`.
+// One caller, which queries repeatedly: calls `ask(pulses, answers)` for the line in batches of `batch` pulses.
 template <typename Ask>
 void AskInTurn(Record& record, const FlightLine& line, AnswerMemory& answers, std::size_t batch, Ask ask) {
   std::vector<double> latencies;
   std::size_t place = 0;
-  while (record.going_on() || latencies.size() * batch < line.size()) {  // Each answer once at least.
+  while (record.going_on() || latencies.size() * batch < line.size()) {  // Every pulse at least once.
     const Clock::time_point begin = Clock::now();
     ask(line.pulses(place, batch), answers.columns(place));
     latencies.push_back(Seconds(Clock::now() - begin));
@@ -68,7 +68,8 @@ void ReadRow(const v1::PulseUncertainty& row, std::size_t i, const AnswerColumns
 std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);  // Which no policy asks for: an eighth of a short call.
+  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES,
+                   0);  // No policy uses retries, and they cost an eighth of a short call.
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
 

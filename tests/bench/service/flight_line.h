@@ -1,4 +1,4 @@
-// Pulses as a scanner sends them, and room for their answers: what the benchmarks of the service ask for.
+// The pulses of a scanner and memory for their answers, for the benchmarks of the service.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace albtpu::bench {
 
-// The columns that are asked for: both refractions, THU and TVU.
+// The quantities of a query: both refractions, THU and TVU.
 inline constexpr std::size_t kAskedQuantities = 4;
 
-// One wind for all, a fully developed sea; incidence, azimuth, footprint and depth of each pulse, in the
-// order of a circular scan of 400 pulses over a sloping, rough bottom. All within the table `survey`.
+// The pulses of a circular scan, 400 for each turn, over a sloping, rough bottom: one wind over a fully developed sea;
+// incidence, azimuth, footprint and depth of each pulse. All are within the table `survey`.
 class FlightLine {
  public:
   explicit FlightLine(std::size_t pulse_count);
 
   std::size_t size() const { return depth_.size(); }
   PulseColumns pulses() const { return pulses(0, size()); }
-  PulseColumns pulses(std::size_t begin, std::size_t count) const;  // Some of them.
+  PulseColumns pulses(std::size_t begin, std::size_t count) const;
 
  private:
   float wind_speed_ = 6.5f;
@@ -31,8 +31,8 @@ class AnswerMemory {
  public:
   explicit AnswerMemory(std::size_t pulse_count);
 
-  AnswerColumns columns(std::size_t begin = 0);  // From this pulse on.
-  // Ends the program, saying where, unless all answers are those of `expected`, bit by bit.
+  AnswerColumns columns(std::size_t begin = 0);  // from this pulse on
+  // Ends the program with a message unless all answers equal those of `expected` bit by bit.
   void ExpectSame(const AnswerMemory& expected) const;
 
  private:

@@ -1,5 +1,5 @@
-// What a caller of the service's benchmark asks, by way of which messages. Each function asks until the record's
-// time is over, and leaves the answers, each pulse of the line once at least, in `answers`.
+// The callers of the service benchmark, one function for each kind of message. Each function queries until the record's
+// time is over, every pulse of the line at least once, and leaves the answers in `answers`.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -18,27 +18,28 @@ struct Load {
   const std::string& address;
   const FlightLine& line;
   AnswerMemory& answers;
-  std::size_t batch;        // Pulses of one message.
-  std::size_t in_flight;    // Messages that one caller has under way.
-  std::size_t connections;  // Over which its calls go in turn; streams and bare connections have one.
+  std::size_t batch;        // pulses in one message
+  std::size_t in_flight;    // messages in flight of one caller
+  std::size_t connections;  // used by its calls in turn; streams and plain connections have one
 };
 
-// Many pulses a message. Over a bare TCP connection, one message in flight: two callers keep two cores busy.
+// Many pulses per message. Over a plain TCP connection there is one message in flight; two callers keep two cores busy.
 void AskRaw(const Load& load, Record& record);
-void AskColumns(const Load& load, Record& record);  // `QueryColumns`.
-void AskRows(const Load& load, Record& record);     // `QueryPulses`.
+void AskColumns(const Load& load, Record& record);  // QueryColumns
+void AskRows(const Load& load, Record& record);     // QueryPulses
 void AskStream(const Load& load,
-               Record& record);  // `StreamColumns`, the whole line a time, 65 536 a message.
+               Record& record);  // StreamColumns: a stream for each line, 65 536 pulses per message
 
-// One pulse a message, on one connection.
+// One pulse per message, on one connection.
 void AskRawSingle(const Load& load, Record& record);
-void AskStreamSingle(const Load& load, Record& record);  // `StreamColumns`.
+void AskStreamSingle(const Load& load, Record& record);  // StreamColumns
 
-// A connection of its own, as a bare TCP connection is; channels to one server share one otherwise.
+// A channel with its own connection, comparable with a plain TCP connection. Channels to one server otherwise share
+// one.
 std::shared_ptr<grpc::Channel> ChannelTo(const std::string& address);
 
-// Unary calls of a method of the service, `in_flight` at a time, each for the next `batch` pulses: `request` writes
-// a message, `read` takes the answer.
+// Makes unary calls of a method of the service, `in_flight` at a time, each for the next `batch` pulses. `request`
+// writes a message; `read` reads the response.
 void AskInCalls(const Load& load, Record& record, const std::string& method,
                 const std::function<grpc::ByteBuffer(const PulseColumns&)>& request,
                 const std::function<void(grpc::ByteBuffer& response, const AnswerColumns&)>& read);

@@ -16,7 +16,7 @@ double OwnProcessorTime() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// utime and stime, by proc(5), in clock ticks.
+// The fields utime and stime of proc(5), which are in clock ticks.
 double ProcessorTimeOf(int pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string word;

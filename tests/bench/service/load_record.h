@@ -1,4 +1,4 @@
-// What a load did to a server, and what it cost.
+// The record of a load on a server: pulses, latencies and processor time.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@ inline double Seconds(Clock::duration duration) { return std::chrono::duration<d
 double OwnProcessorTime();        // s
 double ProcessorTimeOf(int pid);  // s
 
-// Ends the program, saying what is wrong, unless all is good.
+// Ends the program with the message `what` unless `good`.
 void Check(bool good, const std::string& what);
 
-// What all callers did, and until when they go on.
+// Collects the pulses and latencies of all callers, and tells them when to stop.
 class Record {
  public:
   explicit Record(double seconds)

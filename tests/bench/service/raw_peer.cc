@@ -28,7 +28,7 @@ void Check(bool good, const char* what) {
   std::exit(1);
 }
 
-// False when the other side has gone.
+// False when the other side has closed the connection.
 bool WriteAll(int socket, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t sent = send(socket, bytes, count, MSG_NOSIGNAL);

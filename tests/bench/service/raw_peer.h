@@ -1,8 +1,8 @@
-// The least that a service of columns can be: the same numbers over a bare TCP connection, answered by the
-// same interpolator. No schema, no limits, no deadlines, no streams: what remains is what the bytes cost.
+// The minimum of a service of columns: the same numbers over a plain TCP connection, answered by the same interpolator,
+// without schema, limits, deadlines or streams. It measures the cost of transferring the bytes.
 //
-// A message is the number of pulses (uint32), the wind, and columns of incidence, azimuth, footprint and
-// depth; its answer the columns of an AnswerMemory. Both little-endian, at most kMostRawPulses.
+// A message is the number of pulses (uint32), the wind, and columns of incidence, azimuth, footprint and depth. Its
+// answer is the columns of an AnswerMemory. Both are little-endian, for at most kMostRawPulses pulses.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace albtpu::bench {
 
 inline constexpr std::size_t kMostRawPulses = 65536;
 
-// Listens on a free port of this machine, prints it, and serves each connection on a thread of its own until
-// the process ends. Each message is answered by a write of its own.
+// Listens on a free port of this machine, prints it, and serves each connection on its own thread until the process
+// ends. Each answer is sent by a separate write.
 void ServeRaw(const ColumnInterpolator& interpolator);
 
 class RawConnection {
@@ -26,13 +26,13 @@ class RawConnection {
   RawConnection(const RawConnection&) = delete;
 
   void Send(const PulseColumns& pulses);
-  // The answer of the oldest message that has none yet, of so many pulses.
+  // Receives the answer to the oldest unanswered message, which had `pulse_count` pulses.
   void Receive(std::size_t pulse_count, const AnswerColumns& answers);
 
  private:
   int socket_;
   std::vector<char> outgoing_, incoming_;
-  std::size_t begin_ = 0, end_ = 0;  // Of what was received and not yet taken.
+  std::size_t begin_ = 0, end_ = 0;  // of the bytes that are received and not yet processed
 };
 
 }  // namespace albtpu::bench

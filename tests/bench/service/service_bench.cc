@@ -2,8 +2,8 @@
 // service_bench PEER --address A --table TABLE.h5 --server-pid P [--batch N] [--callers N] [--in-flight N]
 //               [--connections N] [--seconds S] [--beside N]
 //
-// Asks a server for a time, checks the answers against the table, and prints one JSON object: pulses and calls
-// a second, the latency of calls (s), and the processor time of client and server for each pulse (s).
+// Queries a server for some seconds, checks the answers against the table, and prints one JSON object: pulses and calls
+// per second, the latency of calls (s), and the processor time of client and server per pulse (s).
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -28,9 +28,9 @@
 namespace albtpu::bench {
 namespace {
 
-// Of a flight line: some megabytes, so that columns come from memory as those of a survey do.
+// In a flight line. It takes some megabytes, so that columns come from main memory as they do for a survey.
 constexpr std::size_t kBatches = 16;
-constexpr std::size_t kStreamBatch = 65536;  // What a stream sends in one message.
+constexpr std::size_t kStreamBatch = 65536;  // pulses in one message of a stream
 
 struct Options {
   std::string peer, address, table;
@@ -48,8 +48,8 @@ constexpr std::array<std::pair<std::string_view, void (*)(const Load&, Record&)>
     {"stream-single", AskStreamSingle},
 }};
 
-void ExpectRight(const std::vector<AnswerMemory>& answers, const FlightLine& line,
-                 const ColumnInterpolator& table) {
+void ExpectAnswersOf(const ColumnInterpolator& table, const FlightLine& line,
+                     const std::vector<AnswerMemory>& answers) {
   AnswerMemory expected(line.size());
   table.Answer({}, line.pulses(), 0, line.size(), expected.columns());
   for (const AnswerMemory& memory : answers) memory.ExpectSame(expected);
@@ -87,28 +87,28 @@ int Ask(const Options& options, const ColumnInterpolator& table) {
       {"client_cpu_per_pulse", (OwnProcessorTime() - client_before) / pulses},
       {"server_cpu_per_pulse", (ProcessorTimeOf(options.server_pid) - server_before) / pulses},
       {"bulk_pulses_per_second", static_cast<double>(bulk.pulses()) / elapsed}};
-  ExpectRight(answers, line, table);
-  ExpectRight(bulk_answers, bulk_line, table);
+  ExpectAnswersOf(table, line, answers);
+  ExpectAnswersOf(table, bulk_line, bulk_answers);
   std::cout << report.dump() << "\n";
   return 0;
 }
 
 int Main(int argc, char** argv) {
   Options options;
-  CLI::App app("Asks a server of uncertainties as fast as it answers.", "service_bench");
+  CLI::App app("Queries an uncertainty server as fast as it answers.", "service_bench");
   app.add_option("peer", options.peer, "serve-raw, raw, raw-single, columns, rows, stream or stream-single")
       ->required();
-  app.add_option("--table", options.table, "The table that answers")->required();
+  app.add_option("--table", options.table, "The table to query")->required();
   app.add_option("--address", options.address, "HOST:PORT of albtpu-serve, PORT of serve-raw");
-  app.add_option("--server-pid", options.server_pid, "Whose processor time to count");
-  app.add_option("--batch", options.batch, "Pulses of one message");
-  app.add_option("--callers", options.callers, "Threads that ask");
+  app.add_option("--server-pid", options.server_pid, "The process whose processor time is counted");
+  app.add_option("--batch", options.batch, "Pulses in one message");
+  app.add_option("--callers", options.callers, "Threads that query");
   app.add_option("--in-flight", options.in_flight,
-                 "Messages that a caller has under way (raw and stream: see load.h)");
-  app.add_option("--connections", options.connections, "Over which a caller's calls go in turn")
+                 "Messages in flight of a caller (raw and stream: see load.h)");
+  app.add_option("--connections", options.connections, "Connections that a caller uses in turn")
       ->check(CLI::PositiveNumber);
-  app.add_option("--beside", options.beside, "Further threads that stream, not counted");
-  app.add_option("--seconds", options.seconds, "For how long");
+  app.add_option("--beside", options.beside, "Further threads that stream and are not counted");
+  app.add_option("--seconds", options.seconds, "Duration of the load");
   CLI11_PARSE(app, argc, argv);
   const auto table = ReadTable(options.table);
   Check(table.ok(), table.status().ToString());
@@ -118,7 +118,8 @@ int Main(int argc, char** argv) {
   return 0;
 }
 
-// Of messages that come and go: page faults would cost more than they do. For so short a time it takes no more.
+// Keeps the freed memory of messages, whose page faults would cost more than the messages themselves. In so short a
+// run, this does not increase the memory.
 void KeepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 512 << 20);
@@ -130,7 +131,7 @@ void KeepFreedMemory() {
 
 int main(int argc, char** argv) {
   albtpu::bench::KeepFreedMemory();
-  // As albtpu-serve and albtpu-query do.
+  // As in albtpu-serve and albtpu-query.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   return albtpu::bench::Main(argc, argv);
 }

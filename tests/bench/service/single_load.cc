@@ -11,7 +11,7 @@
 namespace albtpu::bench {
 namespace {
 
-// A message for each pulse of the line.
+// One message for each pulse of the line.
 std::vector<grpc::ByteBuffer> Requests(const Load& load) {
   v1::StreamColumnsRequest wanted;
   client::ToWire({}, load.answers.columns(), *wanted.mutable_query());
@@ -27,6 +27,7 @@ std::vector<grpc::ByteBuffer> Requests(const Load& load) {
 }
 
 }  // namespace
+
 void AskRawSingle(const Load& load, Record& record) {
   RawConnection connection(load.address);
   std::vector<Clock::time_point> begin(load.in_flight);

@@ -11,33 +11,33 @@
 namespace albtpu {
 namespace {
 
-// Waves from the whole side of the patch to the spacing of its grid.
+// A patch of all waves from the length of its side to the spacing of its grid.
 WavePatchModel Patch(int size) {
   return WavePatchModel(SeaState(5, std::numeric_limits<double>::infinity()), 2.0, size,
                         CrossFade(1e-9, 2e-9));
 }
 
-std::vector<float> Draw(const FastPatch& window, const NormalStream& stream) {
-  std::vector<float> heights(static_cast<std::size_t>(window.points()) * window.points());
+std::vector<float> Draw(const FastPatch& patch, const NormalStream& stream) {
+  std::vector<float> heights(static_cast<std::size_t>(patch.points()) * patch.points());
   FastPatch::Workspace workspace;
-  window.Draw(stream, heights, workspace);
+  patch.Draw(stream, heights, workspace);
   return heights;
 }
 
-// The heights of the double patch about its first point, of which the patch's other edges are neighbours.
+// The heights of the patch in double precision about its first point, across the periodic boundary.
 std::vector<double> SlowDraw(const WavePatchModel& patch, int points, const NormalStream& stream) {
   const std::vector<double> heights = patch.Draw(stream);
   const int size = patch.size();
-  std::vector<double> window;
+  std::vector<double> centred;
   for (int ix = -(points / 2); ix <= points / 2; ++ix) {
     for (int iy = -(points / 2); iy <= points / 2; ++iy) {
-      window.push_back(heights[(ix + size) % size * size + (iy + size) % size]);
+      centred.push_back(heights[(ix + size) % size * size + (iy + size) % size]);
     }
   }
-  return window;
+  return centred;
 }
 
-// The root mean square of the differences over the window, in standard deviations of the heights.
+// The root mean square difference over all points, in standard deviations of the heights.
 double Distance(const WavePatchModel& patch, int points, const NormalStream& stream) {
   const std::vector<float> fast = Draw(FastPatch(patch, points), stream);
   const std::vector<double> slow = SlowDraw(patch, points, stream);
@@ -49,9 +49,9 @@ double Distance(const WavePatchModel& patch, int points, const NormalStream& str
 class EachFastPatch : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(EachFastPatch);
 
-TEST_P(EachFastPatch, IsTheMiddleOfTheSameSurface) {
-  // Amplitudes are right to a few 2^-24, and each of the stages of the transform adds less than 2^-24 to each
-  // height's relative error: in all well under 2^-20.
+TEST_P(EachFastPatch, EqualsThePatchOfTheDoubleTwin) {
+  // Amplitudes have an error of a few 2^-24, and each stage of the transform adds less than 2^-24 to the relative error
+  // of each height: well below 2^-20 in total.
   for (const int size : {4, 6, 10, 18, 48, 60, 90, 100, 128, 250, 270, 360, 512}) {
     const WavePatchModel patch = Patch(size);
     for (int points : {1, 3, size / 4 * 2 - 1, size - 1}) {
@@ -62,21 +62,21 @@ TEST_P(EachFastPatch, IsTheMiddleOfTheSameSurface) {
   }
 }
 
-TEST_P(EachFastPatch, IsDrawnAsOnTheUsualInstructionSet) {
-  // Each is off by the rounding of its own.
+TEST_P(EachFastPatch, EqualsThatOfTheUsualInstructionSet) {
+  // Instruction sets differ by rounding only.
   const WavePatchModel patch = Patch(128);
-  const FastPatch window(patch, 57);
-  const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
-  EXPECT_EQ(heights, Draw(window, NormalStream(1, 2, 3)));
+  const FastPatch fast(patch, 57);
+  const std::vector<float> heights = Draw(fast, NormalStream(1, 2, 3));
+  EXPECT_EQ(heights, Draw(fast, NormalStream(1, 2, 3)));
   Choose(0);
-  const std::vector<float> usual = Draw(window, NormalStream(1, 2, 3));
+  const std::vector<float> usual = Draw(fast, NormalStream(1, 2, 3));
   const double standard_deviation = std::sqrt(patch.elevation_variance());
   for (std::size_t i = 0; i < usual.size(); ++i) {
     EXPECT_NEAR(heights[i], usual[i], 0x1p-19 * standard_deviation);
   }
 }
 
-TEST(FastPatch, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
+TEST(FastPatch, DoesNotDependOnEarlierUseOfTheWorkspace) {
   const WavePatchModel small = Patch(18), large = Patch(60);
   const FastPatch narrow(small, 5), wide(large, 59);
   FastPatch::Workspace workspace;
@@ -90,13 +90,13 @@ TEST(FastPatch, DoesNotDependOnWhatTheWorkspaceWasUsedFor) {
   }
 }
 
-TEST(FastPatch, IsAnotherForEachRealization) {
+TEST(FastPatch, DiffersBetweenRealizationsCellsAndSeeds) {
   const WavePatchModel patch = Patch(18);
-  const FastPatch window(patch, 5);
-  const std::vector<float> heights = Draw(window, NormalStream(1, 2, 3));
-  EXPECT_NE(heights, Draw(window, NormalStream(1, 2, 4)));
-  EXPECT_NE(heights, Draw(window, NormalStream(1, 3, 3)));
-  EXPECT_NE(heights, Draw(window, NormalStream(2, 2, 3)));
+  const FastPatch fast(patch, 5);
+  const std::vector<float> heights = Draw(fast, NormalStream(1, 2, 3));
+  EXPECT_NE(heights, Draw(fast, NormalStream(1, 2, 4)));
+  EXPECT_NE(heights, Draw(fast, NormalStream(1, 3, 3)));
+  EXPECT_NE(heights, Draw(fast, NormalStream(2, 2, 3)));
 }
 
 }  // namespace

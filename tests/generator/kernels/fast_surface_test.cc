@@ -12,18 +12,18 @@
 namespace albtpu {
 namespace {
 
-// A vertical line meets the long waves where it stands: there both are about the same point.
-TEST(FastSurface, IsWhatAVerticalBeamMeets) {
+// For a vertical beam, SeaSurface is about the same point as FastSurface.
+TEST(FastSurface, EqualsTheDoubleTwinUnderAVerticalBeam) {
   const SeaState sea(9, std::numeric_limits<double>::infinity());
   const BeamOptions widest{.incidence = 0.4, .azimuth = 0.3, .footprint = 0.5};
   const SurfaceModel model(sea, widest, {.patch_per_beam = 2.5, .points_per_footprint = 64, .rays = 1});
-  const FastSurface window(model);
+  const FastSurface surface(model);
   const Beam vertical({.footprint = 0.5}, 1);
   FastSurface::Workspace workspace;
   for (const std::uint32_t realization : {0, 1, 2}) {
     const NormalStream stream(3, 1, realization);
     const HeightField twin = SeaSurface(model, stream).SurfaceUnder(vertical).heights;
-    window.Draw(stream, workspace);
+    surface.Draw(stream, workspace);
     ASSERT_EQ(workspace.heights.size(), twin.heights().size());
     double farthest = 0;
     for (std::size_t i = 0; i < twin.heights().size(); ++i) {
@@ -31,7 +31,7 @@ TEST(FastSurface, IsWhatAVerticalBeamMeets) {
     }
     NormalStream again = stream;
     const Eigen::VectorXcd amplitudes = model.long_waves().Draw(again);
-    // A sum in single precision errs by a few roundings of the sum of magnitudes.
+    // The error of a sum in single precision is a few roundings of the sum of magnitudes.
     EXPECT_LT(farthest, 4 * 0x1p-24 * amplitudes.cwiseAbs().sum());
 
     const auto elevation = [&](const Eigen::Vector2d& x) {

@@ -24,8 +24,8 @@ double Correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-TEST(NormalStream, IsPhiloxThroughBoxAndMuller) {
-  // Random123's known answer of philox4x32-10 for a counter and a key of zeros.
+TEST(NormalStream, IsPhiloxWithTheTransformOfBoxAndMuller) {
+  // Random123's known answer for philox4x32-10 with a counter and a key of zeros.
   constexpr std::array<std::uint32_t, 4> kWords = {0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8};
   const std::vector<double> normals = Normals(NormalStream(0, 0, 0), 4);
   for (int pair = 0; pair < 2; ++pair) {
@@ -36,11 +36,11 @@ TEST(NormalStream, IsPhiloxThroughBoxAndMuller) {
   }
 }
 
-TEST(NormalStream, GivesTheSameNumbersAgain) {
+TEST(NormalStream, IsReproducible) {
   EXPECT_EQ(Normals(NormalStream(1, 2, 3), 101), Normals(NormalStream(1, 2, 3), 101));
 }
 
-TEST(NormalStream, GoesOnWhereItEndedRoundedUpToFour) {
+TEST(NormalStream, ContinuesAtTheNextMultipleOfFourNumbers) {
   const std::vector<double> whole = Normals(NormalStream(1, 2, 3), 16);
   NormalStream stream(1, 2, 3);
   std::vector<double> first(6), second(8);
@@ -63,7 +63,7 @@ TEST(NormalStream, HasTheMomentsOfTheNormalDistribution) {
   EXPECT_NEAR(moment[4], 3, 4 * std::sqrt(96.0 / kCount));
 }
 
-TEST(NormalStream, IsUncorrelatedWithEveryOther) {
+TEST(NormalStream, IsUncorrelatedWithOtherStreamsAndWithItselfShifted) {
   constexpr int kCount = 100000;
   const std::vector<double> one = Normals(NormalStream(1, 2, 3), kCount);
   const double four_standard_errors = 4 / std::sqrt(kCount);

@@ -7,7 +7,7 @@
 namespace albtpu {
 namespace {
 
-TEST(Rounding, KeepsTheDigitsThatItIsAskedFor) {
+TEST(Rounding, KeepsTheGivenNumberOfBinaryDigits) {
   EXPECT_EQ(RoundToBits(0b1011'0110, 4), 0b1011'0000);
   EXPECT_EQ(RoundToBits(0b1011'1001, 4), 0b1100'0000);
   EXPECT_EQ(RoundToBits(-0.71, 2), -0.75);
@@ -15,13 +15,13 @@ TEST(Rounding, KeepsTheDigitsThatItIsAskedFor) {
   EXPECT_EQ(RoundToBits(0, 4), 0);
 }
 
-TEST(Rounding, TakesHalvesToEven) {
+TEST(Rounding, RoundsTiesToEven) {
   EXPECT_EQ(RoundToBits(4.5, 3), 4);
   EXPECT_EQ(RoundToBits(5.5, 3), 6);
   EXPECT_EQ(RoundToBits(-4.5, 3), -4);
 }
 
-TEST(Rounding, ErrsByHalfOfTheLastDigitAtMost) {
+TEST(Rounding, ErrsByAtMostHalfOfTheLastDigit) {
   for (double value = 1e-6; value < 1e3; value *= 1.0137) {
     for (const int bits : {1, 4, 13, 24}) {
       EXPECT_LE(std::abs(RoundToBits(value, bits) / value - 1), std::exp2(-bits)) << value;
@@ -30,7 +30,7 @@ TEST(Rounding, ErrsByHalfOfTheLastDigitAtMost) {
   }
 }
 
-TEST(Rounding, LeavesAnEstimateWithinAnEighthOfItsStandardError) {
+TEST(Rounding, KeepsAnEstimateWithinAnEighthOfItsStandardError) {
   for (const double relative_error : {1e-5, 1e-3, 0.01, 0.3, 2.0, 40.0}) {
     for (double value = -3; value < 3; value += 0.0173) {
       const double error = relative_error * std::abs(value);
@@ -43,7 +43,7 @@ TEST(Rounding, LeavesAnEstimateWithinAnEighthOfItsStandardError) {
   }
 }
 
-TEST(Rounding, MakesAPlainZeroOfWhatIsLostInItsError) {
+TEST(Rounding, TurnsAValueFarBelowItsStandardErrorIntoPositiveZero) {
   const double zero = Rounded({-1e-3, 1}).value;
   EXPECT_EQ(zero, 0);
   EXPECT_FALSE(std::signbit(zero));

@@ -17,25 +17,25 @@ Eigen::ArrayXd Normals(int count, std::uint32_t realization) {
   return sample;
 }
 
-TEST(Statistics, OfFourNumbersAreThoseByHand) {
+TEST(Statistics, OfFourNumbersEqualTheCalculationByHand) {
   const Eigen::ArrayXd sample = (Eigen::ArrayXd(4) << 1, 2, 3, 6).finished();  // deviations -2, -1, 0, 3
   EXPECT_DOUBLE_EQ(Mean(sample).value, 3);
   EXPECT_DOUBLE_EQ(Mean(sample).standard_error, std::sqrt(14.0 / 3 / 4));
   EXPECT_DOUBLE_EQ(TwoSigma(sample).value, 2 * std::sqrt(14.0 / 3));
-  // Squares 4, 1, 0, 9 scatter about 3.5 with a variance of 49/3.
+  // The squares 4, 1, 0, 9 have the mean 3.5 and the variance 49/3.
   EXPECT_DOUBLE_EQ(TwoSigma(sample).standard_error, std::sqrt(49.0 / 3 / 4 / (14.0 / 3)));
 }
 
-TEST(Statistics, OfASampleThatDoesNotScatterAreZero) {
+TEST(Statistics, OfAConstantSampleAreZero) {
   const Eigen::ArrayXd same = Eigen::ArrayXd::Constant(10, 0.25);
   EXPECT_EQ(TwoSigma(same).value, 0);
   EXPECT_EQ(TwoSigma(same).standard_error, 0);
   EXPECT_EQ(Mean(same).standard_error, 0);
 }
 
-// The standard error of a normal sample's standard deviation is sigma / sqrt(2n), its own relative scatter
-// 1 / sqrt(n) and a little.
-TEST(Statistics, OfANormalSampleHaveTheTextbooksStandardErrors) {
+// The standard error of a normal sample's standard deviation is sigma / sqrt(2n). The estimate of that standard error
+// has itself a relative scatter of a little more than 1 / sqrt(n).
+TEST(Statistics, OfANormalSampleHaveTheTextbookStandardErrors) {
   constexpr int kCount = 100000;
   constexpr double kSigma = 3;
   const Eigen::ArrayXd x = kSigma * Normals(kCount, 0) + 7, y = kSigma * Normals(kCount, 1);
@@ -43,14 +43,14 @@ TEST(Statistics, OfANormalSampleHaveTheTextbooksStandardErrors) {
   EXPECT_NEAR(Mean(x).standard_error / (kSigma / std::sqrt(kCount)), 1, 0.02);
   EXPECT_NEAR(TwoSigma(x).value, 2 * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
   EXPECT_NEAR(TwoSigma(x).standard_error / (2 * kSigma / std::sqrt(2.0 * kCount)), 1, 0.02);
-  // Two components of equal variance: twice the variance, and the scatter of that is root 2 of the one's.
+  // Two components of equal variance: the variance doubles, and its scatter is sqrt(2) times that of one component.
   const Eigen::ArrayXd squares = (x - x.mean()).square() + (y - y.mean()).square();
   const Estimate both = TwoSigmaOfSquares(squares, 2 * kSigma * kSigma / kCount);
   EXPECT_NEAR(both.value, 2 * std::sqrt(2.0) * kSigma, 4 * 2 * kSigma / std::sqrt(2.0 * kCount));
   EXPECT_NEAR(both.standard_error / (2 * kSigma / std::sqrt(2.0 * kCount)), 1, 0.02);
 }
 
-TEST(Statistics, OfRepeatedSamplesScatterAsTheirStandardErrorsSay) {
+TEST(Statistics, OfRepeatedSamplesScatterByTheirStandardErrors) {
   constexpr int kRepetitions = 2000, kCount = 500;
   Eigen::ArrayXd of_normal(kRepetitions), of_square(kRepetitions);
   double claimed_of_normal = 0, claimed_of_square = 0;
@@ -62,12 +62,12 @@ TEST(Statistics, OfRepeatedSamplesScatterAsTheirStandardErrorsSay) {
     claimed_of_normal += normal.standard_error / kRepetitions;
     claimed_of_square += square.standard_error / kRepetitions;
   }
-  // The scatter of 2000 values is known to 1.6 %, its third moments to a few per cent more.
+  // The scatter of 2000 values is known to 1.6 %; the skewness of the distributions adds a few per cent.
   EXPECT_NEAR(0.5 * TwoSigma(of_normal).value / claimed_of_normal, 1, 0.05);
   EXPECT_NEAR(0.5 * TwoSigma(of_square).value / claimed_of_square, 1, 0.15);
 }
 
-TEST(Statistics, OfAMultipleOfTheControlAreKnownExactly) {
+TEST(Statistics, OfAMultipleOfTheControlAreExact) {
   const Eigen::ArrayXd c = Normals(100, 0);
   const Control of_squares{c.square(), 1};
   EXPECT_NEAR(TwoSigmaOfSquares(9 * c.square(), 0, of_squares).value, 6, 1e-12);
@@ -76,8 +76,8 @@ TEST(Statistics, OfAMultipleOfTheControlAreKnownExactly) {
   EXPECT_NEAR(Mean(c + 5, Control{c, 0}).standard_error, 0, 1e-12);
 }
 
-// Fewer than 64: fitting would claim too small an error.
-TEST(Statistics, OfFewRealizationsLeaveTheControlAlone) {
+// With fewer than 64 realizations, the fit would make the standard error too small.
+TEST(Statistics, OfFewRealizationsIgnoreTheControl) {
   const Eigen::ArrayXd c = Normals(63, 0), sample = c + 0.1 * Normals(63, 1);
   const Estimate with = TwoSigmaOfSquares(sample.square(), 0, Control{c.square(), 1});
   const Estimate without = TwoSigmaOfSquares(sample.square(), 0);
@@ -85,7 +85,7 @@ TEST(Statistics, OfFewRealizationsLeaveTheControlAlone) {
   EXPECT_EQ(with.standard_error, without.standard_error);
 }
 
-TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
+TEST(Statistics, WithAControlAreUnbiasedAndScatterByTheirStandardErrors) {
   constexpr int kRepetitions = 2000, kCount = 64;
   Eigen::ArrayXd variances(kRepetitions), values(kRepetitions), means(kRepetitions);
   double claimed = 0, claimed_of_mean = 0, claimed_without = 0;
@@ -105,7 +105,8 @@ TEST(Statistics, WithAControlAreUnbiasedAndScatterAsTheirStandardErrorsSay) {
   const double truth = 0.97 * 0.97 + 0.01 + 2 * 0.02 * 0.02;
   EXPECT_NEAR(variances.mean(), truth, 4 * Mean(variances).standard_error);
   EXPECT_NEAR(means.mean(), 0, 4 * Mean(means).standard_error);
-  // 2000 values know their scatter to 1.6 %; 64 realizations their own to 9 % and a little skewed.
+  // The scatter of 2000 values is known to 1.6 %. Each standard error comes from 64 realizations, which know it to 9 %
+  // with a slight skewness.
   EXPECT_NEAR(0.5 * TwoSigma(values).value / claimed, 1, 0.06);
   EXPECT_NEAR(0.5 * TwoSigma(means).value / claimed_of_mean, 1, 0.06);
   EXPECT_LT(claimed, 0.25 * claimed_without);

@@ -20,8 +20,7 @@ Eigen::Matrix2d CovarianceOn(const SurfaceModel& model, const BeamOptions& beam,
   return HeightSlopeProduct(SurfaceCorrelation(model, ReachOfRays(rays, spacing)), spacing).Covariance(beam);
 }
 
-// The points of the grid within the footprint, each with the share of its cell, by a finer sample than the one that
-// is tested.
+// The points of the grid within the footprint and the shares of their cells, from a finer sample than the tested one.
 void PointsWithin(const BeamOptions& beam, double spacing, int reach, std::vector<Eigen::Vector2i>& points,
                   std::vector<double>& shares) {
   constexpr int kSamples = 25;
@@ -47,8 +46,8 @@ void PointsWithin(const BeamOptions& beam, double spacing, int reach, std::vecto
   for (double& share : shares) share /= sum;
 }
 
-// The slow twin: Wick's theorem over all pairs of pairs of points, as products of matrices, and no transform.
-TEST(HeightSlopeProduct, IsTheSumOverAllPairsOfPairsOfPoints) {
+// The slow twin: Wick's theorem over all pairs of pairs of points, as matrix products without a Fourier transform.
+TEST(HeightSlopeProduct, EqualsTheSumOverAllPairsOfPairsOfPoints) {
   for (const BeamOptions& beam :
        {BeamOptions{.footprint = 1}, BeamOptions{.incidence = 0.6, .azimuth = 0.7, .footprint = 3}}) {
     const SurfaceModel model(SeaState(6, 2e4), beam,
@@ -92,21 +91,21 @@ TEST(HeightSlopeProduct, IsTheSumOverAllPairsOfPairsOfPoints) {
 }
 
 // A footprint narrower than most waves, and one as wide as they are long.
-TEST(HeightSlopeProduct, IsHowManySurfacesScatter) {
+TEST(HeightSlopeProduct, IsTheCovarianceOverManySurfaces) {
   constexpr int kSurfaces = 4000, kRays = 2000;
   const SeaState sea(8, std::numeric_limits<double>::infinity());
   for (const double footprint : {0.3, 4.0}) {
     const BeamOptions options{.incidence = 0.3, .azimuth = 0.6, .footprint = footprint};
     const std::vector<Ray> rays = Beam(options, kRays).Rays(0);
     const SurfaceModel model(sea, options, {.patch_per_beam = 3, .points_per_footprint = 32, .rays = kRays});
-    const Beam vertical({.footprint = footprint}, 1);  // meets the waves without a preference
+    const Beam vertical({.footprint = footprint}, 1);  // meets all sides of the waves equally often
     Eigen::ArrayX3d squares(kSurfaces, 3);
     for (int i = 0; i < kSurfaces; ++i) {
-      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
+      const HeightField surface = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
       double height = 0;
       Eigen::Vector2d slope = Eigen::Vector2d::Zero(), product = Eigen::Vector2d::Zero();
       for (const Ray& ray : rays) {
-        const HeightField::Facet facet = window.FacetAt(ray.at_zero);
+        const HeightField::Facet facet = surface.FacetAt(ray.at_zero);
         height += facet.HeightAt(ray.at_zero) / kRays;
         slope += facet.slope / kRays;
         product += facet.HeightAt(ray.at_zero) * facet.slope / kRays;
@@ -118,7 +117,7 @@ TEST(HeightSlopeProduct, IsHowManySurfacesScatter) {
     const std::array<double, 3> elements = {expected(0, 0), expected(0, 1), expected(1, 1)};
     for (int e = 0; e < 3; ++e) {
       const Estimate mean = Mean(squares.col(e));
-      // Rays, being a sample, see a little more than the footprint does.
+      // The rays only sample the footprint, which adds a little aliased variance.
       const double aliased = e == 1 ? 0 : 0.01 * elements[e];
       EXPECT_NEAR(mean.value, elements[e], 4 * mean.standard_error + aliased) << footprint << ' ' << e;
     }

@@ -70,9 +70,9 @@ TEST(MonteCarlo, DependsOnSeedAndCell) {
   EXPECT_NE(refraction(1, 1), refraction(1, 2));
 }
 
-// The mean path is longer than the depth by half of g^2 times the mean square slope, whatever the waves'
-// length: what the grid holds and what it does not add up. The next order is some mss of that.
-TEST(MonteCarlo, FindsTheBottomTooDeepAtNadirByTheSecondOrderOfSlope) {
+// The mean path exceeds the depth by half of g^2 times the mean square slope (mss), whatever the wavelength: the waves
+// on the grid and the unresolved ones add up. The next order is about mss times that.
+TEST(MonteCarlo, FindsTheSecondOrderBiasOfTheBottomAtNadir) {
   const SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
   const SeaCaseResult result = Simulate(sea_case, Exactly(2000), 1, 0);
   const double g = 1 - 1 / kRefractiveIndex;
@@ -82,7 +82,7 @@ TEST(MonteCarlo, FindsTheBottomTooDeepAtNadirByTheSecondOrderOfSlope) {
   EXPECT_NEAR(bias.value, expected, 3 * bias.standard_error - mss * expected);
 }
 
-TEST(MonteCarlo, IsAlikeInEveryQuadrantOfTheAzimuth) {
+TEST(MonteCarlo, AgreesBetweenTheQuadrantsOfTheAzimuth) {
   const auto at = [](double azimuth, std::uint32_t cell) {
     return Simulate(ModerateSea({{.incidence = 0.35, .azimuth = azimuth * kDegree, .footprint = 0.25}}),
                     Exactly(1500), 1, cell)
@@ -100,17 +100,17 @@ TEST(MonteCarlo, IsAlikeInEveryQuadrantOfTheAzimuth) {
   }
 }
 
-// THU at depth is the refraction times the depth: both count the same tangents.
-TEST(MonteCarlo, TurnsRefractionIntoHorizontalUncertainty) {
+// At great depth, THU is the refraction times the depth: both come from the same tangents.
+TEST(MonteCarlo, HasAHorizontalUncertaintyOfRefractionTimesDepth) {
   SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
   sea_case.depths = {100};
   const BeamUncertainty beam = Simulate(sea_case, Exactly(500), 1, 0).beams[0];
   const double both = std::hypot(beam.refraction_along_wind.value, beam.refraction_cross_wind.value);
-  EXPECT_NEAR(beam.thu[0].value / 100 / both, 1, 0.003);  // tan for the angle, and waves within the footprint
+  EXPECT_NEAR(beam.thu[0].value / 100 / both, 1,
+              0.003);  // tangent against angle, and heights in the footprint
 }
 
-// The same surfaces, with and without what is known of their mean slopes.
-TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
+TEST(MonteCarlo, WithControlVariatesAgreesWithTracingAlone) {
   const SeaCase sea_case =
       ModerateSea({{.footprint = 0.25}, {.incidence = 0.35, .azimuth = 0.5, .footprint = 0.25}});
   Effort effort = Exactly(1000);
@@ -133,7 +133,7 @@ TEST(MonteCarlo, WithAControlVariateAgreesWithTracingAlone) {
   }
 }
 
-TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
+TEST(MonteCarlo, ContinuesUntilTheStandardErrorIsSmallEnough) {
   const SeaCase sea_case = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
   const SeaCaseResult result = Simulate(sea_case,
                                         {.realizations = 50,
@@ -149,7 +149,7 @@ TEST(MonteCarlo, GoesOnUntilTheErrorIsSmallEnough) {
   EXPECT_LE(result.beams[0].thu[1].standard_error, 0.03 * result.beams[0].thu[1].value);
 }
 
-TEST(MonteCarlo, SaysWhenTheErrorIsNotSmallEnough) {
+TEST(MonteCarlo, ReportsAStandardErrorThatIsNotSmallEnough) {
   const SeaCase sea_case = ModerateSea({{.incidence = 0.35, .footprint = 0.25}});
   const SeaCaseResult result =
       Simulate(sea_case, {.realizations = 50, .most_realizations = 320, .relative_error = 1e-5}, 1, 0);
@@ -164,11 +164,11 @@ TEST(MonteCarlo, TracesThePointSourceOfTheLaboratory) {
   survey.sea.waves = laboratory.sea.waves;
   const BeamUncertainty diverging = Simulate(laboratory, Exactly(1500), 1, 0).beams[0];
   const BeamUncertainty collimated = Simulate(survey, Exactly(1500), 1, 1).beams[0];
-  // The mean direction answers to the mean slope alike; a divergence of 0.03 rad changes it in second order.
+  // The mean direction has the same response to the mean slope; the divergence of 0.03 rad is a second-order effect.
   ExpectWithinErrors(diverging.refraction_along_wind, collimated.refraction_along_wind);
 }
 
-TEST(MonteCarlo, RecordsWhatTheSurfaceWas) {
+TEST(MonteCarlo, RecordsTheDiscretization) {
   SeaCase sea_case = ModerateSea({{.footprint = 0.25}});
   sea_case.discretization = Discretization{.patch_per_beam = 3, .points_per_footprint = 20, .rays = 123};
   const SeaCaseResult result = Simulate(sea_case, Exactly(2), 1, 0);

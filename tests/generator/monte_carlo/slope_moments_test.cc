@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "generator/math/forward_fft.h"
+#include "generator/math/fft.h"
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
 #include "generator/surface/sea_surface.h"
@@ -29,8 +29,8 @@ double Form(const Eigen::Vector3d& squares) {
   return kForm(0, 0) * squares[0] + kForm(1, 1) * squares[1] + 2 * kForm(0, 1) * squares[2];
 }
 
-// A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages
-// over many.
+// A footprint narrower than most waves, where squares of slopes are nearly chi-squared, and one that averages over many
+// waves.
 TEST(SlopeMoments, AreThoseOfManySurfaces) {
   constexpr int kSurfaces = 4000;
   const SeaState sea(8, std::numeric_limits<double>::infinity());
@@ -38,16 +38,16 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     const BeamOptions options{.incidence = 0.3, .azimuth = 0.6, .footprint = footprint};
     const std::vector<Ray> rays = Beam(options, 500).Rays(0);
     const SurfaceModel model(sea, options, {.patch_per_beam = 3, .points_per_footprint = 24, .rays = 500});
-    const Beam vertical({.footprint = footprint}, 1);  // meets the waves without a preference
+    const Beam vertical({.footprint = footprint}, 1);  // meets all sides of the waves equally often
     Eigen::ArrayX2d means(kSurfaces, 2);
     Eigen::ArrayXd forms(kSurfaces);
     for (int i = 0; i < kSurfaces; ++i) {
-      const HeightField window = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
+      const HeightField surface = SeaSurface(model, NormalStream(4, 0, i)).SurfaceUnder(vertical).heights;
       Eigen::Vector2d slope = Eigen::Vector2d::Zero();
       Eigen::Vector3d squares = Eigen::Vector3d::Zero();
       for (const Ray& ray : rays) {
-        slope += window.FacetAt(ray.at_zero).slope / static_cast<double>(rays.size());
-        squares += SlopeSquares(window.FacetAt(ray.at_zero).slope) / static_cast<double>(rays.size());
+        slope += surface.FacetAt(ray.at_zero).slope / static_cast<double>(rays.size());
+        squares += SlopeSquares(surface.FacetAt(ray.at_zero).slope) / static_cast<double>(rays.size());
       }
       means.row(i) = slope.transpose().array();
       forms[i] = Form(squares);
@@ -56,7 +56,7 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
     const Eigen::Matrix2d& expected = moments.covariance;
     const Eigen::Matrix2d covariance = means.matrix().transpose() * means.matrix() / kSurfaces;
     for (const int a : {0, 1}) {
-      for (const int b : {0, 1}) {  // of a normal sample, sqrt((v_a v_b + c^2) / n)
+      for (const int b : {0, 1}) {  // the standard error for a normal sample is sqrt((v_a v_b + c^2) / n)
         const double scatter = expected(a, a) * expected(b, b) + std::pow(expected(a, b), 2);
         EXPECT_NEAR(covariance(a, b), expected(a, b), 4 * std::sqrt(scatter / kSurfaces)) << footprint;
       }
@@ -68,7 +68,7 @@ TEST(SlopeMoments, AreThoseOfManySurfaces) {
   }
 }
 
-// The slope of the facet over which a ray crosses z = 0, along x and y, as weights of the heights of the window.
+// The slope, along x and y, of the facet where a ray crosses z = 0, as weights of the heights of the local surface.
 std::array<Eigen::MatrixXd, 2> FacetSlope(const SurfaceModel& model, const Ray& ray) {
   const int points = model.local_points();
   const double spacing = model.patch().spacing();
@@ -83,8 +83,8 @@ std::array<Eigen::MatrixXd, 2> FacetSlope(const SurfaceModel& model, const Ray& 
   return weights;
 }
 
-// The covariance of two linear functionals of the heights of the window, each the sum of its weights (ix the row)
-// times the heights, from the modes of the patch and from the plane waves as the window interpolates them.
+// The covariance of two linear functionals of the local surface, each a sum of weights (ix is the row) times heights,
+// from the modes of the patch and from the plane waves as they are interpolated.
 double Covariance(const SurfaceModel& model, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const int size = model.patch().size();
   const auto of_patch = [&](const Eigen::MatrixXd& weights) {
@@ -114,9 +114,9 @@ double Covariance(const SurfaceModel& model, const Eigen::MatrixXd& a, const Eig
   return sum;
 }
 
-// The slow twin: the covariance of the slopes of every pair of rays, from modes and from plane waves as the window
-// interpolates them. That interpolation is all that is between the two.
-TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
+// The slow twin: the covariance of the slopes of every pair of rays. The two differ only by the interpolation of the
+// plane waves.
+TEST(SlopeMoments, EqualTheSumsOverAllPairsOfRays) {
   struct Case {
     double wind_speed, fetch;
     BeamOptions beam;
@@ -150,8 +150,8 @@ TEST(SlopeMoments, AreTheSumsOverAllPairsOfRays) {
   }
 }
 
-// A sum over lags and a sum over waves; facets and plane waves are the same.
-TEST(SlopeMoments, OfAFootprintAreThoseOfItsFilteredWaves) {
+// The test compares a sum over lags with a sum over waves, on the same facets and plane waves.
+TEST(SlopeMoments, OfAFootprintAreThoseOfTheFilteredWaves) {
   const SeaState sea(6, 2e4);
   for (const BeamOptions& options :
        {BeamOptions{.footprint = 0.3}, BeamOptions{.incidence = 0.4, .azimuth = 0.7, .footprint = 1.5},

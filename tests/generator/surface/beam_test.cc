@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(, BeamOfProfile, testing::Values(BeamProfile::kUniform,
                            return param.param == BeamProfile::kUniform ? "Uniform" : "Gaussian";
                          });
 
-TEST_P(BeamOfProfile, HoldsTheRightPowerWithinEveryRadius) {
+TEST_P(BeamOfProfile, HasThePowerOfItsProfileWithinEveryRadius) {
   constexpr double kFootprint = 0.6;
   const Beam beam({.footprint = kFootprint, .profile = GetParam()}, kRays);
   for (const double radius : {0.05, 0.15, 0.25, 0.299}) {
@@ -44,15 +44,15 @@ TEST_P(BeamOfProfile, HoldsTheRightPowerWithinEveryRadius) {
   }
 }
 
-// A disc and a gaussian of the same D have the same variance, D^2/16 an axis. The spiral is even to the
+// A disc and a gaussian of the same D have the same variance, D^2/16 along each axis. The spiral is uniform down to the
 // spacing of its rays, 1/sqrt(rays) of the footprint.
-TEST_P(BeamOfProfile, HasASixteenthOfItsSquaredDiameterAsVariance) {
+TEST_P(BeamOfProfile, HasTheVarianceOfASixteenthOfItsSquaredDiameter) {
   const Spread spread = SpreadOf(Beam({.footprint = 0.6, .profile = GetParam()}, kRays));
   EXPECT_NEAR(spread.along / (0.36 / 16), 1, 1 / std::sqrt(kRays));
   EXPECT_NEAR(spread.across / (0.36 / 16), 1, 1 / std::sqrt(kRays));
 }
 
-TEST_P(BeamOfProfile, IsAnEllipseOnTheWater) {
+TEST_P(BeamOfProfile, HasAnEllipticalFootprintOnTheWater) {
   const double incidence = 40 * kDegree;
   const Spread spread = SpreadOf(
       Beam({.incidence = incidence, .azimuth = 1.1, .footprint = 0.6, .profile = GetParam()}, kRays));
@@ -60,9 +60,9 @@ TEST_P(BeamOfProfile, IsAnEllipseOnTheWater) {
   EXPECT_NEAR(spread.across / (0.36 / 16), 1, 1 / std::sqrt(kRays));
 }
 
-// The rays are a quadrature of the footprint's transform, with the midpoint rule's relative error
-// (kappa spacing)^2 / 24: at most 7e-4 where kappa D is 20.
-TEST_P(BeamOfProfile, HasRaysWhoseTransformIsTheFootprintsPower) {
+// The rays are a quadrature of the footprint's Fourier transform, with the relative error (kappa spacing)^2 / 24 of the
+// midpoint rule: at most 7e-4 where kappa D is 20.
+TEST_P(BeamOfProfile, HasRaysWhoseTransformIsThatOfTheFootprint) {
   const BeamOptions options{
       .incidence = 25 * kDegree, .azimuth = 0.4, .footprint = 0.5, .profile = GetParam()};
   const std::vector<Ray> rays = Beam(options, kRays).Rays(0);
@@ -78,7 +78,7 @@ TEST_P(BeamOfProfile, HasRaysWhoseTransformIsTheFootprintsPower) {
   }
 }
 
-TEST(Beam, WhenCollimatedSendsAllItsRaysTheSameWay) {
+TEST(Beam, HasParallelRaysWhenCollimated) {
   const double incidence = 20 * kDegree, azimuth = 70 * kDegree;
   const Beam beam({.incidence = incidence, .azimuth = azimuth, .footprint = 1}, 50);
   const Eigen::Vector3d expected(std::sin(incidence) * std::cos(azimuth),
@@ -86,7 +86,7 @@ TEST(Beam, WhenCollimatedSendsAllItsRaysTheSameWay) {
   for (const Ray& ray : beam.Rays(3)) EXPECT_LT((ray.direction - expected).norm(), 1e-15);
 }
 
-TEST(Beam, FromAPointSourceSpreadsFromThatPoint) {
+TEST(Beam, DivergesFromItsPointSource) {
   constexpr double kHeight = 4, kElevation = 0.3;
   const double incidence = 15 * kDegree;
   const Beam beam({.incidence = incidence, .azimuth = 0, .footprint = 0.25, .source_height = kHeight}, 200);
@@ -100,7 +100,7 @@ TEST(Beam, FromAPointSourceSpreadsFromThatPoint) {
   }
 }
 
-TEST(Beam, FromAPointSourceNarrowsTowardsIt) {
+TEST(Beam, NarrowsTowardsItsPointSource) {
   const Beam beam({.footprint = 0.25, .source_height = 4}, 1000);
   const auto radius = [&](double elevation) { return beam.Rays(elevation).back().at_zero.norm(); };
   EXPECT_NEAR(radius(0), 0.125, 0.125 / 1000);  // the outermost of 1000 rays of equal power
@@ -113,7 +113,7 @@ TEST(FootprintPower, IsOneForWavesMuchLongerThanTheFootprint) {
   }
 }
 
-TEST(FootprintPower, OfADiscVanishesAtTheFirstZeroOfItsBesselFunction) {
+TEST(FootprintPower, OfADiscVanishesAtTheFirstZeroOfTheBesselFunction) {
   constexpr double kFirstZero = 3.8317059702075125;  // of J1
   EXPECT_NEAR(FootprintPower({.footprint = 0.5}, kFirstZero / 0.25, 0.9), 0, 1e-25);
 }

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
 
-TEST(WidestBeam, IsTheOneOfTheGreatestIncidence) {
+TEST(WidestBeam, HasTheGreatestIncidence) {
   EXPECT_EQ(WidestBeam({{.incidence = 0.1}, {.incidence = 0.4, .azimuth = 1}, {.incidence = 0.2}}).azimuth,
             1);
 }
 
-TEST(Discretization, ServesEveryBeamThatSharesTheSurface) {
+TEST(Discretization, SufficesForEveryBeamOnTheSurface) {
   const SeaState sea(4, 1e3);
   const std::vector<BeamOptions> beams = {{.incidence = 0, .footprint = 1},
                                           {.incidence = 0.44, .azimuth = 0.8, .footprint = 1},
@@ -25,8 +25,8 @@ TEST(Discretization, ServesEveryBeamThatSharesTheSurface) {
   EXPECT_GE(FootprintSlopeFraction(sea, model, beams), 0.99);
 }
 
-// A footprint much wider than the waves averages them down to what is left at its edge, which takes a finer
-// grid and more rays to get right.
+// A footprint much wider than the waves averages them out except near its edge. Resolving the remainder takes a finer
+// grid and more rays.
 TEST(Discretization, IsFinerUnderAFootprintMuchWiderThanTheWaves) {
   const SeaState young(3, 100);
   const Discretization narrow = ChooseDiscretization(young, {{.footprint = 0.1}});

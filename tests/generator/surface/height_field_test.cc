@@ -18,7 +18,7 @@ constexpr int kPoints = 11;
 constexpr double kSpacing = 0.1;
 constexpr double kReach = 0.5;
 
-// Heights that differ from point to point by up to a tenth of the spacing or so.
+// Heights with a standard deviation of a tenth of the spacing.
 std::vector<double> RandomHeights(std::uint32_t realization) {
   std::vector<double> heights(kPoints * kPoints);
   NormalStream(3, 0, realization).Fill(heights);
@@ -30,8 +30,8 @@ Eigen::Vector3d PointOf(const std::vector<double>& heights, int ix, int iy) {
   return {ix * kSpacing - kReach, iy * kSpacing - kReach, heights[ix * kPoints + iy]};
 }
 
-// Where the line through `x0` (at z = 0) and `direction` meets one triangle, by solving for its barycentric
-// coordinates. Edges belong to the triangle.
+// The height at which a ray intersects one triangle, by solving for the barycentric coordinates. Edges belong to the
+// triangle.
 std::optional<double> HeightOnTriangle(const Ray& ray, const std::array<Eigen::Vector3d, 3>& triangle) {
   Eigen::Matrix3d system;
   system << triangle[1] - triangle[0], triangle[2] - triangle[0], -ray.direction;
@@ -42,18 +42,18 @@ std::optional<double> HeightOnTriangle(const Ray& ray, const std::array<Eigen::V
   return at.z() * ray.direction.z();
 }
 
-// The slow, obvious twin of Intersect: every triangle is tried. All meetings, highest first or not.
+// The slow, obvious twin of Intersect: tries every triangle and returns all intersections, in no order.
 std::vector<double> HeightsOnAllTriangles(const Ray& ray, const std::vector<double>& heights) {
-  std::vector<double> meetings;
+  std::vector<double> intersections;
   for (int ix = 0; ix + 1 < kPoints; ++ix) {
     for (int iy = 0; iy + 1 < kPoints; ++iy) {
       const Eigen::Vector3d low = PointOf(heights, ix, iy), high = PointOf(heights, ix + 1, iy + 1);
       for (const Eigen::Vector3d& third : {PointOf(heights, ix + 1, iy), PointOf(heights, ix, iy + 1)}) {
-        if (const auto height = HeightOnTriangle(ray, {low, third, high})) meetings.push_back(*height);
+        if (const auto height = HeightOnTriangle(ray, {low, third, high})) intersections.push_back(*height);
       }
     }
   }
-  return meetings;
+  return intersections;
 }
 
 Ray RayThrough(const Eigen::Vector3d& point, double incidence, double azimuth) {
@@ -64,7 +64,7 @@ Ray RayThrough(const Eigen::Vector3d& point, double incidence, double azimuth) {
   return ray;
 }
 
-TEST(HeightField, CutsEachCellAlongTheDiagonalFromItsLowToItsHighCorner) {
+TEST(HeightField, DividesEachCellAlongTheDiagonalFromItsLowToItsHighCorner) {
   // The cell from (0, 0) to (1, 1) has the corners 1 (low), 2 (along x), 5 (along y) and 9 (high).
   const HeightField surface({0, 0, 0, 0, 1, 5, 0, 2, 9}, 3, 1.0);
   const HeightField::Facet beside_x = surface.FacetAt({0.7, 0.2});
@@ -76,7 +76,7 @@ TEST(HeightField, CutsEachCellAlongTheDiagonalFromItsLowToItsHighCorner) {
   EXPECT_DOUBLE_EQ(beside_x.HeightAt({0.5, 0.5}), beside_y.HeightAt({0.5, 0.5}));
 }
 
-TEST(Intersection, EqualsThatOverAllTriangles) {
+TEST(Intersection, EqualsTheSearchOverAllTriangles) {
   const std::vector<Eigen::Vector2d> spots = {{0.013, 0.021}, {-0.31, 0.17}, {0.402, -0.377}, {-0.05, -0.44}};
   for (std::uint32_t realization = 0; realization < 50; ++realization) {
     const std::vector<double> heights = RandomHeights(realization);
@@ -84,15 +84,15 @@ TEST(Intersection, EqualsThatOverAllTriangles) {
     for (const double incidence : {0.0, 0.35, 0.44, 0.8}) {
       for (const Eigen::Vector2d& spot : spots) {
         const Ray ray = RayThrough({spot.x(), spot.y(), 0}, incidence, 2.0 + realization);
-        const std::vector<double> meetings = HeightsOnAllTriangles(ray, heights);
-        ASSERT_FALSE(meetings.empty());
-        for (const double meeting : meetings) EXPECT_NEAR(Intersect(surface, ray).height, meeting, 1e-12);
+        const std::vector<double> expected = HeightsOnAllTriangles(ray, heights);
+        ASSERT_FALSE(expected.empty());
+        for (const double height : expected) EXPECT_NEAR(Intersect(surface, ray).height, height, 1e-12);
       }
     }
   }
 }
 
-TEST(Intersection, LosesNoRayThatMeetsAnEdgeOrACorner) {
+TEST(Intersection, IsFoundOnEdgesAndCorners) {
   const std::vector<double> heights = RandomHeights(1);
   const HeightField surface(heights, kPoints, kSpacing);
   for (int ix = 0; ix + 1 < kPoints; ++ix) {
@@ -110,7 +110,7 @@ TEST(Intersection, LosesNoRayThatMeetsAnEdgeOrACorner) {
   }
 }
 
-TEST(Intersection, IsOnTheFacetThatItNames) {
+TEST(Intersection, LiesOnItsFacet) {
   const HeightField surface(RandomHeights(2), kPoints, kSpacing);
   for (double x = -0.3; x < 0.3; x += 0.0137) {
     const Ray ray = RayThrough({x, 0.1, 0}, 0.4, 1.0);
@@ -119,7 +119,7 @@ TEST(Intersection, IsOnTheFacetThatItNames) {
   }
 }
 
-TEST(Intersection, GoesOnBeyondTheEdgesAlongTheOutermostPlanes) {
+TEST(Intersection, BeyondTheEdgesLiesOnTheOutermostPlanes) {
   const Eigen::Vector2d slope(0.3, -0.2);
   std::vector<double> heights(kPoints * kPoints);
   for (int ix = 0; ix < kPoints; ++ix) {

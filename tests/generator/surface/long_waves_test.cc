@@ -23,7 +23,7 @@ double ElevationAt(const LongWaveModel& model, const Eigen::VectorXcd& amplitude
 // Waves longer than a patch of 2 m under 10 m/s.
 LongWaveModel Model() { return LongWaveModel(SeaState(10, kFullyDeveloped), CrossFade(9, 19)); }
 
-TEST(LongWaves, HaveTheVariancesThatThePatchLeavesToThem) {
+TEST(LongWaves, HaveTheVariancesThatThePatchDoesNotHold) {
   for (const double fetch : {1e3, kFullyDeveloped}) {
     const SeaState sea(10, fetch);
     const CrossFade share(9, 19);
@@ -38,13 +38,13 @@ TEST(LongWaves, HaveTheVariancesThatThePatchLeavesToThem) {
     EXPECT_NEAR(model.elevation_variance() / elevation, 1, 1e-3);
     const Eigen::Matrix2d slopes = model.SlopeCovariance(kEverything);
     EXPECT_NEAR(slopes.trace() / slope, 1, 1e-3);
-    // A wave runs along the middle of its sector of 15 degrees; cos(2 psi) averages to sin(15)/(15) there.
+    // A wave runs along the middle of its sector of 15 degrees, where cos(2 psi) averages to sin(15)/(15).
     EXPECT_NEAR(slopes(0, 0) / slopes.trace(), 7.0 / 12, 1e-3);
     EXPECT_NEAR(slopes(0, 1) / slopes.trace(), 0, 1e-9);
   }
 }
 
-TEST(LongWaves, AreDrawnWithTheirVariances) {
+TEST(LongWaves, AreDrawnWithTheVarianceOfTheModel) {
   const LongWaveModel model = Model();
   constexpr int kDraws = 4000;
   double squares = 0;
@@ -55,7 +55,7 @@ TEST(LongWaves, AreDrawnWithTheirVariances) {
   EXPECT_NEAR(squares / model.elevation_variance(), 1, 4 * std::sqrt(2.0 / kDraws));  // of a normal variable
 }
 
-TEST(LongWaves, AboutAnotherOriginAreTheSameWaves) {
+TEST(LongWaves, AreTheSameWavesAboutAnotherOrigin) {
   const LongWaveModel model = Model();
   NormalStream stream(1, 2, 3);
   const Eigen::VectorXcd amplitudes = model.Draw(stream);
@@ -66,7 +66,29 @@ TEST(LongWaves, AboutAnotherOriginAreTheSameWaves) {
   }
 }
 
-TEST(HeightOfIntersection, IsOnTheLongWaves) {
+TEST(LongWaves, SumOnAGridToTheirElevations) {
+  const LongWaveModel model = Model();
+  NormalStream stream(1, 2, 4);
+  const Eigen::VectorXcd amplitudes = model.Draw(stream);
+  const std::vector<double> xs = {-3, 0, 1.5, 40}, ys = {-0.2, 7};
+  const auto phases = [&](const std::vector<double>& places, int axis) {
+    Eigen::MatrixXcd all(places.size(), model.waves().size());
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      for (std::size_t m = 0; m < model.waves().size(); ++m) {
+        all(p, m) = std::polar(1.0, model.waves()[m].wavenumber[axis] * places[p]);
+      }
+    }
+    return all;
+  };
+  const Eigen::MatrixXd sum = SumOfWaves(phases(xs, 0), amplitudes, phases(ys, 1));
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    for (std::size_t j = 0; j < ys.size(); ++j) {
+      EXPECT_NEAR(sum(i, j), ElevationAt(model, amplitudes, {xs[i], ys[j]}), 1e-12);
+    }
+  }
+}
+
+TEST(HeightOfIntersection, IsTheElevationOfTheLongWavesThere) {
   const LongWaveModel model = Model();
   for (int draw = 0; draw < 100; ++draw) {
     NormalStream stream(1, 4, draw);

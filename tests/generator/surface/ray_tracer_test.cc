@@ -33,9 +33,9 @@ HeightField RoughWater(std::uint32_t realization) {
   return HeightField(heights, kPoints, 0.04);
 }
 
-// The centroid of the beam and the mean path at the depth d below the mean of the meetings, ray by ray.
+// The centroid of the beam and the mean path at `depth` below the mean height of the intersections, ray by ray.
 struct Spot {
-  Eigen::Vector2d centroid = Eigen::Vector2d::Zero(), mean_meeting = Eigen::Vector2d::Zero();
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero(), mean_intersection = Eigen::Vector2d::Zero();
   double path = 0;
 };
 Spot SpotByHand(const std::vector<Ray>& rays, const HeightField& surface, double depth) {
@@ -44,18 +44,18 @@ Spot SpotByHand(const std::vector<Ray>& rays, const HeightField& surface, double
   Spot spot;
   for (const Ray& ray : rays) {
     const Hit hit = Intersect(surface, ray);
-    const Eigen::Vector3d meeting =
+    const Eigen::Vector3d intersection =
         (Eigen::Vector3d() << ray.at_zero + hit.height * ray.per_height(), hit.height).finished();
     const Eigen::Vector3d refracted = Refract(ray.direction, NormalOfSlope(hit.facet.slope), kN);
-    const double path = (mean_height - depth - meeting.z()) / refracted.z();
-    spot.centroid += (meeting + path * refracted).head<2>() / rays.size();
-    spot.mean_meeting += meeting.head<2>() / rays.size();
+    const double path = (mean_height - depth - intersection.z()) / refracted.z();
+    spot.centroid += (intersection + path * refracted).head<2>() / rays.size();
+    spot.mean_intersection += intersection.head<2>() / rays.size();
     spot.path += path / rays.size();
   }
   return spot;
 }
 
-TEST(TracedBeam, OnAFlatSurfaceIsStillWaterExactly) {
+TEST(TracedBeam, OnAFlatSurfaceIsRefractedAsByStillWater) {
   for (const double incidence : {0.0, 12.0, 25.0}) {
     const Beam beam({.incidence = incidence * kDegree, .azimuth = 0.5, .footprint = 0.5}, 1000);
     const TracedBeam traced = Trace(beam.Rays(0), Plane({0, 0}), kN);
@@ -80,9 +80,9 @@ TEST(TracedBeam, OnFlatSurfacesHasNoUncertainty) {
   EXPECT_EQ(TwoSigma(secants).value, 0);
 }
 
-// A vertical beam on a plane that rises by alpha to +x: every ray leaves at alpha - asin(sin(alpha) / n) from
-// the vertical, so its path is d / cos of that from every height.
-TEST(TracedBeam, OnATiltedPlaneObeysSnellsLawByHand) {
+// A vertical beam on a plane that rises by alpha to +x: every ray leaves at alpha - asin(sin(alpha) / n) from the
+// vertical, so its path from every height is d over the cosine of that angle.
+TEST(TracedBeam, OnATiltedPlaneObeysSnellsLaw) {
   const double alpha = 10 * kDegree;
   const double deviation = alpha - std::asin(std::sin(alpha) / kN);
   const TracedBeam traced = Trace(Beam({.footprint = 0.5}, 500).Rays(0), Plane({std::tan(alpha), 0}), kN);
@@ -93,9 +93,9 @@ TEST(TracedBeam, OnATiltedPlaneObeysSnellsLawByHand) {
   EXPECT_NEAR(traced.height_tangent.norm(), 0, 1e-15);
 }
 
-// A beam that comes at theta towards +x meets a plane that falls by alpha to +x at theta + alpha from its
-// normal, which leans to +x by alpha.
-TEST(TracedBeam, OnAPlaneTiltedInThePlaneOfIncidenceObeysSnellsLawByHand) {
+// The plane falls by alpha to +x, so its normal leans to +x by alpha. A beam incident at theta towards +x arrives at
+// theta + alpha from that normal.
+TEST(TracedBeam, OnAPlaneTiltedInThePlaneOfIncidenceObeysSnellsLaw) {
   const double theta = 20 * kDegree, alpha = 6 * kDegree;
   const TracedBeam traced =
       Trace(Beam({.incidence = theta, .footprint = 0.5}, 500).Rays(0), Plane({-std::tan(alpha), 0}), kN);
@@ -104,7 +104,7 @@ TEST(TracedBeam, OnAPlaneTiltedInThePlaneOfIncidenceObeysSnellsLawByHand) {
   EXPECT_NEAR(traced.secant, 1 / std::cos(refracted), kRounding);
 }
 
-TEST(TracedBeam, IsLinearInDepthExactly) {
+TEST(TracedBeam, IsExactlyLinearInDepth) {
   const Beam beam({.incidence = 0.35, .azimuth = 0.8, .footprint = 0.6}, 300);
   const std::vector<Ray> rays = beam.Rays(0);
   for (std::uint32_t realization = 0; realization < 5; ++realization) {
@@ -112,14 +112,14 @@ TEST(TracedBeam, IsLinearInDepthExactly) {
     const TracedBeam traced = Trace(rays, surface, kN);
     for (const double depth : {0.5, 3.0, 40.0}) {
       const Spot spot = SpotByHand(rays, surface, depth);
-      EXPECT_LT((spot.mean_meeting + traced.height_tangent + depth * traced.tangent - spot.centroid).norm(),
-                1e-12);
+      const Eigen::Vector2d shift = traced.height_tangent + depth * traced.tangent;
+      EXPECT_LT((spot.mean_intersection + shift - spot.centroid).norm(), 1e-12);
       EXPECT_NEAR(traced.height_secant + depth * traced.secant, spot.path, 1e-12);
     }
   }
 }
 
-TEST(TracedBeam, TakesTheUnresolvedWavesAtItsMeanSlope) {
+TEST(TracedBeam, AddsTheUnresolvedWavesAtItsMeanSlope) {
   UnresolvedWaves unresolved;
   unresolved.offset << 1, 2, 3;
   unresolved.gain << 10, 0, 0, 20, 30, 40;

@@ -21,7 +21,7 @@ struct SeaAndBeam {
   BeamOptions beam;
 };
 
-// Footprints under, among and above the waves' lengths; short and unlimited fetch.
+// Footprints narrower than, comparable to and wider than the waves; short and unlimited fetch.
 const std::vector<SeaAndBeam> kCases = {
     {2, kFullyDeveloped, {.footprint = 0.25}},
     {2, 1e3, {.incidence = 0.35, .footprint = 1}},
@@ -32,7 +32,7 @@ const std::vector<SeaAndBeam> kCases = {
     {15, kFullyDeveloped, {.incidence = 0.436, .azimuth = 1.57, .footprint = 5}},
 };
 
-TEST(SurfaceModel, ShowsTheFootprintTheSlopeVarianceOfTheClosedForm) {
+TEST(SurfaceModel, HasTheSlopeVarianceOfTheClosedFormOverTheFootprint) {
   for (const SeaAndBeam& c : kCases) {
     const SeaState sea(c.wind_speed, c.fetch);
     const SurfaceModel model(sea, c.beam, ChooseDiscretization(sea, {c.beam}));
@@ -43,7 +43,8 @@ TEST(SurfaceModel, ShowsTheFootprintTheSlopeVarianceOfTheClosedForm) {
   }
 }
 
-// Nothing is lost where plane waves pass into modes of the patch; what the grid cannot hold has no height.
+// Nothing is lost in the transition from plane waves to modes of the patch, and waves below the grid have next to no
+// height.
 TEST(SurfaceModel, HasTheElevationVarianceOfTheSea) {
   for (const SeaAndBeam& c : kCases) {
     const SeaState sea(c.wind_speed, c.fetch);
@@ -53,8 +54,8 @@ TEST(SurfaceModel, HasTheElevationVarianceOfTheSea) {
   }
 }
 
-// Steep beams over rough water have windows wider than a patch of 2.5 beams.
-TEST(SurfaceModel, HoldsTheWindowInItsPatch) {
+// At great incidences over rough water, the local surface is wider than 2.5 beams.
+TEST(SurfaceModel, HasAPatchWiderThanTheLocalSurface) {
   for (const double incidence : {0.0, 0.5, 1.047}) {
     for (const BeamProfile profile : {BeamProfile::kUniform, BeamProfile::kGaussian}) {
       const BeamOptions widest{.incidence = incidence, .footprint = 0.1, .profile = profile};
@@ -72,9 +73,9 @@ class ModerateSea : public testing::Test {
   const SurfaceModel model_{sea_, options_, {.patch_per_beam = 4, .points_per_footprint = 32, .rays = 1}};
 };
 
-// The plane waves are interpolated from nodes, 84 to the side of the patch; there Lagrange's cubic errs by at
-// most 3/128 of the fourth difference along one axis, and 5/4 of that along the other.
-TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
+// The plane waves are interpolated from nodes, 84 along the side of the patch. Lagrange's cubic errs by at most 3/128
+// of the fourth difference along one axis, and by 5/4 of that along the other.
+TEST_F(ModerateSea, IsTheSumOfThePatchAndThePlaneWavesAtEveryPoint) {
   const int size = model_.patch().size();
   const auto& waves = model_.long_waves().waves();
   const double node_spacing = static_cast<double>(std::lround(size / 84.0)) * model_.patch().spacing();
@@ -94,49 +95,49 @@ TEST_F(ModerateSea, IsThePatchAndThePlaneWavesAtEveryPoint) {
       bound += std::abs(amplitudes[m]) * 3.0 / 128 * (std::pow(phase.x(), 4) + 1.25 * std::pow(phase.y(), 4));
     }
 
-    const SeaSurface::LocalSurface window =
+    const SeaSurface::LocalSurface local =
         SeaSurface(model_, NormalStream(1, 0, realization)).SurfaceUnder(beam);
-    EXPECT_NEAR(window.elevation, elevation, 1e-12);
-    const int half = static_cast<int>(std::lround(window.heights.reach() / window.heights.spacing()));
+    EXPECT_NEAR(local.elevation, elevation, 1e-12);
+    const int half = static_cast<int>(std::lround(local.heights.reach() / local.heights.spacing()));
     for (int i = -half; i <= half; ++i) {
       for (int j = -half; j <= half; ++j) {
-        const Eigen::Vector2d x = Eigen::Vector2d(i, j) * window.heights.spacing();
+        const Eigen::Vector2d x = Eigen::Vector2d(i, j) * local.heights.spacing();
         double direct = -elevation;
         for (std::size_t m = 0; m < waves.size(); ++m) {
           direct += (amplitudes[m] * std::polar(1.0, waves[m].wavenumber.dot(origin + x))).real();
         }
         const double long_waves =
-            window.heights.FacetAt(x).HeightAt(x) - patch[((i + size) % size) * size + (j + size) % size];
+            local.heights.FacetAt(x).HeightAt(x) - patch[((i + size) % size) * size + (j + size) % size];
         ASSERT_NEAR(long_waves, direct, bound) << i << ", " << j;
         squares += std::pow(long_waves - direct, 2);
         ++count;
       }
     }
   }
-  // In the mean, against the waves that the plane waves share with the patch.
+  // The root mean square error, compared with the heights of the waves in the patch.
   EXPECT_LT(std::sqrt(squares / count), 0.003 * std::sqrt(model_.patch().elevation_variance()));
 }
 
-TEST_F(ModerateSea, ReachesBeyondTheRaysOfItsBeam) {
+TEST_F(ModerateSea, ExtendsBeyondTheRaysOfItsBeam) {
   const Beam beam(options_, 1000);
-  const SeaSurface::LocalSurface window = SeaSurface(model_, NormalStream(1, 0, 0)).SurfaceUnder(beam);
-  for (const Ray& ray : beam.Rays(window.elevation)) {
-    const Hit hit = Intersect(window.heights, ray);
-    EXPECT_LT((ray.at_zero + hit.height * ray.per_height()).cwiseAbs().maxCoeff(), window.heights.reach());
+  const SeaSurface::LocalSurface local = SeaSurface(model_, NormalStream(1, 0, 0)).SurfaceUnder(beam);
+  for (const Ray& ray : beam.Rays(local.elevation)) {
+    const Hit hit = Intersect(local.heights, ray);
+    EXPECT_LT((ray.at_zero + hit.height * ray.per_height()).cwiseAbs().maxCoeff(), local.heights.reach());
   }
 }
 
-// Elevation and slope of one facet at the centre of a vertical beam are normal variables: their variances
-// over n draws have the relative standard error sqrt(2/n).
+// Elevation and slope of one facet at the centre of a vertical beam are normal variables. Their variances over n draws
+// have the relative standard error sqrt(2/n).
 TEST_F(ModerateSea, HasTheVariancesOfTheSpectrum) {
   constexpr int kDraws = 4000;
   const Beam nadir({.footprint = options_.footprint}, 1);
   double elevation = 0;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   for (int draw = 0; draw < kDraws; ++draw) {
-    const SeaSurface::LocalSurface window = SeaSurface(model_, NormalStream(2, 0, draw)).SurfaceUnder(nadir);
-    const HeightField::Facet facet = window.heights.FacetAt({0, 0});
-    elevation += std::pow(window.elevation + facet.HeightAt({0, 0}), 2) / kDraws;
+    const SeaSurface::LocalSurface local = SeaSurface(model_, NormalStream(2, 0, draw)).SurfaceUnder(nadir);
+    const HeightField::Facet facet = local.heights.FacetAt({0, 0});
+    elevation += std::pow(local.elevation + facet.HeightAt({0, 0}), 2) / kDraws;
     slope += facet.slope.cwiseAbs2() / kDraws;
   }
   const double four_standard_errors = 4 * std::sqrt(2.0 / kDraws);

@@ -16,11 +16,25 @@ const auto kEverything = [](double, double) { return 1.0; };
 
 SeaState Sea() { return SeaState(5, std::numeric_limits<double>::infinity()); }
 
-// The share of a patch alone: everything that its lattice can hold.
+// Gives the patch all waves that its lattice can hold.
 CrossFade AllPatch() { return CrossFade(1e-9, 2e-9); }
 
-// The slow twin of Draw: the same normals, two for each mode of the half plane, each row from a part of
-// its own, and the sum over the modes written out.
+TEST(CrossFade, GivesLongWavesToThePlaneWavesAndShortOnesToThePatch) {
+  const CrossFade share(3, 6);
+  EXPECT_EQ(share(0.1), 0);
+  EXPECT_EQ(share(3), 0);
+  EXPECT_EQ(share(6), 1);
+  EXPECT_EQ(share(1000), 1);
+}
+
+TEST(CrossFade, RisesSteadilyThroughOneHalfAtTheGeometricMean) {
+  const CrossFade share(2, 8);
+  EXPECT_NEAR(share(4), 0.5, 1e-15);
+  for (double k = 2; k < 8; k *= 1.05) EXPECT_LT(share(k), share(k * 1.05));
+}
+
+// The slow twin of Draw: the same normals, two for each mode of the half plane, each row from its own part of the
+// stream, and a direct sum over the modes.
 std::vector<double> SlowDraw(const SeaState& sea, double length, int size, const CrossFade& share,
                              const NormalStream& stream) {
   const int half = size / 2 + 1;
@@ -28,9 +42,9 @@ std::vector<double> SlowDraw(const SeaState& sea, double length, int size, const
   const double dk = 2 * kPi / length;
   std::vector<double> heights(static_cast<std::size_t>(size) * size, 0.0);
   for (int i = -size / 2 + 1; i < size / 2; ++i) {
-    stream.Part(i >= 0 ? 2 * i + 1 : -2 * i).Fill(normals);  // each row its own
+    stream.Part(i >= 0 ? 2 * i + 1 : -2 * i).Fill(normals);
     for (int j = 0; j < size / 2; ++j) {
-      if (j == 0 && i <= 0) continue;  // the mean, and mirrors of i > 0
+      if (j == 0 && i <= 0) continue;  // the mean, and the conjugates of i > 0
       const double k = dk * std::hypot(i, j);
       const double power = share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk;
       const std::complex<double> amplitude =
@@ -80,8 +94,8 @@ TEST(WavePatch, DrawsTheSameWavesOnAFinerGrid) {
   }
 }
 
-// 2000 draws: the spatial mean of the squares has a scatter of its own, from which the standard error comes.
-TEST(WavePatch, HasTheVariancesThatItsSpectrumSays) {
+// The standard error comes from the scatter of the spatial means of the squares over 2000 draws.
+TEST(WavePatch, HasTheVariancesOfItsSpectrum) {
   const WavePatchModel model(Sea(), 2.0, 32, AllPatch());
   constexpr int kDraws = 2000;
   const int size = model.size();
@@ -114,7 +128,7 @@ TEST(WavePatch, HasTheVariancesThatItsSpectrumSays) {
   }
 }
 
-// Much longer than its waves and much finer, a patch holds them all: the lattice sum is the integral.
+// A patch much longer than its waves on a grid much finer holds them all: the sum over the lattice is the integral.
 TEST(WavePatch, HoldsTheWholeSeaWhenWideAndFineEnough) {
   const SeaState sea(2, 100);  // peak at 0.3 m
   const double length = 10 * 2 * kPi / sea.spectrum().peak_wavenumber();
@@ -122,7 +136,7 @@ TEST(WavePatch, HoldsTheWholeSeaWhenWideAndFineEnough) {
   EXPECT_NEAR(model.elevation_variance() / ElevationVariance(sea), 1, 0.01);
 }
 
-TEST(WavePatch, ShowsLessSlopeThanItsWavesHave) {
+TEST(WavePatch, HasLessSlopeOnACoarserGrid) {
   const SeaState sea = Sea();
   const WavePatchModel coarse(sea, 2.0, 32, AllPatch()), fine(sea, 2.0, 64, AllPatch());
   const double highest = kPi / coarse.spacing();
@@ -130,7 +144,7 @@ TEST(WavePatch, ShowsLessSlopeThanItsWavesHave) {
   EXPECT_LT(coarse.FacetSlopeCovariance(below).trace(), fine.FacetSlopeCovariance(below).trace());
 }
 
-TEST(WavePatch, LeavesTheLongWavesOut) {
+TEST(WavePatch, LeavesOutTheLongWaves) {
   const WavePatchModel all(Sea(), 2.0, 32, AllPatch()), short_waves(Sea(), 2.0, 32, CrossFade(9, 19));
   EXPECT_LT(short_waves.elevation_variance(), all.elevation_variance());
   const auto short_only = [](double k, double) { return k >= 19 ? 1.0 : 0.0; };

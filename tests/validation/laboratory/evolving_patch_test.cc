@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "generator/surface/cross_fade.h"
 #include "generator/surface/wave_patch.h"
 #include "validation/laboratory/dispersion.h"
 

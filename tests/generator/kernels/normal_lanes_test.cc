@@ -1,4 +1,4 @@
-#include "generator/kernels/float_normals.h"
+#include "generator/kernels/normal_lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kUnit = 0x1p-24;  // half of the last place of 1
+constexpr double kUnit = 0x1p-24;  // half a unit in the last place of 1
 
 std::vector<float> Normals(const NormalStream& stream, int count) {
   std::vector<float> normals(count);
@@ -26,10 +26,10 @@ std::vector<double> DoubleNormals(NormalStream stream, int count) {
   return normals;
 }
 
-class EachFloatNormal : public testing::OnInstructionSet {};
-ALBTPU_ON_EACH_INSTRUCTION_SET(EachFloatNormal);
+class NormalLanes : public testing::OnInstructionSet {};
+ALBTPU_ON_EACH_INSTRUCTION_SET(NormalLanes);
 
-TEST_P(EachFloatNormal, IsThatOfTheDoubleStream) {
+TEST_P(NormalLanes, EqualTheDoubleStreamWithinTheDerivedError) {
   constexpr int kCount = 4000000;
   const NormalStream stream(0x123456789abcdef, 2, 3, 5);
   const std::vector<double> exact = DoubleNormals(stream, kCount);
@@ -43,7 +43,7 @@ TEST_P(EachFloatNormal, IsThatOfTheDoubleStream) {
   EXPECT_LT(worst, 1);
 }
 
-TEST_P(EachFloatNormal, ComesOnlyIfItIsAskedFor) {
+TEST_P(NormalLanes, FillNothingBeyondTheSpan) {
   const NormalStream stream(1, 2, 3);
   const std::vector<float> all = Normals(stream, 100);
   for (int count = 0; count < 100; ++count) {
@@ -54,7 +54,7 @@ TEST_P(EachFloatNormal, ComesOnlyIfItIsAskedFor) {
   }
 }
 
-TEST(FloatNormals, HaveTheMomentsOfTheNormalDistribution) {
+TEST(NormalsInSinglePrecision, HaveTheMomentsOfTheNormalDistribution) {
   constexpr int kCount = 10000000;
   std::array<double, 7> moment = {};
   double greatest = 0;
@@ -70,7 +70,7 @@ TEST(FloatNormals, HaveTheMomentsOfTheNormalDistribution) {
   EXPECT_NEAR(moment[4], 3, 4 * std::sqrt(96.0 / kCount));
   EXPECT_NEAR(moment[5], 0, 4 * std::sqrt(945.0 / kCount));
   EXPECT_NEAR(moment[6], 15, 4 * std::sqrt(10170.0 / kCount));
-  // Some number in 1e7 is beyond 4.8 but for a chance of 1e-7 = exp(-1e7 P), and none can be beyond 6.8.
+  // None of 1e7 numbers exceeds 4.8 with a probability of only 1e-7 = exp(-1e7 P); none can exceed 6.8.
   EXPECT_GT(greatest, 4.8);
   EXPECT_LT(greatest, std::sqrt(2 * 33 * std::log(2)));
 }
