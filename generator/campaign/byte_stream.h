@@ -1,7 +1,7 @@
-// Values as bytes and back, exactly: integers as 64 bits, doubles as they are, little-endian; a count of 64
-// bits before the bytes of a text and the items of a list.
+// Converts values to bytes and back without loss, little-endian: integers with 64 bits, floating-point numbers as
+// doubles. A text and a list begin with their size in 64 bits.
 //
-// A struct takes part by one function that names its fields (unit_content.cc has examples):
+// A struct is supported by a function that names its fields (unit.cc has examples):
 //   template <typename Stream, SameStruct<MyStruct> Self>
 //   void Fields(Stream& stream, Self& self);  // calls stream(self.a, self.b, ...)
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace albtpu {
 
-static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they are in memory");
 
 template <typename Self, typename Struct>
 concept SameStruct = std::same_as<std::remove_const_t<Self>, Struct>;
@@ -63,7 +63,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Reads what a ByteWriter wrote. Bytes that are not enough leave zeros and empty texts and lists.
+// Reads the output of a ByteWriter. When there are too few bytes, the remaining values are zeros, empty texts and empty
+// lists.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -73,7 +74,7 @@ class ByteReader {
     (Read(values), ...);
   }
 
-  // Whether the bytes were enough, and no more than that.
+  // Whether the values took up exactly all bytes.
   bool ReadAll() const { return enough_ && rest_.empty(); }
 
  private:
@@ -87,7 +88,7 @@ class ByteReader {
     return number;
   }
 
-  void Read(std::string_view& text) {  // of the bytes themselves
+  void Read(std::string_view& text) {  // refers to the bytes that are read
     std::uint64_t count = Next<std::uint64_t>();
     if (count > rest_.size()) Short(), count = 0;
     text = rest_.substr(0, count);

@@ -11,10 +11,10 @@
 namespace albtpu {
 namespace {
 
-constexpr std::uint32_t kDraws = 0xffffffff;  // the cell of their random numbers, apart from all others
+constexpr std::uint32_t kCellOfPulses = 0xffffffff;        // of random numbers, used for nothing else
 constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
 
-// `t` from 0 to 1 along an axis, in its scale.
+// The coordinate at the fraction `t` of an axis, in its scale.
 float AlongAxis(const Axis& axis, double t) {
   const double first = axis.nodes().front(), last = axis.nodes().back();
   const double x =
@@ -44,10 +44,11 @@ Estimate ValueOf(const BeamUncertainty& beam, Quantity quantity) {
 }  // namespace
 
 Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
-  std::array<double, kAxisCount + 2> normals;  // a multiple of four
-  NormalStream(campaign.seed, kDraws, static_cast<std::uint32_t>(index)).Fill(normals);
+  std::array<double, kAxisCount + 2> normals;  // rounded up to a multiple of four
+  NormalStream(campaign.seed, kCellOfPulses, static_cast<std::uint32_t>(index)).Fill(normals);
   const auto coordinate = [&](AxisId axis) {
-    const double uniform = 0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));
+    const double uniform =
+        0.5 * std::erfc(-normals[Index(axis)] / std::sqrt(2.0));  // the normal distribution function
     return AlongAxis(campaign.axes[Index(axis)], uniform);
   };
   return {.wind_speed = coordinate(AxisId::kWindSpeed),
@@ -58,8 +59,8 @@ Pulse CheckedPulse(const Campaign& campaign, std::size_t index) {
           .depth = coordinate(AxisId::kDepth)};
 }
 
-std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse) {
-  SeaCase sea_case = SeaCaseOf(campaign, 0);  // for what all have in common
+std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pulse) {
+  SeaCase sea_case = SeaCaseOf(campaign, 0);  // for what all sea cases have in common
   sea_case.sea = SeaOf(campaign, pulse.wind_speed, pulse.fetch);
   sea_case.depths = {pulse.depth};
   const BeamOptions beam{.incidence = RadiansOfDegrees(pulse.incidence),
@@ -67,30 +68,30 @@ std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& puls
                          .footprint = pulse.footprint,
                          .profile = campaign.profile,
                          .source_height = campaign.source_height};
-  // The widest beam of a sea case decides on grid, patch and rays: it comes along, as at the nodes.
+  // The widest beam of a sea case determines grid, patch and rays. It is added here to get those of the nodes.
   BeamOptions widest = beam;
   widest.incidence = RadiansOfDegrees(campaign.nodes(AxisId::kIncidence).back());
   sea_case.beams = {beam, widest};
   const SeaCaseResult result = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
-  std::vector<Estimate> answers;
-  for (const Quantity quantity : kChecked) answers.push_back(ValueOf(result.beams[0], quantity));
-  return answers;
+  std::vector<Estimate> estimates;
+  for (const Quantity quantity : kChecked) estimates.push_back(ValueOf(result.beams[0], quantity));
+  return estimates;
 }
 
 InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
-                                    const std::vector<std::vector<Estimate>>& answers, std::size_t checked) {
+                                    const std::vector<std::vector<Estimate>>& direct, std::size_t checked) {
   const Quantity quantity = kChecked[checked];
   const double least = Describe(quantity).over_depth ? kLeastLength : kLeastAngle;
   InterpolationError summary;
   std::vector<double> errors;  // relative magnitudes
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    const Estimate& direct = answers[i][checked];
-    if (direct.value < least) continue;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const Estimate& expected = direct[i][checked];
+    if (expected.value < least) continue;
     const PulseUncertainty interpolated = Interpolate(table, CheckedPulse(campaign, i));
     assert(interpolated.outcome == Outcome::kInterpolated);
-    errors.push_back(std::abs(interpolated[quantity] / direct.value - 1));
+    errors.push_back(std::abs(interpolated[quantity] / expected.value - 1));
     summary.rms += errors.back() * errors.back();
-    summary.noise += std::pow(direct.standard_error / direct.value, 2);
+    summary.noise += std::pow(expected.standard_error / expected.value, 2);
   }
   if (errors.empty()) return summary;
   const double count = static_cast<double>(errors.size());

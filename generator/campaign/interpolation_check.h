@@ -1,5 +1,4 @@
-// How wrong a table is between its nodes: random pulses, asked of the table and computed at their
-// place.
+// The interpolation error of a table: random pulses, interpolated in the table and computed directly.
 #pragma once
 
 #include <array>
@@ -13,28 +12,30 @@
 
 namespace albtpu {
 
-// The quantities that are checked. Biases are left out: they pass through zero.
+// The quantities that are checked. Biases are left out because they pass through zero, where relative errors have no
+// meaning.
 inline constexpr std::array<Quantity, 4> kChecked = {
     Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu};
 
-// The pulse `index` of a campaign, drawn evenly over its axes (log axes in log).
+// The pulse `index` of a campaign, drawn uniformly over its axes (in the logarithm on logarithmic axes).
 Pulse CheckedPulse(const Campaign& campaign, std::size_t index);
 
-// Its uncertainty as computed at its place, by the random numbers with which all nodes of the table are
-// (table_maker.h): what chance does to the one it does to the others, and what a table that is interpolated
-// differs by is the error of interpolation. As kChecked, in the units of the table. On all threads of the
-// current TBB arena.
-std::vector<Estimate> AnswerDirectly(const Campaign& campaign, const Pulse& pulse);
+// The uncertainty of the pulse, simulated for exactly its coordinates: the quantities of kChecked, in the units of the
+// table. The random numbers are those of the table's nodes (kCellOfTables), so that chance has the same effect here and
+// there, and the difference from the interpolated table is the interpolation error. Runs on all threads of the current
+// TBB arena.
+std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pulse);
 
-// Over many pulses, of one quantity, where it counts: 2 sigma of at least 0.01 degrees or 5 mm. Relative to
-// the direct answers.
+// The error of one quantity, relative to the direct values, over the pulses where 2 sigma is at least 0.01 degrees or
+// 5 mm.
 struct InterpolationError {
-  int pulses = 0;  // that count; the others are zero when none does
+  int pulses = 0;  // above that limit; all members are zero when there are none
   double rms = 0, percentile_99 = 0, greatest = 0;
-  double noise = 0;  // rms standard error of the direct answers; the table's own goes with it
+  double noise =
+      0;  // rms standard error of the direct values; the errors of the table are correlated with it
 };
-// `answers` are those to the pulses 0, 1, ... of the campaign; `checked` is an index in kChecked.
+// `direct` are the direct values at the pulses 0, 1, ... of the campaign; `checked` is an index of kChecked.
 InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
-                                    const std::vector<std::vector<Estimate>>& answers, std::size_t checked);
+                                    const std::vector<std::vector<Estimate>>& direct, std::size_t checked);
 
 }  // namespace albtpu

@@ -7,6 +7,7 @@
 namespace albtpu {
 namespace {
 
+// The nodes in the scale of their axis.
 std::vector<double> Scaled(const Axis& axis) {
   std::vector<double> x = axis.nodes();
   if (axis.scale() == Scale::kLog) {
@@ -15,7 +16,7 @@ std::vector<double> Scaled(const Axis& axis) {
   return x;
 }
 
-// What each of the values at `x` is lowered by.
+// The amount by which to lower each of the values at `x`.
 std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values) {
   const std::size_t last = x.size() - 1;
   std::vector<double> lowering(x.size());  // none at the ends
@@ -35,7 +36,7 @@ void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::ve
   const std::vector<float> exact = values;
   std::size_t stride = values.size();  // from one node of the axis to the next
   for (const AxisId id : kAxes) {
-    if (id == AxisId::kDepth) break;  // the last
+    if (id == AxisId::kDepth) break;  // the last axis
     const Axis& axis = axes[Index(id)];
     const std::size_t nodes = axis.size();
     stride /= nodes;

@@ -1,4 +1,4 @@
-// Node values that make interpolation between nodes as good as it can be.
+// Node values that minimize the error of interpolation between the nodes.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,23 @@
 
 namespace albtpu {
 
-// Linear interpolation of a curved function errs to one side: by h^2 f'' / 8 amid an interval of width h, by
-// nothing at the nodes. Lowering each node by a twelfth of h^2 f'' takes the mean of the error away and spreads
-// the rest over nodes and middles: half as large in the root mean square, at the price of an error of
-// h^2 f'' / 12 at the nodes themselves (quasi-interpolation by linear splines: Blu, Thevenaz and Unser (2004),
-// doi:10.1109/TIP.2004.826093; Condat, Blu and Unser (2005)). Between intervals of different widths, with f'' by
-// three nodes in the scale of the axis,
-//     v_i -= f''_i (h_-^3 + h_+^3) / (12 (h_- + h_+)).
-// The first and the last node of an axis stay as they are: at nadir, along and across the wind and over a fully
-// developed sea more pulses lie than between nodes. One axis after another: all that have three nodes but depth,
-// in which everything is nearly linear. A quantity that is not negative keeps at least half of each value.
+// Linear interpolation of a curved function errs to one side: by h^2 f'' / 8 in the middle of an interval of width h,
+// by nothing at the nodes, by h^2 f'' / 12 in the mean. Lowering each node by h^2 f'' / 12 removes the mean error and
+// spreads the rest over nodes and middles. The root mean square error falls from h^2 f'' / sqrt(120) to h^2 f'' /
+// sqrt(720), to less than half, at the price of an error of h^2 f'' / 12 at the nodes themselves (quasi-interpolation
+// by linear splines: Blu, Thevenaz and Unser (2004), doi:10.1109/TIP.2004.826093; Condat, Blu and Unser (2005)).
 //
-// `values` are of `quantity` over its axes, as in a table.
+// For intervals of different widths h_- and h_+, with f'' from three nodes in the scale of the axis,
+//     v_i -= f''_i (h_-^3 + h_+^3) / (12 (h_- + h_+)).
+// Derivation: the error integrates to h^3 f'' / 12 over an interval. Half of it for each end of the interval, divided
+// by the integral (h_- + h_+) / 2 of the node's linear spline, is the amount above.
+//
+// The first and the last node of an axis keep their values, because more pulses lie exactly there than between nodes:
+// at nadir, along and across the wind, over a fully developed sea. Axes are balanced one after the other: all with at
+// least three nodes except depth, along which everything is nearly linear. A quantity that cannot be negative keeps at
+// least half of each value.
+//
+// `values` are those of `quantity` over its axes, in the layout of a table.
 void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::vector<float>& values);
 
 }  // namespace albtpu

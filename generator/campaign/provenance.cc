@@ -17,7 +17,7 @@
 namespace albtpu {
 namespace {
 
-// The least and the greatest of a number over the sea cases.
+// The least and the greatest value of a number over the sea cases.
 template <typename Number>
 std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaCaseResult::*member) {
   std::vector<double> range = {static_cast<double>(results.front().*member),

@@ -1,4 +1,4 @@
-// What a table made by a campaign says of itself: enough to trust it and to make it again.
+// The provenance of a table: everything needed to judge it and to make it again.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace albtpu {
 
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results);
 
-// Adds how far the table is off between its nodes. `errors` are those of kChecked.
+// Adds the interpolation errors of the table, given for the quantities of kChecked.
 void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance);
 
-// Now, or the time of SOURCE_DATE_EPOCH where it is set, as 2026-01-31T12:00:00Z.
+// The current time, or that of SOURCE_DATE_EPOCH where it is set, as 2026-01-31T12:00:00Z.
 std::string DateCreated();
 
 }  // namespace albtpu

@@ -6,7 +6,6 @@
 #include "generator/campaign/interpolation_check.h"
 #include "generator/campaign/node_balance.h"
 #include "generator/campaign/provenance.h"
-#include "generator/campaign/unit_content.h"
 #include "generator/campaign/unit_work.h"
 #include "generator/math/rounding.h"
 #include "generator/ranks/ranks.h"
@@ -15,7 +14,7 @@
 namespace albtpu {
 namespace {
 
-// Variables of a table while they are filled in, one beam after another.
+// The variables of a table, filled in beam by beam.
 class VariableGrid {
  public:
   explicit VariableGrid(const Campaign& campaign) : campaign_(campaign) {
@@ -26,7 +25,7 @@ class VariableGrid {
     }
   }
 
-  // `beam` counts the beams of the sea case, `depth` the nodes of its axis: 0 for quantities without depth.
+  // `beam` counts the beams of the sea case, `depth` the nodes of the depth axis. It is 0 for quantities without depth.
   void Set(Quantity quantity, std::size_t sea_case, std::size_t beam, std::size_t depth,
            const Estimate& estimate) {
     Variable& variable = *variables_[Index(quantity)];
@@ -81,8 +80,8 @@ bool HasShapeOf(const Campaign& campaign, const SeaCaseResult& result) {
          });
 }
 
-absl::Status OfAnotherShape() {
-  return absl::DataLossError("holds other beams and depths than its campaign has: delete it");
+absl::Status WrongShape() {
+  return absl::DataLossError("does not have the beams and depths of its campaign; delete it");
 }
 
 }  // namespace
@@ -91,8 +90,8 @@ struct TableBuilder::Parts {
   const Campaign& campaign;
   UnitOrigin origin;
   VariableGrid grid;
-  std::vector<SeaCaseResult> results;          // without their beams, which are in the grid
-  std::vector<std::vector<Estimate>> answers;  // to the checked pulses
+  std::vector<SeaCaseResult> results;         // without their beams, which are in the grid
+  std::vector<std::vector<Estimate>> direct;  // values at the checked pulses
 };
 
 TableBuilder::TableBuilder(const Campaign& campaign)
@@ -106,15 +105,15 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
   const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
   if (!content.ok()) return content.status();
   if (unit.kind == UnitKind::kPulse) {
-    absl::StatusOr<std::vector<Estimate>> answers = DecodeAnswers(*content);
-    if (!answers.ok()) return answers.status();
-    if (answers->size() != kChecked.size()) return OfAnotherShape();
-    parts_->answers[unit.index] = *std::move(answers);
+    absl::StatusOr<std::vector<Estimate>> estimates = DecodeEstimates(*content);
+    if (!estimates.ok()) return estimates.status();
+    if (estimates->size() != kChecked.size()) return WrongShape();
+    parts_->direct[unit.index] = *std::move(estimates);
     return absl::OkStatus();
   }
   absl::StatusOr<SeaCaseResult> result = DecodeResult(*content);
   if (!result.ok()) return result.status();
-  if (!HasShapeOf(parts_->campaign, *result)) return OfAnotherShape();
+  if (!HasShapeOf(parts_->campaign, *result)) return WrongShape();
   for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
     Store(result->beams[beam], unit.index, beam, parts_->grid);
   result->beams.clear();
@@ -136,7 +135,7 @@ absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
   if (!table.ok()) return table.status();
   std::vector<InterpolationError> errors;
   for (std::size_t q = 0; q < kChecked.size(); ++q) {
-    errors.push_back(CompareWithTable(campaign, *table, parts_->answers, q));
+    errors.push_back(CompareWithTable(campaign, *table, parts_->direct, q));
   }
   DescribeInterpolationErrors(errors, provenance);
   return UncertaintyTable::Create(campaign.axes, variables, std::move(provenance));
@@ -146,13 +145,13 @@ absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done) {
   TableBuilder builder(campaign);
   std::size_t finished = 0;
-  const absl::Status worked_off = WorkOff(campaign, UnitsOf(campaign), *OneRank(),
-                                          [&](UnitId unit, const std::string& bytes, const std::string&) {
-                                            const absl::Status added = builder.Add(unit, bytes);
-                                            done(++finished);
-                                            return added;
-                                          });
-  if (!worked_off.ok()) return worked_off;
+  const absl::Status computed = ComputeUnits(campaign, UnitsOf(campaign), *OneRank(),
+                                             [&](UnitId unit, const std::string& bytes, const std::string&) {
+                                               const absl::Status added = builder.Add(unit, bytes);
+                                               done(++finished);
+                                               return added;
+                                             });
+  if (!computed.ok()) return computed;
   return builder.Build();
 }
 

@@ -14,20 +14,20 @@
 
 namespace albtpu {
 
-// Puts the units of a campaign together. The table is a function of the campaign and of the date that
-// SOURCE_DATE_EPOCH states, whoever computed the units and in whatever order they come.
+// Builds a table from the units of a campaign. The table is a function of the campaign and of the date in
+// SOURCE_DATE_EPOCH alone; it does not matter who computed the units and in which order they are added.
 class TableBuilder {
  public:
-  explicit TableBuilder(const Campaign& campaign);  // which outlives the builder
+  explicit TableBuilder(const Campaign& campaign);  // must outlive the builder
   ~TableBuilder();
   TableBuilder(const TableBuilder&) = delete;
   TableBuilder& operator=(const TableBuilder&) = delete;
 
-  // Each of UnitsOf(campaign) once, as it was sealed. The error is that of a unit which is damaged or not of
-  // this campaign, program and instruction set (unit.h).
+  // Adds a sealed unit; each of UnitsOf(campaign) is added once. Fails when the unit is damaged or was not made for
+  // this campaign by this program on this instruction set (OpenUnit in unit.h).
   absl::Status Add(UnitId unit, std::string_view bytes);
 
-  // Requires that all are there. To be called once, last.
+  // Requires that all units were added. Call it once.
   absl::StatusOr<UncertaintyTable> Build();
 
  private:
@@ -35,8 +35,8 @@ class TableBuilder {
   std::unique_ptr<Parts> parts_;
 };
 
-// Works off all units of a campaign in this process (unit_work.h); `done` is called, by one at a time, after
-// each with how many are done.
+// Computes all units of a campaign in this process (unit_work.h). After each unit, `done` is called with the number of
+// finished units, by one thread at a time.
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done);
 

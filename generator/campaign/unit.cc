@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -13,11 +14,37 @@
 #include "tables/version.h"
 
 namespace albtpu {
+
+// Each struct is unpacked by name, so that one with a new field does not compile until the field is added here.
+
+template <typename Stream, SameStruct<Estimate> Self>
+void Fields(Stream& stream, Self& self) {
+  auto& [value, standard_error] = self;
+  stream(value, standard_error);
+}
+
+template <typename Stream, SameStruct<BeamUncertainty> Self>
+void Fields(Stream& stream, Self& self) {
+  auto& [refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
+         realizations] = self;
+  stream(refraction_along_wind, refraction_cross_wind, thu, tvu, bias_along_beam, bias_vertical,
+         realizations);
+}
+
+template <typename Stream, SameStruct<SeaCaseResult> Self>
+void Fields(Stream& stream, Self& self) {
+  auto& [beams, realizations, converged, rays, patch_length, spacing, footprint_slope_fraction,
+         resolved_slope_fraction] = self;
+  stream(beams, realizations, converged, rays, patch_length, spacing, footprint_slope_fraction,
+         resolved_slope_fraction);
+}
+
 namespace {
 
+// Not text, so that a transfer in text mode is detected by its changes.
 constexpr std::string_view kMagic =
     "\x89"
-    "ALBUNT\n";  // Not text, and changed by text-mode transfers.
+    "ALBUNT\n";
 constexpr std::uint64_t kFormatVersion = 1;
 constexpr std::size_t kDigestSize = std::tuple_size_v<Sha256Digest>;
 
@@ -37,7 +64,26 @@ Sha256Digest DigestOf(std::string_view bytes) {
   return sha.Finish();
 }
 
-absl::Status Other(const std::string& what) { return absl::FailedPreconditionError(what); }
+template <typename Content>
+std::string Encode(const Content& content) {
+  ByteWriter writer;
+  writer(content);
+  return std::move(writer).Take();
+}
+
+template <typename Content>
+absl::StatusOr<Content> Decode(std::string_view bytes) {
+  ByteReader reader(bytes);
+  Content content;
+  reader(content);
+  if (!reader.ReadAll()) {
+    return absl::DataLossError(
+        "holds other fields than this program computes (made by another build of the same commit); start in "
+        "another "
+        "work folder");
+  }
+  return content;
+}
 
 }  // namespace
 
@@ -55,6 +101,16 @@ UnitOrigin OriginOf(const Campaign& campaign) {
           absl::StrCat(std::string(Version()), " (", std::string(Commit()), ")"), InstructionSet()};
 }
 
+std::string EncodeResult(const SeaCaseResult& result) { return Encode(result); }
+
+absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes) { return Decode<SeaCaseResult>(bytes); }
+
+std::string EncodeEstimates(const std::vector<Estimate>& estimates) { return Encode(estimates); }
+
+absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes) {
+  return Decode<std::vector<Estimate>>(bytes);
+}
+
 std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view content) {
   ByteWriter writer;
   writer(kFormatVersion, origin.campaign, origin.program, origin.instruction_set, KindName(unit.kind),
@@ -67,12 +123,12 @@ std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view con
 
 absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin, std::string_view bytes) {
   if (!bytes.starts_with(kMagic)) {
-    return absl::DataLossError("is not a unit of albtpu-generate: delete it, and --resume computes it");
+    return absl::DataLossError("is not a unit of albtpu-generate; delete it, and --resume computes it");
   }
   const absl::Status damaged = absl::DataLossError(
-      "is damaged or truncated, its bytes do not have the SHA-256 at its end: delete it, and --resume "
-      "computes "
-      "it again");
+      "is damaged or truncated (its bytes do not match the SHA-256 at its end); delete it, and --resume "
+      "computes it "
+      "again");
   if (bytes.size() < kMagic.size() + kDigestSize) return damaged;
   const std::string_view seal = bytes.substr(bytes.size() - kDigestSize);
   bytes.remove_suffix(kDigestSize);
@@ -84,28 +140,31 @@ absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin,
   std::string_view campaign, program, instruction_set, kind, content;
   reader(version);
   if (version != kFormatVersion) {
-    return Other(absl::StrCat("is a unit of format ", version, ", this program reads format ", kFormatVersion,
-                              ": finish with the program that began"));
+    return absl::FailedPreconditionError(absl::StrCat("is a unit of format ", version,
+                                                      " (this program reads format ", kFormatVersion,
+                                                      "); finish with the program that began"));
   }
   reader(campaign, program, instruction_set, kind, index, content);
   if (!reader.ReadAll()) return damaged;
   if (campaign != origin.campaign) {
-    return Other(absl::StrCat("is of another campaign, of SHA-256 ", std::string(campaign.substr(0, 12)),
-                              "..., this one is ", origin.campaign.substr(0, 12),
-                              "...: give each campaign a work folder of its own"));
+    return absl::FailedPreconditionError(absl::StrCat(
+        "is of another campaign (SHA-256 ", std::string(campaign.substr(0, 12)), "..., this one has ",
+        origin.campaign.substr(0, 12), "...); give each campaign its own work folder"));
   }
   if (program != origin.program) {
-    return Other(absl::StrCat("was computed by albtpu-generate ", std::string(program), ", this is ",
-                              origin.program, ": finish with that program, or begin in another work folder"));
+    return absl::FailedPreconditionError(
+        absl::StrCat("was computed by albtpu-generate ", std::string(program), ", this is ", origin.program,
+                     "; finish with that program, or start in another work folder"));
   }
   if (instruction_set != origin.instruction_set) {
-    return Other(absl::StrCat("was computed on a machine of instruction set ", std::string(instruction_set),
-                              ", this one has ", origin.instruction_set,
-                              ": go on with machines of one kind, or begin in another work folder"));
+    return absl::FailedPreconditionError(absl::StrCat(
+        "was computed on a machine of instruction set ", std::string(instruction_set), ", this one has ",
+        origin.instruction_set, "; continue on machines of one kind, or start in another work folder"));
   }
   if (kind != KindName(unit.kind) || index != unit.index) {
-    return Other(absl::StrCat("holds the unit ", std::string(kind), " ", index,
-                              ": a unit's file keeps the name that it was given"));
+    return absl::FailedPreconditionError(
+        absl::StrCat("holds the unit ", std::string(kind), " ", index,
+                     " (the file was renamed or copied); a unit needs the name that it was written with"));
   }
   return content;
 }

@@ -1,6 +1,5 @@
-// A unit of work: what can be computed alone, anywhere, and is whole or not there. Its result is sealed
-// bytes, in memory, between ranks and on disk alike, so that every way to a table goes through the same
-// numbers.
+// A unit of work: the smallest part of a campaign, computed independently of all others. Its result is a sealed string
+// of bytes, the same in memory, between ranks and on disk, so that a table has the same numbers however it is computed.
 #pragma once
 
 #include <compare>
@@ -11,12 +10,14 @@
 
 #include "absl/status/statusor.h"
 #include "generator/campaign/campaign.h"
+#include "generator/math/statistics.h"
+#include "generator/monte_carlo/monte_carlo.h"
 
 namespace albtpu {
 
 enum class UnitKind {
   kSeaCase,  // `index` counts the sea cases of the campaign
-  kPulse,    // `index` counts the pulses that the table is held to (interpolation_check.h)
+  kPulse,    // `index` counts the pulses at which the table is checked (interpolation_check.h)
 };
 
 struct UnitId {
@@ -26,28 +27,36 @@ struct UnitId {
   auto operator<=>(const UnitId&) const = default;
 };
 
-std::string Name(UnitId unit);  // "encounter-00012"
+std::string Name(UnitId unit);  // "encounter-00012", "pulse-00003"
 
-// All units of a campaign, in the order in which they are worked off.
+// All units of a campaign, in the order in which they are computed.
 std::vector<UnitId> UnitsOf(const Campaign& campaign);
 
-// What a unit's last bit depends on: units of one table have one origin.
+// Everything on which the last bit of a unit depends. All units of a table have the same origin.
 struct UnitOrigin {
   std::string campaign;  // SHA-256 of its text, in hexadecimal digits
   std::string program;   // version and commit
   std::string instruction_set;
 };
-UnitOrigin OriginOf(const Campaign& campaign);  // worked off by this program on this machine
+UnitOrigin OriginOf(const Campaign& campaign);  // when computed by this program on this machine
 
-// The bytes of a unit. Integers are little-endian and of 64 bits, a text is the count of its bytes and its
-// bytes:
-//   8 bytes magic, integer format version, text campaign, program, instruction set, kind, integer index,
-//   text content, 32 bytes SHA-256 of all before.
+// Results as bytes, with every number exactly as it was computed. Decoding fails with DataLoss when the bytes are not a
+// result in the format of this program.
+std::string EncodeResult(const SeaCaseResult& result);
+absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes);
+
+// The same for the result of ComputeDirectly (interpolation_check.h).
+std::string EncodeEstimates(const std::vector<Estimate>& estimates);
+absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes);
+
+// The bytes of a unit. Integers are little-endian with 64 bits; a text is its number of bytes, then the bytes:
+//   8 bytes magic, integer format version, text campaign, text program, text instruction set, text kind,
+//   integer index, text content, 32 bytes SHA-256 of everything before.
 std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view content);
 
-// The content of a sealed unit, a part of `bytes`. DataLoss: foreign or damaged. FailedPrecondition: of
-// another format, campaign, program, instruction set, or another unit than `unit`. Messages say what is wrong
-// and what would be right, as after the name of a file and a colon.
+// The content of a sealed unit, a part of `bytes`. DataLoss: not a unit, or damaged. FailedPrecondition: of another
+// format, campaign, program or instruction set, or a unit other than `unit`. Messages continue the name of a file and a
+// colon: they say what is wrong and what to do.
 absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin, std::string_view bytes);
 
 }  // namespace albtpu

@@ -17,17 +17,16 @@
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/byte_stream.h"
 #include "generator/campaign/interpolation_check.h"
-#include "generator/campaign/unit_content.h"
 
 namespace albtpu {
 namespace {
 
 enum Tag {
-  kCampaign,   // from rank 0, first: the text
-  kAsk,        // to rank 0: for a unit
-  kAssign,     // from rank 0, the answer: a unit, or nothing: there are no more
-  kUnit,       // to rank 0: a unit and its bytes
-  kNoMore,     // to rank 0: all that was computed has been sent
+  kCampaign,   // from rank 0, first: the text of the campaign
+  kAsk,        // to rank 0: asks for a unit
+  kAssign,     // from rank 0, in reply: a unit, or nothing when there are no more
+  kUnit,       // to rank 0: a computed unit and its bytes
+  kNoMore,     // to rank 0: all computed units have been sent
   kDismissed,  // from rank 0, last
 };
 
@@ -54,13 +53,13 @@ std::string Compute(const Campaign& campaign, const UnitOrigin& origin, UnitId u
                                             kCellOfTables)));
     case UnitKind::kPulse:
       return SealUnit(unit, origin,
-                      EncodeAnswers(AnswerDirectly(campaign, CheckedPulse(campaign, unit.index))));
+                      EncodeEstimates(ComputeDirectly(campaign, CheckedPulse(campaign, unit.index))));
   }
-  std::abort();  // every kind has its case
+  std::abort();  // not reached: the switch has all kinds
 }
 
-// Each thread asks `next` for a unit, computes it, and gives it to `done`, until there is none. Both are
-// called by many threads at once.
+// On each thread, gets a unit from `next`, computes it and passes it to `done`, until there are no more. Both functions
+// are called by many threads at once.
 void ComputeAll(const Campaign& campaign, const std::function<std::optional<UnitId>()>& next,
                 const std::function<void(UnitId, std::string)>& done) {
   const UnitOrigin origin = OriginOf(campaign);
@@ -71,11 +70,11 @@ void ComputeAll(const Campaign& campaign, const std::function<std::optional<Unit
     loops.run([&] {
       try {
         while (const std::optional<UnitId> unit = failed ? std::nullopt : next()) {
-          // A thread that waits for the last surface of its unit does not begin another loop meanwhile.
+          // Isolated: while a thread waits for the last surface of its unit, it must not start another loop.
           std::string bytes = tbb::this_task_arena::isolate([&] { return Compute(campaign, origin, *unit); });
           done(*unit, std::move(bytes));
         }
-      } catch (...) {  // no memory: the other threads end too
+      } catch (...) {  // out of memory; the other threads stop too
         failed = true;
         throw;
       }
@@ -84,7 +83,7 @@ void ComputeAll(const Campaign& campaign, const std::function<std::optional<Unit
   loops.wait();
 }
 
-// The units that are still to be handed out, and what became of those that came back.
+// Hands out units and passes finished ones to the sink.
 class Ledger {
  public:
   Ledger(const std::vector<UnitId>& units, const UnitSink& sink) : units_(units), sink_(sink) {}
@@ -95,7 +94,7 @@ class Ledger {
     return units_[next_++];
   }
 
-  void Done(UnitId unit, const std::string& bytes, const std::string& from) {
+  void Accept(UnitId unit, const std::string& bytes, const std::string& from) {
     const std::lock_guard lock(mutex_);
     if (status_.ok()) status_ = sink_(unit, bytes, from);
   }
@@ -115,22 +114,22 @@ class Ledger {
 
 }  // namespace
 
-absl::Status WorkOff(const Campaign& campaign, const std::vector<UnitId>& units, Ranks& ranks,
-                     const UnitSink& sink) {
+absl::Status ComputeUnits(const Campaign& campaign, const std::vector<UnitId>& units, Ranks& ranks,
+                          const UnitSink& sink) {
   for (int rank = 1; rank < ranks.size(); ++rank) ranks.Send(rank, kCampaign, campaign.text);
   Ledger ledger(units, sink);
   const auto compute = [&] {
     ComputeAll(
         campaign, [&] { return ledger.Next(); },
-        [&](UnitId unit, const std::string& bytes) { ledger.Done(unit, bytes, "rank 0"); });
+        [&](UnitId unit, const std::string& bytes) { ledger.Accept(unit, bytes, "rank 0"); });
   };
   if (ranks.size() == 1) {
     compute();
     return ledger.status();
   }
 
-  // This thread alone answers the other ranks, so that none waits for a computation here. A failure ends all
-  // ranks, by the caller: then nobody is waited for, this process's own threads aside.
+  // This thread only answers the other ranks, so that they never wait for a computation here. After a failure the
+  // caller ends all ranks, so only this process's own threads are waited for.
   std::future<void> computed = std::async(std::launch::async, compute);
   for (int working = ranks.size() - 1; working > 0 && ledger.status().ok();) {
     if (computed.valid() && computed.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
@@ -144,7 +143,7 @@ absl::Status WorkOff(const Campaign& campaign, const std::vector<UnitId>& units,
     } else if (message->tag == kUnit) {
       std::string_view bytes;
       const UnitId unit = ReadUnitMessage(message->bytes, bytes);
-      ledger.Done(unit, std::string(bytes), absl::StrCat("rank ", message->rank));
+      ledger.Accept(unit, std::string(bytes), absl::StrCat("rank ", message->rank));
     } else {
       assert(message->tag == kNoMore);
       --working;
@@ -161,18 +160,18 @@ void Dismiss(Ranks& ranks) {
 absl::Status FollowRankZero(Ranks& ranks) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(ranks.Receive().bytes);
   if (!campaign.ok()) return campaign.status();
-  std::mutex talking;
+  std::mutex messages;  // held while messages are exchanged
   ComputeAll(
       *campaign,
       [&]() -> std::optional<UnitId> {
-        const std::lock_guard lock(talking);
+        const std::lock_guard lock(messages);
         ranks.Send(0, kAsk, "");
-        const Ranks::Message answer = ranks.Receive();
-        std::string_view none;
-        return answer.bytes.empty() ? std::nullopt : std::optional(ReadUnitMessage(answer.bytes, none));
+        const Ranks::Message reply = ranks.Receive();
+        std::string_view no_bytes;
+        return reply.bytes.empty() ? std::nullopt : std::optional(ReadUnitMessage(reply.bytes, no_bytes));
       },
       [&](UnitId unit, const std::string& bytes) {
-        const std::lock_guard lock(talking);
+        const std::lock_guard lock(messages);
         ranks.Send(0, kUnit, UnitMessage(unit, bytes));
       });
   ranks.Send(0, kNoMore, "");

@@ -33,7 +33,7 @@ absl::StatusOr<std::string> ReadFile(const fs::path& path) {
   return bytes;
 }
 
-// Writes a file that nobody changes once it is there: with the same bytes it is taken as written.
+// Writes a file that never changes. Succeeds when the file exists with the same bytes.
 absl::Status WriteOnce(const fs::path& path, const std::string& bytes) {
   const absl::Status written = WriteFileAtomically(path, bytes, Existing::kKeep);
   if (!absl::IsAlreadyExists(written)) return written;
@@ -66,8 +66,8 @@ absl::StatusOr<WorkFolder> WorkFolder::Open(const fs::path& folder, const Campai
   const absl::Status written = WriteOnce(path, campaign.text);
   if (absl::IsAlreadyExists(written)) {
     return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is another campaign than '", campaign.id, "' version ",
-                     campaign.version, " as it is now: give each campaign a work folder of its own"));
+        absl::StrCat(path.string(), ": is another campaign (or another text of it) than '", campaign.id,
+                     "' version ", campaign.version, "; give each campaign its own work folder"));
   }
   if (!written.ok()) return written;
   return WorkFolder(folder);
@@ -77,7 +77,7 @@ absl::StatusOr<WorkFolder> WorkFolder::OpenExisting(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kCampaignName, error)) {
     return absl::NotFoundError(absl::StrCat(folder.string(), ": has no ", kCampaignName,
-                                            ": name a folder that `table --work` filled"));
+                                            "; give a folder that `table --work` has filled"));
   }
   return WorkFolder(folder);
 }
@@ -112,15 +112,15 @@ absl::Status WorkFolder::Read(const std::vector<UnitId>& units, const Sink& sink
 absl::Status WorkFolder::Store(UnitId unit, const std::string& bytes) const {
   const absl::Status stored = WriteOnce(PathOf(unit), bytes);
   if (absl::IsAlreadyExists(stored)) {
-    return absl::AlreadyExistsError(
-        absl::StrCat(PathOf(unit).string(),
-                     ": is there already, with other bytes than were just computed: another "
-                     "program or machine writes into this folder, give it its own"));
+    return absl::AlreadyExistsError(absl::StrCat(
+        PathOf(unit).string(),
+        ": exists with other bytes than were just computed (another program or machine writes into this "
+        "folder); give each its own work folder"));
   }
   if (stored.ok()) return stored;
   return absl::Status(stored.code(),
                       absl::StrCat(std::string(stored.message()),
-                                   "; the units before it are whole, --resume goes on with them"));
+                                   "; earlier units are complete, continue from them with --resume"));
 }
 
 absl::Status WorkFolder::RemoveTemporaries() const {

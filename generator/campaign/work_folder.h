@@ -1,5 +1,5 @@
-// The folder in which finished units lie, one file each, beside the text of their campaign. Many processes
-// may write into one folder, on many machines that share it: a unit gets its name when it is whole.
+// The folder of finished units, one file each, with the text of their campaign. Many processes on many machines may
+// write into one shared folder, because a unit gets its name only when it is complete.
 #pragma once
 
 #include <filesystem>
@@ -17,28 +17,29 @@ namespace albtpu {
 
 class WorkFolder {
  public:
-  // Makes the folder, and leaves the campaign in it, where that is not done. FailedPrecondition when another
-  // campaign is there; otherwise the reason of the system.
+  // Creates the folder and writes the campaign into it, unless that is done. FailedPrecondition when the folder holds
+  // another campaign; otherwise an error of the system.
   static absl::StatusOr<WorkFolder> Open(const std::filesystem::path& folder, const Campaign& campaign);
 
-  // One that is there. NotFound when it is not, or has no campaign.
+  // Opens a folder that exists. NotFound when it does not exist or holds no campaign.
   static absl::StatusOr<WorkFolder> OpenExisting(const std::filesystem::path& folder);
 
-  // The campaign that lies in the folder.
+  // Reads the campaign of the folder.
   absl::StatusOr<Campaign> ReadCampaign() const;
 
-  // Those of `units` that are there: their files are, which nobody has read.
+  // Those of `units` whose files exist. The files are not read.
   absl::StatusOr<std::vector<UnitId>> Finished(const std::vector<UnitId>& units) const;
 
-  // Reads units and gives their bytes, as they are, to `sink`. Its first failure ends the reading and is
-  // returned with the name of the file before it.
+  // Reads units and passes their bytes to `sink`. Its first failure ends the reading and is returned, preceded by the
+  // name of the file.
   using Sink = std::function<absl::Status(UnitId unit, const std::string& bytes)>;
   absl::Status Read(const std::vector<UnitId>& units, const Sink& sink) const;
 
-  // A unit that is there is left as it is; AlreadyExists when its bytes are others.
+  // Writes a unit. A unit that exists is not changed; AlreadyExists when its bytes differ.
   absl::Status Store(UnitId unit, const std::string& bytes) const;
 
-  // What killed writers left. Those of living ones would go too: for the only user of the folder.
+  // Removes the temporary files of killed writers. It would remove those of running writers too: call it only when this
+  // process alone uses the folder.
   absl::Status RemoveTemporaries() const;
 
   std::filesystem::path PathOf(UnitId unit) const;

@@ -70,7 +70,7 @@ absl::Status RunPlan(const PlanOptions& options) {
   const Effort& effort = campaign->effort;
   const Cost cost = Measure(*campaign);
   const double checks = static_cast<double>(campaign->checked_pulses) *
-                        SecondsOf([&] { AnswerDirectly(*campaign, CheckedPulse(*campaign, 0)); });
+                        SecondsOf([&] { ComputeDirectly(*campaign, CheckedPulse(*campaign, 0)); });
   const double least = cost.Of(effort.realizations) + checks;
   const double most = cost.Of(effort.most_realizations) + checks;
   const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

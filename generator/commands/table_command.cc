@@ -79,8 +79,8 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   {
     Progress progress(Label(*campaign, options.shard, share.size() - units.size()), units.size());
     std::size_t done = 0;
-    worked_off =
-        WorkOff(*campaign, units, ranks, [&](UnitId unit, const std::string& bytes, const std::string& from) {
+    worked_off = ComputeUnits(
+        *campaign, units, ranks, [&](UnitId unit, const std::string& bytes, const std::string& from) {
           const absl::Status added = builder.Add(unit, bytes);
           if (!added.ok()) {
             return absl::Status(added.code(), absl::StrCat(Name(unit), ", computed by ", from, ": ",

@@ -25,14 +25,14 @@ InterpolationError ThuErrorOf(Campaign campaign) {
   campaign.checked_pulses = 40;
   const absl::StatusOr<UncertaintyTable> table = MakeTable(campaign, [](std::size_t) {});
   EXPECT_TRUE(table.ok()) << table.status();
-  std::vector<std::vector<Estimate>> answers;
+  std::vector<std::vector<Estimate>> direct;
   for (std::size_t i = 0; i < campaign.checked_pulses; ++i) {
-    answers.push_back(AnswerDirectly(campaign, CheckedPulse(campaign, i)));
+    direct.push_back(ComputeDirectly(campaign, CheckedPulse(campaign, i)));
   }
-  return CompareWithTable(campaign, *table, answers, 2);
+  return CompareWithTable(campaign, *table, direct, 2);
 }
 
-TEST(InterpolationCheck, DrawsPulsesOverAllOfTheAxes) {
+TEST(InterpolationCheck, DrawsPulsesUniformlyOverTheAxes) {
   const Campaign campaign = TwoSeas();
   double least = 1, greatest = 0, mean_log_footprint = 0;
   constexpr int kPulses = 400;
@@ -47,11 +47,11 @@ TEST(InterpolationCheck, DrawsPulsesOverAllOfTheAxes) {
   }
   EXPECT_LT(least, 0.02);
   EXPECT_GT(greatest, 0.98);
-  // Evenly over the logarithm from 0.25 to 1, within four standard errors.
+  // Uniform in the logarithm from 0.25 to 1, within four standard errors.
   EXPECT_NEAR(mean_log_footprint, std::log(0.5), 4 * std::log(4.0) / std::sqrt(12.0 * kPulses));
 }
 
-// Twice as dense along three axes is four times as good where the surface is smooth.
+// Where the values are smooth, doubling the density of nodes along three axes divides the error by four.
 TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
   const InterpolationError coarse = ThuErrorOf(TwoSeas()), dense = ThuErrorOf(Denser());
   EXPECT_GT(coarse.pulses, 20);
@@ -60,18 +60,18 @@ TEST(InterpolationCheck, FindsLessErrorBetweenCloserNodes) {
   EXPECT_LE(dense.percentile_99, dense.greatest);
 }
 
-// A pulse at a node of a table with more incidences: the widest beam decides on grid and patch, there as here.
-TEST(InterpolationCheck, MeetsTheSurfacesOfTheNodes) {
+// A pulse at a node: the widest beam of the campaign determines grid and patch for both.
+TEST(InterpolationCheck, ComputesPulsesOnTheSurfacesOfTheNodes) {
   const Campaign campaign = TwoSeas();
   const Pulse pulse{
       .wind_speed = 6, .fetch = 5000, .incidence = 0, .azimuth = 0, .footprint = 0.25, .depth = 10};
   const SeaCase sea_case = SeaCaseOf(campaign, 4);  // the second wind, the first fetch and footprint
   ASSERT_EQ(std::get<WindSea>(sea_case.sea.waves).wind_speed_10m, 6);
   const SeaCaseResult node = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
-  EXPECT_EQ(AnswerDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
+  EXPECT_EQ(ComputeDirectly(campaign, pulse)[2].value, node.beams[0].thu[1].value);
 }
 
-// A pulse at the nodes meets the very same surfaces: what is left is how values are rounded (rounding.h).
+// A pulse at a node has the same surfaces as the node. Only the rounding of the values remains (rounding.h).
 TEST(InterpolationCheck, FindsNoErrorAtANode) {
   std::string text = TwoSeas().text;
   text.replace(text.find("[3, 6]"), 6, "[6]");

@@ -14,7 +14,7 @@ UncertaintyTable::Axes Axes(const std::vector<double>& winds, const std::vector<
           *Axis::Create(AxisId::kFootprint, footprints), *Axis::Create(AxisId::kDepth, {0, 10})};
 }
 
-TEST(NodeBalance, LeavesWhatIsLinearInTheScaleOfEachAxis) {
+TEST(NodeBalance, DoesNotChangeValuesLinearInTheScaleOfEachAxis) {
   const UncertaintyTable::Axes axes = Axes({1, 2, 4, 5}, {0.5, 1, 3});
   std::vector<float> values;
   for (const double wind : axes[0].nodes()) {
@@ -29,9 +29,9 @@ TEST(NodeBalance, LeavesWhatIsLinearInTheScaleOfEachAxis) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(balanced[i], values[i], 1e-5) << i;
 }
 
-// x^2 on an even grid: interpolation errs by h^2 / 4 - t^2 about the middles, of which the mean is h^2 / 6;
-// the root of the mean square is h^2 sqrt(1 / 30) before, and h^2 sqrt(1 / 180) without the mean.
-TEST(NodeBalance, TakesTheMeanOfTheErrorAway) {
+// x^2 on a uniform grid: at the distance t from the middle of an interval, interpolation errs by h^2 / 4 - t^2, with
+// the mean h^2 / 6. The root mean square error is h^2 sqrt(1 / 30) before and h^2 sqrt(1 / 180) without the mean.
+TEST(NodeBalance, RemovesTheMeanError) {
   const std::vector<double> x = {2, 3, 4, 5, 6, 7};
   const UncertaintyTable::Axes axes = Axes(x, {1});
   std::vector<float> values;
@@ -49,11 +49,11 @@ TEST(NodeBalance, TakesTheMeanOfTheErrorAway) {
   }
   EXPECT_NEAR(sum, 0, 1e-5);
   EXPECT_NEAR(std::sqrt(squares), std::sqrt(1 / 180.0), 1e-5);
-  EXPECT_EQ(values[0], 4);  // the ends stay
+  EXPECT_EQ(values[0], 4);  // the ends do not change
   EXPECT_EQ(values[10], 49);
 }
 
-TEST(NodeBalance, LeavesAtLeastHalfOfWhatIsNotNegative) {
+TEST(NodeBalance, KeepsAtLeastHalfOfAQuantityThatCannotBeNegative) {
   const UncertaintyTable::Axes axes = Axes({1, 2, 3}, {1});
   std::vector<float> thu = {100, 100, 0.1f, 0.1f, 100, 100}, bias = thu;
   BalanceNodes(axes, Quantity::kThu, thu);

@@ -15,7 +15,7 @@ absl::StatusOr<UncertaintyTable> Make(const Campaign& campaign) {
   return MakeTable(campaign, [](std::size_t) {});
 }
 
-TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsSeaCaseGives) {
+TEST(TableMaker, HasAtANodeTheResultOfItsSeaCase) {
   const Campaign campaign = TwoSeas();
   const absl::StatusOr<UncertaintyTable> table = Make(campaign);
   ASSERT_TRUE(table.ok()) << table.status();
@@ -23,16 +23,16 @@ TEST(TableMaker, AnswersAtANodeWhatTheSimulationOfItsSeaCaseGives) {
   const SeaCaseResult result =
       Simulate(SeaCaseOf(campaign, index), campaign.effort, campaign.seed, kCellOfTables);
   const BeamUncertainty& beam = result.beams[3];  // 20 degrees, across the wind
-  const PulseUncertainty answer =
+  const PulseUncertainty interpolated =
       Interpolate(*table, {.wind_speed = 6, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
-  ASSERT_EQ(answer.outcome, Outcome::kInterpolated);
+  ASSERT_EQ(interpolated.outcome, Outcome::kInterpolated);
   const Estimate& along = beam.refraction_along_wind;
   const Estimate degrees{DegreesOfRadians(along.value), DegreesOfRadians(along.standard_error)};
-  EXPECT_EQ(answer[Quantity::kRefractionAlongWind], Rounded(degrees).value);
-  EXPECT_EQ(answer[Quantity::kThu], Rounded(beam.thu[1]).value);
-  EXPECT_EQ(answer[Quantity::kTvu], Rounded(beam.tvu[1]).value);
-  EXPECT_EQ(answer[Quantity::kBiasVertical], Rounded(beam.bias_vertical[1]).value);
-  EXPECT_EQ(answer.standard_errors[Index(Quantity::kThu)], Rounded(beam.thu[1]).standard_error);
+  EXPECT_EQ(interpolated[Quantity::kRefractionAlongWind], Rounded(degrees).value);
+  EXPECT_EQ(interpolated[Quantity::kThu], Rounded(beam.thu[1]).value);
+  EXPECT_EQ(interpolated[Quantity::kTvu], Rounded(beam.tvu[1]).value);
+  EXPECT_EQ(interpolated[Quantity::kBiasVertical], Rounded(beam.bias_vertical[1]).value);
+  EXPECT_EQ(interpolated.standard_errors[Index(Quantity::kThu)], Rounded(beam.thu[1]).standard_error);
 }
 
 TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {
@@ -47,7 +47,7 @@ TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {
   EXPECT_EQ(digests[0], digests[1]);
 }
 
-TEST(TableMaker, CountsUnitsAsTheyAreDone) {
+TEST(TableMaker, ReportsTheNumberOfFinishedUnits) {
   std::vector<std::size_t> counts;
   ASSERT_TRUE(MakeTable(TwoSeas(), [&](std::size_t done) { counts.push_back(done); }).ok());
   ASSERT_EQ(counts.size(), 8 + TwoSeas().checked_pulses);

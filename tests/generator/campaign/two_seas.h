@@ -1,4 +1,4 @@
-// A campaign of eight sea cases, for tests: seconds at most.
+// A campaign of eight sea cases for tests, computed in a few seconds.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "generator/campaign/byte_stream.h"
-#include "generator/campaign/unit_content.h"
 #include "tests/generator/campaign/two_seas.h"
 
 namespace albtpu {
@@ -29,7 +28,7 @@ std::string Refusal(UnitId unit, const UnitOrigin& origin, const std::string& by
   return std::string(opened.status().message());
 }
 
-// Equal bits: of zeros and of what is not a number, too.
+// Expects equal bits, also of zeros and NaN.
 void ExpectSame(double a, double b) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b));
 }
@@ -39,12 +38,12 @@ void ExpectSame(const Estimate& a, const Estimate& b) {
   ExpectSame(a.standard_error, b.standard_error);
 }
 
-TEST(Unit, IsNamedByKindAndIndex) {
+TEST(Unit, IsNamedByItsKindAndIndex) {
   EXPECT_EQ(Name(kUnit), "encounter-00012");
   EXPECT_EQ(Name({UnitKind::kPulse, 3}), "pulse-00003");
 }
 
-TEST(Unit, IsASeaCaseOrACheckedPulseOfTheCampaign) {
+TEST(Unit, IsEachSeaCaseAndCheckedPulseOfTheCampaign) {
   const Campaign campaign = TwoSeas();
   const std::vector<UnitId> units = UnitsOf(campaign);
   ASSERT_EQ(units.size(), 8 + campaign.checked_pulses);
@@ -53,14 +52,14 @@ TEST(Unit, IsASeaCaseOrACheckedPulseOfTheCampaign) {
   EXPECT_EQ(units.back(), (UnitId{UnitKind::kPulse, campaign.checked_pulses - 1}));
 }
 
-TEST(Unit, GivesBackWhatWasSealed) {
+TEST(Unit, OpensToTheSealedContent) {
   const std::string bytes = Sealed();
   const absl::StatusOr<std::string_view> content = OpenUnit(kUnit, kOrigin, bytes);
   ASSERT_TRUE(content.ok()) << content.status();
   EXPECT_EQ(*content, "what was computed");
 }
 
-TEST(Unit, IsRefusedWhenAnyByteOfItChanged) {
+TEST(Unit, IsRefusedWhenAnyByteHasChanged) {
   for (std::size_t i = 0; i < Sealed().size(); ++i) {
     std::string bytes = Sealed();
     bytes[i] ^= 0x10;
@@ -68,14 +67,14 @@ TEST(Unit, IsRefusedWhenAnyByteOfItChanged) {
   }
 }
 
-TEST(Unit, IsRefusedWhenAnyOfItIsMissing) {
+TEST(Unit, IsRefusedWhenTruncatedAnywhere) {
   for (std::size_t size = 0; size < Sealed().size(); ++size) {
     EXPECT_EQ(OpenUnit(kUnit, kOrigin, Sealed().substr(0, size)).status().code(),
               absl::StatusCode::kDataLoss);
   }
 }
 
-TEST(Unit, IsRefusedWhenSomethingElseMadeIt) {
+TEST(Unit, IsRefusedWhenItsOriginDiffers) {
   UnitOrigin other = kOrigin;
   other.campaign = "decaf";
   EXPECT_THAT(Refusal(kUnit, other, Sealed()), HasSubstr("another campaign"));
@@ -87,7 +86,7 @@ TEST(Unit, IsRefusedWhenSomethingElseMadeIt) {
   EXPECT_THAT(Refusal(kUnit, other, Sealed()), HasSubstr("set x86-64-v3, this one has x86-64-v4"));
 }
 
-TEST(Unit, IsRefusedInThePlaceOfAnother) {
+TEST(Unit, IsRefusedUnderTheNameOfAnother) {
   EXPECT_THAT(Refusal({UnitKind::kSeaCase, 13}, kOrigin, Sealed()), HasSubstr("holds the unit encounter 12"));
 }
 
@@ -100,7 +99,7 @@ TEST(Unit, HasTheOriginOfItsCampaign) {
   EXPECT_NE(OriginOf(campaign).campaign, origin.campaign);
 }
 
-TEST(UnitContent, IsTheResultToTheLastBit) {
+TEST(UnitContent, RestoresAResultToTheLastBit) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   SeaCaseResult result;
   result.beams.resize(2);
@@ -134,16 +133,16 @@ TEST(UnitContent, IsTheResultToTheLastBit) {
   ExpectSame(read->resolved_slope_fraction, result.resolved_slope_fraction);
 }
 
-TEST(UnitContent, IsTheAnswersToACheckedPulse) {
-  const std::vector<Estimate> answers = {{1.0 / 3, 1e-300}, {-0.0, std::nan("")}};
-  const absl::StatusOr<std::vector<Estimate>> read = DecodeAnswers(EncodeAnswers(answers));
+TEST(UnitContent, RestoresEstimatesToTheLastBit) {
+  const std::vector<Estimate> estimates = {{1.0 / 3, 1e-300}, {-0.0, std::nan("")}};
+  const absl::StatusOr<std::vector<Estimate>> read = DecodeEstimates(EncodeEstimates(estimates));
   ASSERT_TRUE(read.ok()) << read.status();
   ASSERT_EQ(read->size(), 2u);
-  ExpectSame((*read)[0], answers[0]);
-  ExpectSame((*read)[1], answers[1]);
+  ExpectSame((*read)[0], estimates[0]);
+  ExpectSame((*read)[1], estimates[1]);
 }
 
-TEST(UnitContent, OfAnotherLengthIsRefused) {
+TEST(UnitContent, IsRefusedWithAnotherLength) {
   SeaCaseResult result;
   result.beams.resize(1);
   result.beams[0].thu.resize(3);
@@ -154,7 +153,7 @@ TEST(UnitContent, OfAnotherLengthIsRefused) {
   EXPECT_FALSE(DecodeResult(bytes + "more").ok());
 }
 
-TEST(ByteStream, DoesNotBelieveACountThatTheBytesCannotHold) {
+TEST(ByteStream, RefusesASizeLargerThanTheBytes) {
   ByteWriter writer;
   writer(std::numeric_limits<std::uint64_t>::max(), 1.0);
   const std::string bytes = std::move(writer).Take();

@@ -14,7 +14,7 @@
 namespace albtpu {
 namespace {
 
-// Ranks that are threads of this process.
+// The messages between ranks that are threads of this process.
 class Post {
  public:
   void Put(int to, Ranks::Message message) {
@@ -51,7 +51,8 @@ class ThreadRank final : public Ranks {
 
 using Units = std::map<UnitId, std::string>;
 
-Units WorkedOffBy(int size, std::map<std::string, int>* from = nullptr) {
+// The units of TwoSeas(), computed on `size` ranks.
+Units ComputedOn(int size) {
   Post post;
   std::vector<std::thread> others;
   for (int rank = 1; rank < size; ++rank) {
@@ -62,12 +63,11 @@ Units WorkedOffBy(int size, std::map<std::string, int>* from = nullptr) {
   }
   ThreadRank ranks(post, 0, size);
   Units units;
-  const absl::Status status = WorkOff(TwoSeas(), UnitsOf(TwoSeas()), ranks,
-                                      [&](UnitId unit, const std::string& bytes, const std::string& rank) {
-                                        EXPECT_TRUE(units.emplace(unit, bytes).second) << Name(unit);
-                                        if (from != nullptr) ++(*from)[rank];
-                                        return absl::OkStatus();
-                                      });
+  const absl::Status status = ComputeUnits(TwoSeas(), UnitsOf(TwoSeas()), ranks,
+                                           [&](UnitId unit, const std::string& bytes, const std::string&) {
+                                             EXPECT_TRUE(units.emplace(unit, bytes).second) << Name(unit);
+                                             return absl::OkStatus();
+                                           });
   EXPECT_TRUE(status.ok()) << status;
   Dismiss(ranks);
   for (std::thread& other : others) other.join();
@@ -75,27 +75,27 @@ Units WorkedOffBy(int size, std::map<std::string, int>* from = nullptr) {
 }
 
 TEST(UnitWork, ComputesEachUnitOnceAndTheSameOnAnyNumberOfRanks) {
-  const Units alone = WorkedOffBy(1);
+  const Units alone = ComputedOn(1);
   EXPECT_EQ(alone.size(), UnitsOf(TwoSeas()).size());
-  EXPECT_EQ(WorkedOffBy(3), alone);
+  EXPECT_EQ(ComputedOn(3), alone);
 }
 
-TEST(UnitWork, EndsAtTheFirstFailureOfItsSink) {
+TEST(UnitWork, EndsAtTheFirstFailureOfTheSink) {
   int calls = 0;
-  const absl::Status status =
-      WorkOff(TwoSeas(), UnitsOf(TwoSeas()), *OneRank(), [&](UnitId, const std::string&, const std::string&) {
-        ++calls;
-        return absl::ResourceExhaustedError("full");
-      });
+  const absl::Status status = ComputeUnits(TwoSeas(), UnitsOf(TwoSeas()), *OneRank(),
+                                           [&](UnitId, const std::string&, const std::string&) {
+                                             ++calls;
+                                             return absl::ResourceExhaustedError("full");
+                                           });
   EXPECT_EQ(status.message(), "full");
   EXPECT_EQ(calls, 1);
 }
 
-TEST(UnitWork, OfNothingIsDone) {
+TEST(UnitWork, SucceedsWithoutUnits) {
   const auto never = [](UnitId, const std::string&, const std::string&) {
     return absl::InternalError("called");
   };
-  EXPECT_TRUE(WorkOff(TwoSeas(), {}, *OneRank(), never).ok());
+  EXPECT_TRUE(ComputeUnits(TwoSeas(), {}, *OneRank(), never).ok());
 }
 
 }  // namespace

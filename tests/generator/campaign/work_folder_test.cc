@@ -25,7 +25,7 @@ WorkFolder Open(const fs::path& folder) {
   return *work;
 }
 
-TEST(WorkFolder, IsMadeWithItsCampaign) {
+TEST(WorkFolder, IsCreatedWithItsCampaign) {
   const TemporaryFolder folder;
   Open(folder / "work");
   const absl::StatusOr<WorkFolder> again = WorkFolder::OpenExisting(folder / "work");
@@ -35,7 +35,7 @@ TEST(WorkFolder, IsMadeWithItsCampaign) {
   EXPECT_EQ(campaign->text, TwoSeas().text);
 }
 
-TEST(WorkFolder, IsForOneCampaign) {
+TEST(WorkFolder, HoldsOneCampaign) {
   const TemporaryFolder folder;
   Open(folder.path());
   Open(folder.path());
@@ -46,20 +46,20 @@ TEST(WorkFolder, IsForOneCampaign) {
   EXPECT_THAT(std::string(status.message()), HasSubstr("campaign.toml: is another campaign"));
 }
 
-TEST(WorkFolder, IsNotAFile) {
+TEST(WorkFolder, CannotBeAFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "precious";
   const absl::Status status = WorkFolder::Open(folder / "file", TwoSeas()).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("file'"));
 }
 
-TEST(WorkFolder, MustBeThereToBeMerged) {
+TEST(WorkFolder, MustExistToBeOpenedAsExisting) {
   const TemporaryFolder folder;
   EXPECT_EQ(WorkFolder::OpenExisting(folder.path()).status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(WorkFolder::OpenExisting(folder / "absent").status().code(), absl::StatusCode::kNotFound);
 }
 
-TEST(WorkFolder, KnowsWhatIsFinished) {
+TEST(WorkFolder, FindsAndReadsFinishedUnits) {
   const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   EXPECT_THAT(work.Finished(UnitsOf(TwoSeas())).value(), ElementsAre());
@@ -76,7 +76,7 @@ TEST(WorkFolder, KnowsWhatIsFinished) {
   EXPECT_THAT(read, ElementsAre("three", "six"));
 }
 
-TEST(WorkFolder, NamesTheFileThatIsNotTaken) {
+TEST(WorkFolder, NamesTheFileThatTheSinkRefuses) {
   const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
@@ -86,17 +86,17 @@ TEST(WorkFolder, NamesTheFileThatIsNotTaken) {
   EXPECT_EQ(status.message(), work.PathOf(kThird).string() + ": is damaged");
 }
 
-TEST(WorkFolder, KeepsAUnitThatIsThere) {
+TEST(WorkFolder, DoesNotOverwriteAUnit) {
   const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
-  EXPECT_TRUE(work.Store(kThird, "three").ok()) << "two that compute the same agree";
+  EXPECT_TRUE(work.Store(kThird, "three").ok()) << "two processes may compute the same unit";
   EXPECT_EQ(work.Store(kThird, "another three").code(), absl::StatusCode::kAlreadyExists);
   std::ifstream file(work.PathOf(kThird));
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "three");
 }
 
-TEST(WorkFolder, LosesWhatKilledWritersLeftAndNothingElse) {
+TEST(WorkFolder, RemovesTemporaryFilesOfKilledWritersAndNothingElse) {
   const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
