@@ -1,5 +1,4 @@
-// Whether this process was started as one of several ranks of one program, by what launchers leave in the
-// environment.
+// Detects from the environment whether a launcher started this process as one of several ranks of one program.
 #pragma once
 
 #include <functional>
@@ -7,9 +6,9 @@
 
 namespace albtpu {
 
-// Nullopt where no launcher of ranks started this process; else their number, or the least that it can be
-// where the launcher does not tell. Only what mpirun, mpiexec and `srun --mpi` set counts: the tasks of a
-// Slurm array are no ranks.
+// The number of ranks, or a lower bound where the launcher does not tell it; nullopt where no launcher of ranks started
+// this process. Considers only the variables of mpirun, mpiexec and `srun --mpi`: the tasks of a Slurm array are not
+// ranks.
 std::optional<int> LaunchedRanks(const std::function<const char*(const char*)>& environment);
 std::optional<int> LaunchedRanks();  // by getenv
 

@@ -13,7 +13,7 @@ class Alone final : public Ranks {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
-  void Send(int, int, const std::string&) override { assert(false && "there is nobody else"); }
+  void Send(int, int, const std::string&) override { assert(false && "there is no other rank"); }
   std::optional<Message> Poll() override { return std::nullopt; }
   [[noreturn]] void EndAll() override { std::exit(EXIT_FAILURE); }
 };

@@ -1,5 +1,4 @@
-// The ranks of one program that `mpirun` started, and messages between them. A build without MPI knows one
-// rank.
+// The ranks of one program started by `mpirun`, and messages between them. A build without MPI has one rank.
 #pragma once
 
 #include <memory>
@@ -13,35 +12,35 @@ namespace albtpu {
 class Ranks {
  public:
   struct Message {
-    int rank;  // from which
-    int tag;   // what of, as the sender says
+    int rank;  // of the sender
+    int tag;   // the kind of message, chosen by the sender
     std::string bytes;
   };
 
-  // Joins the ranks that were started with this one; alone where there are none. FailedPrecondition when a
-  // launcher started several that this build cannot join. To be called once.
+  // Joins the ranks that were started together with this process; one rank where there are no others.
+  // FailedPrecondition when a launcher started several ranks that this build cannot join. Call it once.
   static absl::StatusOr<std::unique_ptr<Ranks>> Join();
 
   Ranks() = default;
-  virtual ~Ranks() = default;  // leaves; returns when all ranks do
+  virtual ~Ranks() = default;  // leaves the ranks, and waits until all of them leave
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
   virtual int rank() const = 0;  // from 0
   virtual int size() const = 0;
 
-  // One thread at a time may be in one of these.
+  // Only one thread at a time may call Send, Poll or Receive.
   virtual void Send(int rank, int tag, const std::string& bytes) = 0;
-  virtual std::optional<Message> Poll() = 0;  // a message that has come, from any rank
+  virtual std::optional<Message> Poll() = 0;  // a message that has arrived, from any rank
 
-  // Waits for a message, without keeping a core busy.
+  // Waits for a message without keeping a core busy.
   Message Receive();
 
-  // Ends all ranks, now, with exit status 1.
+  // Ends all ranks immediately with exit status 1.
   [[noreturn]] virtual void EndAll() = 0;
 };
 
-// This process alone.
+// This process as the only rank.
 std::unique_ptr<Ranks> OneRank();
 
 }  // namespace albtpu

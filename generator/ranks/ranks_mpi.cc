@@ -1,4 +1,4 @@
-// The ranks of MPI; nothing else includes mpi.h.
+// Ranks by MPI. No other file includes mpi.h.
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
@@ -12,7 +12,7 @@
 namespace albtpu {
 namespace {
 
-// MPI's own errors end all ranks, as it does unless told otherwise.
+// Errors within MPI end all ranks, which is MPI's default.
 class MpiRanks final : public Ranks {
  public:
   MpiRanks() {
@@ -59,18 +59,18 @@ class MpiRanks final : public Ranks {
 
 absl::StatusOr<std::unique_ptr<Ranks>> Ranks::Join() {
   const std::optional<int> launched = LaunchedRanks();
-  // MPI is not started for one process alone: it would cost a daemon, and some machines forbid it.
+  // Without a launcher, MPI is not started: it would need a daemon, which some machines forbid.
   if (!launched) return OneRank();
   auto ranks = std::make_unique<MpiRanks>();
   if (ranks->size() < *launched) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("started as one of ", *launched, " ranks, but its MPI sees ", ranks->size(),
-                     ": start it with the mpirun of the MPI that it was built with, or give each process its "
-                     "share with --shard"));
+    return absl::FailedPreconditionError(absl::StrCat(
+        "started as one of ", *launched, " ranks, but its MPI sees ", ranks->size(),
+        " (another MPI's mpirun); start it with the mpirun of the MPI that it was built with, or give "
+        "each process its share with --shard"));
   }
   if (ranks->size() > 1 && !ranks->serialized()) {
     return absl::FailedPreconditionError(
-        "this MPI does not let threads send messages (MPI_THREAD_SERIALIZED): use --shard");
+        "this MPI does not let several threads send messages (no MPI_THREAD_SERIALIZED); use --shard");
   }
   return ranks;
 }

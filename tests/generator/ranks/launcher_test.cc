@@ -15,23 +15,23 @@ std::optional<int> Launched(const std::map<std::string, std::string>& environmen
   });
 }
 
-TEST(Launcher, IsNoneWithoutItsVariables) {
+TEST(Launcher, IsAbsentWithoutItsVariables) {
   EXPECT_EQ(Launched({}), std::nullopt);
   EXPECT_EQ(Launched({{"PMI_SIZE", "many"}}), std::nullopt);
 }
 
-TEST(Launcher, SaysHowManyRanksThereAre) {
+TEST(Launcher, TellsTheNumberOfRanks) {
   EXPECT_EQ(Launched({{"OMPI_COMM_WORLD_SIZE", "4"}, {"PMIX_RANK", "2"}}), 4);
   EXPECT_EQ(Launched({{"PMI_SIZE", "3"}}), 3);
   EXPECT_EQ(Launched({{"PMIX_RANK", "0"}, {"SLURM_STEP_NUM_TASKS", "5"}}), 5);
 }
 
-TEST(Launcher, HasMoreRanksThanTheNumberOfAnyOfThem) {
+TEST(Launcher, HasMoreRanksThanTheGreatestRankNumber) {
   EXPECT_EQ(Launched({{"PMIX_RANK", "2"}}), 3);
   EXPECT_EQ(Launched({{"PMIX_RANK", "0"}}), 1);
 }
 
-TEST(Launcher, IsNotAnArrayOfTasks) {
+TEST(Launcher, IsNotASlurmArrayOfTasks) {
   EXPECT_EQ(Launched({{"SLURM_NTASKS", "8"}, {"SLURM_STEP_NUM_TASKS", "8"}, {"SLURM_ARRAY_TASK_ID", "3"}}),
             std::nullopt);
 }

@@ -1,4 +1,4 @@
-// Of a build without MPI.
+// Ranks of a build without MPI.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -16,14 +16,14 @@ class RanksAlone : public ::testing::Test {
   void TearDown() override { SetUp(); }
 };
 
-TEST_F(RanksAlone, AreOne) {
+TEST_F(RanksAlone, AreOneRank) {
   const auto ranks = Ranks::Join();
   ASSERT_TRUE(ranks.ok()) << ranks.status();
   EXPECT_EQ((*ranks)->rank(), 0);
   EXPECT_EQ((*ranks)->size(), 1);
 }
 
-TEST_F(RanksAlone, AreOneUnderALauncherOfOne) {
+TEST_F(RanksAlone, AreOneRankUnderALauncherOfOne) {
   setenv("OMPI_COMM_WORLD_SIZE", "1", 1);
   EXPECT_TRUE(Ranks::Join().ok());
 }
