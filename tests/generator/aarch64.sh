@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The kernels on another architecture: compiles them and what they need for aarch64 and runs their tests under
-# qemu. Debian's libraries for aarch64 are unpacked into the build folder; of the machine nothing changes but that
-# a cross-compiler and qemu are installed.
+# Tests the kernels on another architecture: compiles them and what they need for aarch64 and runs their tests under
+# qemu. Debian's libraries for aarch64 are unpacked into the build folder. On the machine itself, only a cross-compiler
+# and qemu are installed.
 #
 # Usage: aarch64.sh [GoogleTest flags]
 set -euo pipefail
@@ -12,12 +12,12 @@ build=$PWD/build/aarch64
 root=$build/root
 libraries=(libeigen3-dev libfftw3-dev libgmock-dev libgtest-dev libhwy-dev libhwy1 librandom123-dev)
 
-# What one sea under one beam takes, in heights and in rays. The rest of the generator needs more libraries.
+# The code from a sea's spectrum to traced rays. The rest of the generator needs more libraries.
 sources=(sea/*.cc sea/*/*.cc generator/{math,surface,kernels}/*.cc
          generator/monte_carlo/{height_slope_product,slope_moments,surface_correlation}.cc
          tests/generator/{math,surface,kernels}/*_test.cc tests/sea/response/refraction_test.cc)
 
-# Needs no root: apt-get keeps its lists of another architecture in a folder of ours.
+# Needs no root: apt-get keeps its lists of the other architecture in our own folder.
 unpack_libraries() {
   [[ ! -e $root/complete || $(<"$root/complete") != "${libraries[*]}" ]] || return 0
   echo "== Fetching ${#libraries[@]} Debian packages for aarch64"
@@ -35,7 +35,7 @@ unpack_libraries() {
   echo "${libraries[*]}" >"$root/complete"
 }
 
-# As cmake/house_rules.cmake and generator/CMakeLists.txt have it.
+# With the flags of cmake/house_rules.cmake and generator/CMakeLists.txt.
 compile() {
   local object=$build/${1%.cc}.o
   mkdir -p "$(dirname "$object")"
@@ -57,6 +57,6 @@ aarch64-linux-gnu-g++ "${objects[@]/%/.o}" -L "$root/usr/lib/aarch64-linux-gnu" 
   -o "$build/kernels_test"
 
 echo "== Testing on aarch64, emulated"
-# Highway is a shared library; those of the compiler are in its own folder.
+# Highway is a shared library in our folder; the libraries of the compiler are in its own folder.
 qemu-aarch64-static -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$root/usr/lib/aarch64-linux-gnu" \
   "$build/kernels_test" --gtest_brief=1 "$@"
