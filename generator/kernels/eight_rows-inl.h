@@ -20,7 +20,7 @@ using EightRows = hn::CappedTag<float, 8>;
 
 #if HWY_TARGET == HWY_SCALAR
 
-// As documented below.
+// Both functions are documented below.
 inline void FourColumnsToLanes(const float* rows, std::size_t row_stride, float* lanes,
                                std::size_t lane_stride) {
   for (int i = 0; i < 4; ++i) {

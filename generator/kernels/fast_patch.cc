@@ -77,9 +77,9 @@ void GatherRows(const PatchTransform& patch, const float* row, float* modes) {
   std::fill_n(modes + kElement * patch.half, kElement, 0.0f);
 }
 
-// The transform from modes X to `size` real numbers x becomes a complex transform of half the length. Let w = exp(2 pi
-// i / size), E = X[k] + conj X[half - k] and O = w^k (X[k] - conj X[half - k]): E and O are the modes of the even and
-// the odd points, so those of x[2 m] + i x[2 m + 1] are E + i O at k and conj E + i conj O at half - k.
+// The transform from modes X to `size` real numbers x becomes a complex transform of half the length. With
+// w = exp(2 pi i / size), E = X[k] + conj X[half - k] and O = w^k (X[k] - conj X[half - k]) are the modes of the even
+// and the odd points, so the modes of x[2 m] + i x[2 m + 1] are E + i O at k and conj E + i conj O at half - k.
 void FoldModes(const PatchTransform& patch, const float* modes, float* folded) {
   for (int k = 0; 2 * k <= patch.half; ++k) {
     const ComplexLanes x = LoadElement(modes + kElement * k);

@@ -26,8 +26,8 @@ class Column {
   // estimate of the variance: the sample mean is closer to the sample than the true mean is.
   //
   // Derivation: with the control c and the residual r = v - c of the values v, m is the sample mean of r plus E[c].
-  // About the true mean, E[(v - m)^2] = var(v) - 2 cov(v, m) + var(m), with cov(v, m) = cov(v, r) / n and var(m) =
-  // var(r) / n. The correction is (2 cov(r, v) - var(r)) / n = cov(v - c, v + c) / n; without a control, c = 0.
+  // Then E[(v - m)^2] = var(v) - 2 cov(v, m) + var(m), with cov(v, m) = cov(v, r) / n and var(m) = var(r) / n. The
+  // correction is (2 cov(r, v) - var(r)) / n = cov(v - c, v + c) / n; without a control, c = 0.
   struct Squares {
     Eigen::ArrayXd sample;
     double mean_correction;
@@ -123,8 +123,8 @@ class ControlVariates {
   static Eigen::ArrayXd Along(const Eigen::Vector2d& direction, const Eigen::ArrayX2d& vectors) {
     return direction.x() * vectors.col(0) + direction.y() * vectors.col(1);
   }
-  // The squares of an error that is even - odd on the surfaces of parts[0] and even + odd on the others. What the
-  // two have together is as often positive as negative.
+  // The mean square over both parts of an error that is even - odd on the surfaces of parts[0] and even + odd on the
+  // inverted ones. The product of odd and even has the expectation zero.
   Eigen::ArrayXd Squared(const Eigen::ArrayXd& odd, const Eigen::ArrayXd& even) const {
     return odd.square() + even.square() - 2 * imbalance_ * odd * even;
   }

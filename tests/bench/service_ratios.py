@@ -17,8 +17,8 @@ import sys
 from ratios import compiler, processor
 
 TABLE = pathlib.Path(__file__).resolve().parents[2] / "tables" / "shipped" / "survey.h5"
-# Ways to ask in bulk: callers, messages that each has in flight, connections over which they go in turn. Calls come
-# from few callers, or from many whom one thread stands for; a bare connection and a stream have one each.
+# Numbers of callers, of messages in flight of each caller, and of connections that a caller uses in turn. A caller with
+# 24 messages on 24 connections stands for many clients. A plain connection and a stream have one connection each.
 CALLS = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (1, 4, 1), (2, 4, 1), (4, 4, 1), (1, 24, 24)]
 BARE = [(1, 1, 1), (2, 1, 1), (4, 1, 1), (24, 1, 1)]
 STREAMS = [(1, 1, 1), (2, 1, 1), (4, 1, 1)]

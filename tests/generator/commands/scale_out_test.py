@@ -20,7 +20,7 @@ import unittest
 GENERATE = sys.argv[1]
 MPIRUN = shutil.which(sys.argv[2]) if sys.argv[2:] else None
 
-CAMPAIGN = pathlib.Path(__file__).with_name("six_seas.toml").read_text()
+CAMPAIGN = (pathlib.Path(__file__).resolve().parents[1] / "six_seas.toml").read_text()
 UNITS = 12 + 4  # encounters and pulses
 PATIENCE = 300  # Seconds that a loaded machine may need for what takes few.
 
