@@ -14,7 +14,7 @@ inline constexpr int kStandardErrorBits = 4;  // a relative error of 6 %
 
 // Rounds the standard error to kStandardErrorBits. Rounds the value to a multiple of the largest power of two that is
 // at most a quarter of that error, or to kValueBits where those are coarser. The value changes by at most an eighth of
-// the standard error (0.07 rms) or 2^-kValueBits of itself, whichever is larger.
+// the standard error (1 / (4 sqrt(12)) = 0.07 of it rms) or by 2^-kValueBits of itself, whichever is larger.
 Estimate Rounded(const Estimate& estimate);
 
 }  // namespace albtpu

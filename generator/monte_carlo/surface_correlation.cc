@@ -56,6 +56,7 @@ SurfaceCorrelation::SurfaceCorrelation(const SurfaceModel& model, int reach) : r
   using Complex = std::complex<double>;
   xx_ = correlate([&](double px, double) { return Complex(std::pow(quotient(px), 2)); });
   yy_ = correlate([&](double, double py) { return Complex(std::pow(quotient(py), 2)); });
+  // At lags that are half a cell greater on both axes.
   xy_ = correlate(
       [&](double px, double py) { return quotient(px) * quotient(py) * std::polar(1.0, (px + py) / 2); });
 

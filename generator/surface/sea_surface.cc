@@ -14,8 +14,8 @@ namespace {
 // only, waves above the second are in the patch only. Between them, the patch's lattice of wavenumbers begins to
 // sample the spectrum as well as the rings and sectors of the plane waves do.
 constexpr double kAllLong = 3, kAllPatch = 6;
-// Approximate number of nodes along the shortest plane wave. The relative error of cubic interpolation of heights is
-// then 2e-4 in the middle of the cross-fade.
+// Approximate number of nodes along the shortest plane wave. In the middle of the cross-fade there are 20 nodes along a
+// wave, where cubic interpolation has a relative error of 3/128 (2 pi / 20)^4 = 2e-4.
 constexpr double kNodesPerLongWave = 14;
 
 // The patch is at least as wide as the local surface, which extends one or two nodes beyond the reach on either side.
