@@ -62,20 +62,20 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"spectrum", NameOf(*spectrum, campaign.corrected_above)},
       {"spectrum_departures", spectrum->departures()},
       {"discretization",
-       "Short waves by FFT on a periodic grid, longer ones as plane waves; waves shorter than the grid by "
-       "the mean "
-       "of refraction over their slopes. Ranges are the least and the greatest over winds, fetches and "
-       "footprints."},
+       "Short waves by FFT on a periodic grid, longer ones as plane waves; "
+       "waves shorter than the grid by the mean of refraction over their slopes. "
+       "Ranges are the least and the greatest over winds, fetches and footprints."},
       {"estimator", std::string(Name(campaign.effort.estimator))},
       {"rounding",
        absl::StrCat(
            "Values to a power of two, the largest not above a quarter of their standard error, and to ",
            kValueBits, " significant bits if that is coarser; standard errors to ", kStandardErrorBits,
            " significant bits")},
-      {"node_values", campaign.balanced_nodes ? "less a twelfth of their second difference along each axis "
-                                                "but depth, ends aside, which nearly halves "
-                                                "the error of interpolation in the root mean square"
-                                              : "as computed at the nodes"},
+      {"node_values",
+       campaign.balanced_nodes
+           ? "less a twelfth of their second difference along each axis but depth, ends aside, "
+             "which nearly halves the error of interpolation in the root mean square"
+           : "as computed at the nodes"},
       {"realizations", Range(results, &SeaCaseResult::realizations)},
       {"encounters_above_relative_error",
        std::int64_t{std::count_if(results.begin(), results.end(),
@@ -91,11 +91,10 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
 
 void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance) {
   provenance.attributes["interpolation_error"] =
-      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, by "
-      "the random "
-      "numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: root mean square, 99th "
-      "percentile, "
-      "greatest, rms standard error of the direct values, number of pulses";
+      "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, "
+      "by the random numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: "
+      "root mean square, 99th percentile, greatest, rms standard error of the direct values, "
+      "number of pulses";
   for (std::size_t q = 0; q < errors.size(); ++q) {
     const InterpolationError& error = errors[q];
     provenance.attributes["interpolation_error_" + std::string(Describe(kChecked[q]).name)] =

@@ -78,9 +78,8 @@ absl::StatusOr<Content> Decode(std::string_view bytes) {
   reader(content);
   if (!reader.ReadAll()) {
     return absl::DataLossError(
-        "holds other fields than this program computes (made by another build of the same commit); start in "
-        "another "
-        "work folder");
+        "holds other fields than this program computes (made by another build of the same commit); "
+        "start in another work folder");
   }
   return content;
 }
@@ -126,9 +125,8 @@ absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin,
     return absl::DataLossError("is not a unit of albtpu-generate; delete it, and --resume computes it");
   }
   const absl::Status damaged = absl::DataLossError(
-      "is damaged or truncated (its bytes do not match the SHA-256 at its end); delete it, and --resume "
-      "computes it "
-      "again");
+      "is damaged or truncated (its bytes do not match the SHA-256 at its end); "
+      "delete it, and --resume computes it again");
   if (bytes.size() < kMagic.size() + kDigestSize) return damaged;
   const std::string_view seal = bytes.substr(bytes.size() - kDigestSize);
   bytes.remove_suffix(kDigestSize);
