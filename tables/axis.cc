@@ -1,6 +1,7 @@
 #include "tables/axis.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -14,20 +15,18 @@
 namespace albtpu {
 namespace {
 
-constexpr double kLargestAzimuth = 90;  // degree; all others fold below it.
-
 double Scaled(double coordinate, Scale scale) {
   return scale == Scale::kLog ? std::log(coordinate) : coordinate;
 }
 
-// "12 m", "3 m s-1": a coordinate as a message prints it; nine digits tell any two floats apart.
+// "12 m", "3 m s-1": a coordinate as messages print it. Nine digits tell any two floats apart.
 std::string WithUnits(double value, const AxisSchema& schema) {
   return absl::StrFormat("%.9g %s", value, std::string(schema.units));
 }
 
-// Why the node at `index` may not stand on the axis; empty if it may.
-std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, std::size_t index) {
-  const AxisSchema& schema = Describe(id);
+// The rule that the node at `index` breaks; empty if it breaks none.
+std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<double>& nodes,
+                    std::size_t index) {
   const double node = nodes[index];
   if (!std::isfinite(node)) return absl::StrCat(WithUnits(node, schema), ": nodes must be finite");
   if (static_cast<double>(static_cast<float>(node)) != node) {
@@ -41,8 +40,9 @@ std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, st
   if (scale == Scale::kLog && node == 0) {
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
-  if (id == AxisId::kAzimuth && node > kLargestAzimuth) {
-    return absl::StrCat(WithUnits(node, schema), ": azimuths are folded into 0 to 90 degree");
+  if (schema.is_folded && node > kFoldedEnds[1]) {
+    return absl::StrCat(WithUnits(node, schema),
+                        ": nodes must not be above 90 degree, azimuths are folded below it");
   }
   if (index > 0 && !(node > nodes[index - 1])) {
     return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
@@ -58,36 +58,50 @@ std::string Problem(AxisId id, Scale scale, const std::vector<double>& nodes, st
 }  // namespace
 
 absl::StatusOr<Axis> Axis::Create(AxisId id, std::vector<double> nodes) {
-  return Create(id, std::move(nodes), Describe(id).scale);
+  return Create(Describe(id), std::move(nodes));
 }
 
 absl::StatusOr<Axis> Axis::Create(AxisId id, std::vector<double> nodes, Scale scale) {
-  const std::string name(Describe(id).name);
+  return Create(Describe(id), std::move(nodes), scale);
+}
+
+absl::StatusOr<Axis> Axis::Create(const AxisSchema& schema, std::vector<double> nodes) {
+  return Create(schema, std::move(nodes), schema.scale);
+}
+
+absl::StatusOr<Axis> Axis::Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale) {
+  const std::string name(schema.name);
   if (nodes.empty()) {
     return absl::InvalidArgumentError(absl::StrFormat("axis '%s' has no nodes: it needs at least one", name));
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::string problem = Problem(id, scale, nodes, i);
+    const std::string problem = Problem(schema, scale, nodes, i);
     if (!problem.empty()) {
       return absl::InvalidArgumentError(absl::StrFormat("axis '%s' node %d is %s", name, i, problem));
     }
   }
-  return Axis(id, std::move(nodes), scale);
+  return Axis(schema, std::move(nodes), scale);
 }
 
-Axis::Axis(AxisId id, std::vector<double> nodes, Scale scale)
-    : id_(id), scale_(scale), nodes_(std::move(nodes)) {
+Axis::Axis(const AxisSchema& schema, std::vector<double> nodes, Scale scale)
+    : schema_(schema), scale_(scale), nodes_(std::move(nodes)) {
   scaled_nodes_.reserve(nodes_.size());
   for (double node : nodes_) scaled_nodes_.push_back(Scaled(node, scale_));
 }
 
+AxisId Axis::id() const {
+  const std::optional<AxisId> id = FindAxis(schema_.name);
+  assert(id.has_value());
+  return *id;
+}
+
 std::optional<Bracket> Axis::Locate(double coordinate) const {
-  if (id_ == AxisId::kAzimuth) coordinate = FoldAzimuth(coordinate);
-  if (id_ == AxisId::kFetch) {
+  if (schema_.is_folded) coordinate = FoldAzimuth(coordinate);
+  if (schema_.is_endless) {
     if (size() == 1 && coordinate > 0) return Bracket{};
     coordinate = std::min(coordinate, nodes_.back());
   }
-  // Written so that a NaN fails it.
+  // Written so that NaN fails it.
   if (!(coordinate >= nodes_.front() && coordinate <= nodes_.back())) return std::nullopt;
   if (size() == 1) return Bracket{};
 

@@ -7,47 +7,54 @@
 
 #include "absl/status/statusor.h"
 #include "tables/schema.h"
+#include "tables/table_schema.h"
 
 namespace albtpu {
 
-// A coordinate between the nodes `lower` and `lower + 1`, as a fraction in [0, 1] of the way in the axis'
-// scale. On an axis of one node, `lower` is 0 and `fraction` is 0.
+// A coordinate between the nodes `lower` and `lower + 1`, as a fraction in [0, 1] of the distance between them in the
+// scale of the axis. On an axis of one node, `lower` is 0 and `fraction` is 0.
 struct Bracket {
   std::size_t lower = 0;
   double fraction = 0;
 };
 
-// Immutable. Nodes are representable in float32, finite and increasing, and are part of the domain at both
-// ends.
+// Immutable. Nodes are representable in float32, finite and increasing, and belong to the domain at both ends.
 class Axis {
  public:
-  // Fails with InvalidArgument, naming the axis and the node, when there is no node, when a node is not
-  // finite, is not representable in float32, is negative, does not increase, or is not positive on a log
-  // scale; when it breaks the limits of format.h; or when an azimuth is above 90 degrees.
+  // Fails with InvalidArgument, naming the axis and the node, if there is no node, or if a node is not finite, is not
+  // representable in float32, is negative, does not increase, is not positive on a log scale, breaks the limits of
+  // format.h, or is above 90 degrees on a folded axis. Without a scale, the axis has that of its schema.
+  static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes);
+  static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
+  // An axis of the sea surface.
   static absl::StatusOr<Axis> Create(AxisId id, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(AxisId id, std::vector<double> nodes, Scale scale);
 
-  AxisId id() const { return id_; }
+  const AxisSchema& schema() const { return schema_; }
+  AxisId id() const;  // Requires an axis of the sea surface.
   Scale scale() const { return scale_; }
   const std::vector<double>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
 
-  // Where `coordinate` lies, in the units of the axis; nothing when it is outside the nodes (or not a
-  // number). Azimuth is folded into 0-90 degrees first; fetch above its last node is held at it, and an axis
-  // of one fetch answers at any fetch above zero.
+  // Where `coordinate`, in the units of the axis, lies; nothing if it is outside the nodes or not a number. A folded axis
+  // folds it first. An endless axis holds it at the last node, and answers at any coordinate above zero if it has one
+  // node only.
   std::optional<Bracket> Locate(double coordinate) const;
 
  private:
-  Axis(AxisId id, std::vector<double> nodes, Scale scale);
+  Axis(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
 
-  AxisId id_;
+  AxisSchema schema_;
   Scale scale_;
   std::vector<double> nodes_;
   std::vector<double> scaled_nodes_;  // The nodes, or their logarithms.
 };
 
-// The azimuth in [0, 90] degrees that has the same statistics as `azimuth`, which may be any finite angle in
-// degrees: a Gaussian sea looks the same after a turn by 180 degrees and in the mirror of the wind axis.
+// The azimuth in [0, 90] degrees that has the same statistics as `azimuth`, which may be any finite angle in degrees. A
+// Gaussian sea looks the same after a turn by 180 degrees and when mirrored at the wind axis.
 double FoldAzimuth(double azimuth);
+
+// The ends of a folded axis.
+inline constexpr double kFoldedEnds[] = {0, 90};  // degree
 
 }  // namespace albtpu

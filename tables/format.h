@@ -1,5 +1,5 @@
-// The names and limits of the written form; the code twin of FORMAT.md, which specifies them. The user block
-// before them is in seal.h; the names of axes and variables are in schema.h.
+// The names and limits of the written form, which FORMAT.md specifies. Those of the user block are in seal.h, the names
+// of axes and variables in schema.h.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace albtpu::format {
 
-// Attributes of the file that we write from the members of a table; no other attribute may take their names.
+// Attributes of the file that are written from the members of a table. No other attribute may have their names.
 inline constexpr std::string_view kConventions = "Conventions";
 inline constexpr std::string_view kId = "id";
 inline constexpr std::string_view kVersion = "version";
@@ -16,11 +16,14 @@ inline constexpr std::string_view kTitle = "title";
 inline constexpr std::string_view kCampaign = "campaign";
 inline constexpr std::string_view kContentDigest = "content_digest";
 inline constexpr std::string_view kCoverage = "coverage";
-inline constexpr std::array<std::string_view, 7> kReservedAttributes = {
-    kConventions, kId, kVersion, kTitle, kCampaign, kContentDigest, kCoverage};
+inline constexpr std::string_view kTableKind = "table_kind";
+inline constexpr std::array<std::string_view, 8> kReservedAttributes = {
+    kConventions, kId, kVersion, kTitle, kCampaign, kContentDigest, kCoverage, kTableKind};
 
 inline constexpr std::string_view kConventionsValue = "CF-1.10";
 inline constexpr std::string_view kCoverageValue = "2 sigma";
+// The kind of the files that have no attribute `table_kind`. They never have one.
+inline constexpr std::string_view kDefaultTableKind = "sea_surface";
 
 // Attributes of datasets.
 inline constexpr std::string_view kUnits = "units";
@@ -29,18 +32,18 @@ inline constexpr std::string_view kInterpolation = "interpolation";
 inline constexpr std::string_view kAncillaryVariables = "ancillary_variables";
 inline constexpr std::string_view kFillValue = "_FillValue";
 
-// The most nodes of an axis, and the most values of a variable (1 GiB): a wrong file cannot ask for any
-// amount of memory.
+// The most nodes of an axis, and the most values of a variable (1 GiB): they bound the memory that a malformed file can
+// make a reader allocate.
 inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
 inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
 
-// The greatest node, the least distance between two, and the greatest magnitude of a value, in the units of
-// each: far beyond any sea, and so that single precision can interpolate between them.
+// The greatest node, the least distance between two nodes and the greatest magnitude of a value, each in its own units.
+// They are far beyond any sea, and let single precision interpolate between them.
 inline constexpr double kGreatestNode = 1e9;
 inline constexpr double kLeastNodeDistance = 1e-6;
 inline constexpr float kGreatestValue = 1e6f;
 
-// The most bytes of an attribute. The longest, the campaign, has some thousand.
+// The most bytes of an attribute. The longest attribute, the campaign, has a few thousand.
 inline constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
 
 // A chunk holds at most this many values (256 KiB).
@@ -48,7 +51,7 @@ inline constexpr std::size_t kMaxChunkValues = std::size_t{1} << 16;
 
 inline constexpr unsigned kDeflateLevel = 6;
 
-// The first bytes of what the content digest is taken over.
+// The first bytes that the content digest is computed over.
 inline constexpr std::string_view kContentDigestPrefix = "albtpu table content 1\n";
 
 }  // namespace albtpu::format

@@ -3,13 +3,34 @@
 namespace albtpu {
 namespace {
 
+// The numbers of the sea do not change when the azimuth turns by 180 degrees or is mirrored at the wind axis, and beyond
+// the longest fetch the sea is fully developed.
 constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
-    {"wind_speed", "m s-1", "wind speed at 10 m above the sea", Scale::kLinear},
-    {"fetch", "m", "fetch; at the last node and beyond, the sea is fully developed", Scale::kLog},
-    {"incidence", "degree", "incidence of the beam in air, from the vertical", Scale::kLinear},
-    {"azimuth", "degree", "azimuth of the beam from downwind, folded into 0 to 90 degrees", Scale::kLinear},
-    {"footprint", "m", "diameter of the beam at the mean surface, across its axis", Scale::kLog},
-    {"depth", "m", "depth below the located surface", Scale::kLinear},
+    {.name = "wind_speed",
+     .units = "m s-1",
+     .long_name = "wind speed at 10 m above the sea",
+     .scale = Scale::kLinear},
+    {.name = "fetch",
+     .units = "m",
+     .long_name = "fetch; at the last node and beyond, the sea is fully developed",
+     .scale = Scale::kLog,
+     .is_endless = true,
+     .if_absent = IfAbsent::kLastNode},
+    {.name = "incidence",
+     .units = "degree",
+     .long_name = "incidence of the beam in air, from the vertical",
+     .scale = Scale::kLinear},
+    {.name = "azimuth",
+     .units = "degree",
+     .long_name = "azimuth of the beam from downwind, folded into 0 to 90 degrees",
+     .scale = Scale::kLinear,
+     .is_folded = true,
+     .if_absent = IfAbsent::kLargerOfEnds},
+    {.name = "footprint",
+     .units = "m",
+     .long_name = "diameter of the beam at the mean surface, across its axis",
+     .scale = Scale::kLog},
+    {.name = "depth", .units = "m", .long_name = "depth below the located surface", .scale = Scale::kLinear},
 }};
 
 constexpr std::array<QuantitySchema, kQuantityCount> kQuantitySchemas = {{
@@ -22,7 +43,17 @@ constexpr std::array<QuantitySchema, kQuantityCount> kQuantitySchemas = {{
     {"bias_vertical", "m", "vertical bias, positive if reported too shallow", true, true},
 }};
 
+constexpr std::array<std::size_t, kAxisCount> kBlendOrder = {
+    Index(AxisId::kWindSpeed), Index(AxisId::kFetch),     Index(AxisId::kAzimuth),
+    Index(AxisId::kIncidence), Index(AxisId::kFootprint), Index(AxisId::kDepth)};
+
+constexpr TableSchema kSchema = {
+    .name = "sea_surface", .axes = kAxisSchemas, .quantities = kQuantitySchemas, .blend_order = kBlendOrder};
+static_assert(IsWellFormed(kSchema));
+
 }  // namespace
+
+constinit const TableSchema kSeaSurface = kSchema;
 
 const AxisSchema& Describe(AxisId axis) { return kAxisSchemas[Index(axis)]; }
 

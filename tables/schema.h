@@ -1,5 +1,5 @@
-// What a table holds: its six axes, its six quantities, their names, units and order. The written form is
-// FORMAT.md.
+// The sea surface's tables: their six axes and six quantities, and the names by which code refers to them. FORMAT.md
+// specifies the written form.
 #pragma once
 
 #include <array>
@@ -7,10 +7,9 @@
 #include <optional>
 #include <string_view>
 
-namespace albtpu {
+#include "tables/table_schema.h"
 
-// How values lie between two nodes: linear in the coordinate, or linear in its logarithm.
-enum class Scale { kLinear, kLog };
+namespace albtpu {
 
 // The axes, slowest first. This is the order of the dimensions of every dataset and of every message.
 enum class AxisId { kWindSpeed, kFetch, kIncidence, kAzimuth, kFootprint, kDepth };
@@ -18,13 +17,6 @@ inline constexpr std::size_t kAxisCount = 6;
 inline constexpr std::array<AxisId, kAxisCount> kAxes = {AxisId::kWindSpeed, AxisId::kFetch,
                                                          AxisId::kIncidence, AxisId::kAzimuth,
                                                          AxisId::kFootprint, AxisId::kDepth};
-
-struct AxisSchema {
-  std::string_view name;       // "wind_speed": the dataset, the CSV column, the field of a message.
-  std::string_view units;      // CF units: "m s-1".
-  std::string_view long_name;  // One line for people.
-  Scale scale;                 // The scale of tables that we make; a file may state another.
-};
 
 // What the surface of the sea does to a pulse. All but the biases are 2 sigma.
 enum class Quantity {
@@ -40,15 +32,11 @@ inline constexpr std::array<Quantity, kQuantityCount> kQuantities = {
     Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu,
     Quantity::kBiasAlongBeam,       Quantity::kBiasVertical};
 
-struct QuantitySchema {
-  std::string_view name;   // "thu"; its standard error is `name + kStandardErrorSuffix`.
-  std::string_view units;  // "degree" or "m".
-  std::string_view long_name;
-  bool over_depth;  // False: the variable has the first five axes only.
-  bool is_bias;     // Biases may be negative, and may be absent; the others may not.
-};
+constexpr std::size_t Index(AxisId axis) { return static_cast<std::size_t>(axis); }
+constexpr std::size_t Index(Quantity quantity) { return static_cast<std::size_t>(quantity); }
 
-inline constexpr std::string_view kStandardErrorSuffix = "_standard_error";
+// The schema that AxisId and Quantity are indices of.
+extern const TableSchema kSeaSurface;
 
 const AxisSchema& Describe(AxisId axis);
 const QuantitySchema& Describe(Quantity quantity);
@@ -56,10 +44,5 @@ const QuantitySchema& Describe(Quantity quantity);
 // The inverse of `Describe(...).name`; nothing if there is no such name.
 std::optional<AxisId> FindAxis(std::string_view name);
 std::optional<Quantity> FindQuantity(std::string_view name);
-
-constexpr std::size_t Index(AxisId axis) { return static_cast<std::size_t>(axis); }
-constexpr std::size_t Index(Quantity quantity) { return static_cast<std::size_t>(quantity); }
-
-std::string_view Name(Scale scale);  // "linear", "log": the value of the attribute `interpolation`.
 
 }  // namespace albtpu

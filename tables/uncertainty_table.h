@@ -1,56 +1,47 @@
-// A lookup table in memory: axes, quantities with their standard errors, and where they come from.
+// A table of the sea surface in memory.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "absl/status/statusor.h"
 #include "tables/axis.h"
 #include "tables/provenance.h"
 #include "tables/schema.h"
+#include "tables/table.h"
 
 namespace albtpu {
 
-// A quantity at every node, row-major in the order of kAxes (depth fastest; without depth where the quantity
-// has none).
-struct Variable {
-  std::vector<float> values;           // Finite, 1e6 at most; not negative unless a bias.
-  std::vector<float> standard_errors;  // The same shape; so too, not negative. Empty: not known.
-  Scale scale =
-      Scale::kLinear;  // kLog only where all values are positive. Standard errors are always linear.
-};
-
-// Immutable; a valid table by construction.
+// A `Table` of kind kSeaSurface, whose axes and quantities have names. Immutable; a valid table by construction.
 class UncertaintyTable {
  public:
   using Axes = std::array<Axis, kAxisCount>;
   using Variables = std::array<std::optional<Variable>, kQuantityCount>;
 
-  // Fails with InvalidArgument when an axis stands in the wrong place, a required variable is missing, a
-  // shape does not fit the axes, or a value breaks the rules of `Variable`; the message names axis or
-  // variable and the index.
+  // Fails with InvalidArgument if an axis is in the wrong place, a required variable is missing, a shape does not fit the
+  // axes, or a value breaks the rules of `Variable`. The message names the axis or the variable and the index.
   static absl::StatusOr<UncertaintyTable> Create(Axes axes, Variables variables, Provenance provenance);
+  // Requires a table of kind kSeaSurface.
+  explicit UncertaintyTable(Table table);
 
   const Axis& axis(AxisId id) const { return axes_[Index(id)]; }
   const Axes& axes() const { return axes_; }
-  // Null when the table does not hold the quantity (biases of published tables).
-  const Variable* variable(Quantity quantity) const;
-  const Provenance& provenance() const { return provenance_; }
-  bool is_published() const { return provenance_.campaign.empty(); }  // numbers of others, not of a campaign
+  // Null if the table does not hold the quantity: tables of published numbers have no biases.
+  const Variable* variable(Quantity quantity) const { return table_.variable(Index(quantity)); }
+  const Provenance& provenance() const { return table_.provenance(); }
+  // Whether the numbers were published by others: no campaign made the table.
+  bool is_published() const { return provenance().campaign.empty(); }
 
-  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not
-  // over date, version, commit or other attributes. Two tables with one digest answer alike.
-  const std::string& digest() const { return digest_; }
+  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not over date,
+  // version, commit or other attributes. Two tables with the same digest give the same answers.
+  const std::string& digest() const { return table_.digest(); }
+
+  const Table& table() const { return table_; }
 
  private:
-  UncertaintyTable(Axes axes, Variables variables, Provenance provenance);
-
+  Table table_;
   Axes axes_;
-  Variables variables_;
-  Provenance provenance_;
-  std::string digest_;
 };
 
 // The number of values of a quantity on these axes.

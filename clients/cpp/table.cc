@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   answers.values[albtpu::Index(Quantity::kThu)] = thu.data();
   answers.values[albtpu::Index(Quantity::kTvu)] = tvu.data();
   const albtpu::ColumnInterpolator interpolator(*table);
-  albtpu::AnswerOnAllCores(interpolator, {.coverage = albtpu::Coverage::kP95}, pulses, answers);
+  albtpu::InterpolateOnAllCores(interpolator, {.coverage = albtpu::Coverage::kP95}, pulses, answers);
 
   std::printf("incidence,depth,thu,tvu\n");
   for (std::size_t i = 0; i < pulses.size; ++i) {

@@ -81,7 +81,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pul
 InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyTable& table,
                                     const std::vector<std::vector<Estimate>>& direct, std::size_t checked) {
   const Quantity quantity = kChecked[checked];
-  const double least = Describe(quantity).over_depth ? kLeastLength : kLeastAngle;
+  const double least = Describe(quantity).over_last_axis ? kLeastLength : kLeastAngle;
   InterpolationError summary;
   std::vector<double> errors;  // relative magnitudes
   for (std::size_t i = 0; i < direct.size(); ++i) {

@@ -32,7 +32,7 @@ class VariableGrid {
     const std::size_t footprints = campaign_.nodes(AxisId::kFootprint).size();
     const std::size_t beams =
         campaign_.nodes(AxisId::kIncidence).size() * campaign_.nodes(AxisId::kAzimuth).size();
-    const std::size_t depths = Describe(quantity).over_depth ? campaign_.nodes(AxisId::kDepth).size() : 1;
+    const std::size_t depths = Describe(quantity).over_last_axis ? campaign_.nodes(AxisId::kDepth).size() : 1;
     const std::size_t sea = sea_case / footprints, footprint = sea_case % footprints;
     const std::size_t at = ((sea * beams + beam) * footprints + footprint) * depths + depth;
     variable.values[at] = static_cast<float>(estimate.value);

@@ -41,7 +41,7 @@ LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
 absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses,
                                  const AnswerColumns& answers) {
   if (absl::Status status = CheckLengths(pulses); !status.ok()) return status;
-  AnswerOnAllCores(interpolator_, query, pulses, answers);
+  InterpolateOnAllCores(interpolator_, query, pulses, answers);
   return absl::OkStatus();
 }
 

@@ -30,14 +30,14 @@ absl::StatusOr<std::string> ReadText(hid_t object, std::string_view name) {
   return *text;
 }
 
-// A dataset of float32 that is checked before anything of the size that it claims is allocated.
+// A dataset of float32. Its shape is checked before memory of the size that it claims is allocated.
 struct FloatDataset {
   std::string name;
   Handle dataset;
   std::vector<hsize_t> shape;
 };
 
-// Links to elsewhere would be followed out of the file.
+// HDF5 would follow other links out of the file.
 bool IsOfThisFile(hid_t file, const std::string& name) {
   H5L_info_t link;
   return H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
@@ -93,8 +93,8 @@ absl::StatusOr<Scale> ReadScale(const FloatDataset& dataset, std::string_view ki
                absl::StrFormat("has interpolation '%s': it should be 'linear' or 'log'", *name));
 }
 
-absl::StatusOr<Axis> ReadAxis(hid_t file, AxisId id) {
-  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "axis", Describe(id).name);
+absl::StatusOr<Axis> ReadAxis(hid_t file, const AxisSchema& schema) {
+  const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "axis", schema.name);
   if (!dataset.ok()) return dataset.status();
   if (dataset->shape.size() != 1) {
     return About("axis", dataset->name,
@@ -105,20 +105,20 @@ absl::StatusOr<Axis> ReadAxis(hid_t file, AxisId id) {
         "axis", dataset->name,
         absl::StrFormat("has %d nodes: it may have %d at most", dataset->shape[0], format::kMaxNodeCount));
   }
-  const absl::Status units = CheckUnits(*dataset, "axis", Describe(id).units);
+  const absl::Status units = CheckUnits(*dataset, "axis", schema.units);
   if (!units.ok()) return units;
   const absl::StatusOr<Scale> scale = ReadScale(*dataset, "axis");
   if (!scale.ok()) return scale.status();
   const absl::StatusOr<std::vector<float>> nodes = ReadFloats(*dataset, "axis");
   if (!nodes.ok()) return nodes.status();
-  return Axis::Create(id, {nodes->begin(), nodes->end()}, *scale);
+  return Axis::Create(schema, {nodes->begin(), nodes->end()}, *scale);
 }
 
-absl::StatusOr<UncertaintyTable::Axes> ReadAxes(hid_t file) {
-  std::vector<Axis> axes;
+absl::StatusOr<Table::Axes> ReadAxes(hid_t file, const TableSchema& schema) {
+  Table::Axes axes;
   std::size_t count = 1;
-  for (AxisId id : kAxes) {
-    absl::StatusOr<Axis> axis = ReadAxis(file, id);
+  for (const AxisSchema& axis_schema : schema.axes) {
+    absl::StatusOr<Axis> axis = ReadAxis(file, axis_schema);
     if (!axis.ok()) return axis.status();
     if (axis->size() > format::kMaxValueCount / count) {
       return absl::InvalidArgumentError(absl::StrFormat(
@@ -127,29 +127,29 @@ absl::StatusOr<UncertaintyTable::Axes> ReadAxes(hid_t file) {
     count *= axis->size();
     axes.push_back(*std::move(axis));
   }
-  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+  return axes;
 }
 
 // The values of a dataset that must span the axes of a quantity.
-absl::StatusOr<std::vector<float>> ReadValues(const FloatDataset& dataset, const UncertaintyTable::Axes& axes,
-                                              Quantity quantity) {
+absl::StatusOr<std::vector<float>> ReadValues(const FloatDataset& dataset, const Table::Axes& axes,
+                                              const QuantitySchema& quantity) {
   std::vector<hsize_t> expected;
   for (const Axis& axis : axes) expected.push_back(axis.size());
-  if (!Describe(quantity).over_depth) expected.pop_back();
+  if (!quantity.over_last_axis) expected.pop_back();
   if (dataset.shape != expected) {
     return About("variable", dataset.name,
                  absl::StrFormat("has the shape (%s): its axes have (%s)", absl::StrJoin(dataset.shape, ", "),
                                  absl::StrJoin(expected, ", ")));
   }
-  const absl::Status units = CheckUnits(dataset, "variable", Describe(quantity).units);
+  const absl::Status units = CheckUnits(dataset, "variable", quantity.units);
   if (!units.ok()) return units;
   return ReadFloats(dataset, "variable");
 }
 
-// Nothing when the file does not hold the quantity; whether it may is for UncertaintyTable to say.
-absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const UncertaintyTable::Axes& axes,
-                                                     Quantity quantity) {
-  const std::string name(Describe(quantity).name);
+// Nothing if the file does not hold the quantity; Table::Create decides whether it has to.
+absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const Table::Axes& axes,
+                                                     const QuantitySchema& quantity) {
+  const std::string name(quantity.name);
   if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
   const absl::StatusOr<FloatDataset> dataset = OpenDataset(file, "variable", name);
   if (!dataset.ok()) return dataset.status();
@@ -198,12 +198,31 @@ absl::Status CheckCoverage(hid_t file) {
                absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
 }
 
-// Where a dataset has several names, or its chunks lie in one place, a small file would fill any memory.
-absl::Status CheckStoredOnce(hid_t file, std::size_t length) {
+// A file without the attribute is of the default kind. One that names the default kind is refused, so that a table has
+// one written form.
+absl::Status CheckKind(hid_t file, const TableSchema& schema) {
+  std::string kind(format::kDefaultTableKind);
+  if (H5Aexists(file, std::string(format::kTableKind).c_str()) > 0) {
+    const absl::StatusOr<std::string> named = ReadText(file, format::kTableKind);
+    if (!named.ok()) return named.status();
+    if (*named == format::kDefaultTableKind) {
+      return About("attribute", std::string(format::kTableKind),
+                   absl::StrFormat("is '%s': files of that kind do not have it", *named));
+    }
+    kind = *named;
+  }
+  if (kind == schema.name) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrFormat("is a table of kind '%s': expected kind '%s'", kind, std::string(schema.name)));
+}
+
+// Guards against a small file that fills any memory because one dataset has several names, or because several chunks
+// lie in the same bytes.
+absl::Status CheckStoredOnce(hid_t file, const TableSchema& schema, std::size_t length) {
   std::vector<std::string> names;
-  for (AxisId id : kAxes) names.emplace_back(Describe(id).name);
-  for (Quantity quantity : kQuantities) {
-    const std::string name(Describe(quantity).name);
+  for (const AxisSchema& axis : schema.axes) names.emplace_back(axis.name);
+  for (const QuantitySchema& quantity : schema.quantities) {
+    const std::string name(quantity.name);
     names.insert(names.end(), {name, name + std::string(kStandardErrorSuffix)});
   }
   std::size_t room = length;
@@ -213,33 +232,33 @@ absl::Status CheckStoredOnce(hid_t file, std::size_t length) {
     const std::size_t stored = dataset ? H5Dget_storage_size(dataset) : 0;
     if (stored > room) {
       return absl::InvalidArgumentError(absl::StrFormat(
-          "has more bytes in datasets than its %d in all: each should have bytes of its own", length));
+          "has datasets of more bytes than the %d of the file: each should have bytes of its own", length));
     }
     room -= stored;
   }
   return absl::OkStatus();
 }
 
-absl::StatusOr<UncertaintyTable> ReadContents(hid_t file, std::size_t length) {
-  const absl::Status coverage = CheckCoverage(file);
-  if (!coverage.ok()) return coverage;
-  const absl::Status stored = CheckStoredOnce(file, length);
-  if (!stored.ok()) return stored;
-  absl::StatusOr<UncertaintyTable::Axes> axes = ReadAxes(file);
+absl::StatusOr<Table> ReadContents(hid_t file, const TableSchema& schema, std::size_t length) {
+  absl::Status status = CheckKind(file, schema);
+  if (status.ok()) status = CheckCoverage(file);
+  if (status.ok()) status = CheckStoredOnce(file, schema, length);
+  if (!status.ok()) return status;
+  absl::StatusOr<Table::Axes> axes = ReadAxes(file, schema);
   if (!axes.ok()) return axes.status();
-  UncertaintyTable::Variables variables;
-  for (Quantity quantity : kQuantities) {
+  Table::Variables variables;
+  for (const QuantitySchema& quantity : schema.quantities) {
     absl::StatusOr<std::optional<Variable>> variable = ReadVariable(file, *axes, quantity);
     if (!variable.ok()) return variable.status();
-    variables[Index(quantity)] = *std::move(variable);
+    variables.push_back(*std::move(variable));
   }
   absl::StatusOr<Provenance> provenance = ReadProvenance(file);
   if (!provenance.ok()) return provenance.status();
   const absl::StatusOr<std::string> digest = ReadText(file, format::kContentDigest);
   if (!digest.ok()) return digest.status();
 
-  absl::StatusOr<UncertaintyTable> table =
-      UncertaintyTable::Create(*std::move(axes), std::move(variables), *std::move(provenance));
+  absl::StatusOr<Table> table =
+      Table::Create(schema, *std::move(axes), std::move(variables), *std::move(provenance));
   if (table.ok() && table->digest() != *digest) {
     return About("attribute", std::string(format::kContentDigest),
                  absl::StrFormat("is '%s': the content has '%s'", *digest, table->digest()));
@@ -249,14 +268,20 @@ absl::StatusOr<UncertaintyTable> ReadContents(hid_t file, std::size_t length) {
 
 }  // namespace
 
-absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
+absl::StatusOr<Table> DecodeTable(absl::string_view file, const TableSchema& schema) {
   const absl::Status sealed = seal::Check(file);
   if (!sealed.ok()) return sealed;
   const hdf5::Session session;
   // HDF5 reads the very bytes that were checked, not the file again.
   const Handle image = hdf5::OpenImage(file);
-  if (!image) return absl::InvalidArgumentError("is sealed, but what it holds is not HDF5");
-  return ReadContents(image, file.size());
+  if (!image) return absl::InvalidArgumentError("is sealed, but its content is not HDF5");
+  return ReadContents(image, schema, file.size());
+}
+
+absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
+  absl::StatusOr<Table> table = DecodeTable(file, kSeaSurface);
+  if (!table.ok()) return table.status();
+  return UncertaintyTable(*std::move(table));
 }
 
 }  // namespace albtpu

@@ -15,14 +15,14 @@ namespace {
 
 using hdf5::Handle;
 
-std::vector<hsize_t> Shape(const UncertaintyTable& table, Quantity quantity) {
+std::vector<hsize_t> Shape(const Table& table, const QuantitySchema& quantity) {
   std::vector<hsize_t> shape;
   for (const Axis& axis : table.axes()) shape.push_back(axis.size());
-  if (!Describe(quantity).over_depth) shape.pop_back();
+  if (!quantity.over_last_axis) shape.pop_back();
   return shape;
 }
 
-// The fastest axes whole, as many as fit into a chunk; then a part of the next; then one node of the others.
+// As many of the fastest axes as fit into a chunk, then a part of the next axis, then one node of each of the others.
 std::vector<hsize_t> ChunkShape(std::vector<hsize_t> shape) {
   hsize_t room = format::kMaxChunkValues;
   for (std::size_t i = shape.size(); i-- > 0;) {
@@ -32,16 +32,17 @@ std::vector<hsize_t> ChunkShape(std::vector<hsize_t> shape) {
   return shape;
 }
 
-// Builds the HDF5 part in memory. Every call is made; the first that fails is remembered.
+// Builds the HDF5 part in memory. A call that fails does not stop the others; `ok_` tells at the end.
 class Encoder {
  public:
-  explicit Encoder(const UncertaintyTable& table) : table_(table), file_(CreateFile()) {}
+  explicit Encoder(const Table& table) : table_(table), file_(CreateFile()) {}
 
   absl::StatusOr<std::string> Encode() {
     WriteGlobalAttributes();
     for (const Axis& axis : table_.axes()) WriteAxis(axis);
-    for (Quantity quantity : kQuantities) {
-      if (const Variable* variable = table_.variable(quantity)) WriteVariable(quantity, *variable);
+    for (std::size_t q = 0; q < table_.schema().quantities.size(); ++q) {
+      if (const Variable* variable = table_.variable(q))
+        WriteVariable(table_.schema().quantities[q], *variable);
     }
     std::string image = Image();
     if (!ok_) return absl::InternalError("HDF5 cannot build the table in memory");
@@ -53,8 +54,8 @@ class Encoder {
   void Require(bool done) { ok_ = ok_ && done; }
 
   static Handle CreateFile() {
-    // Nothing of the time or of the memory may reach the bytes. Attributes and datasets keep the order of
-    // their making, which netCDF shows.
+    // Neither times nor addresses may get into the bytes. Attributes and datasets keep the order in which they are
+    // created, which netCDF shows.
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_userblock(creation, seal::kSize);
     H5Pset_obj_track_times(creation, false);
@@ -64,7 +65,7 @@ class Encoder {
     constexpr std::size_t kIncrement = std::size_t{1} << 20;
     constexpr hbool_t kOnDisk = false;
     H5Pset_fapl_core(access, kIncrement, kOnDisk);
-    // The oldest superblock: of a newer one, HDF5 1.10 hands out an image that fails its own checksum.
+    // The oldest superblock: with a newer one, HDF5 1.10 returns an image that fails its own checksum.
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18);
     return Handle(H5Fcreate(hdf5::NameInMemory().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   }
@@ -87,13 +88,15 @@ class Encoder {
     WriteText(file_, format::kVersion, provenance.version);
     WriteText(file_, format::kTitle, provenance.title);
     WriteText(file_, format::kCoverage, format::kCoverageValue);
+    const std::string_view kind = table_.schema().name;
+    if (kind != format::kDefaultTableKind) WriteText(file_, format::kTableKind, kind);
     WriteText(file_, format::kContentDigest, table_.digest());
     for (const auto& [name, value] : provenance.attributes) Require(hdf5::WriteAttribute(file_, name, value));
     WriteText(file_, format::kCampaign, provenance.campaign);
   }
 
   void WriteAxis(const Axis& axis) {
-    const AxisSchema& schema = Describe(axis.id());
+    const AxisSchema& schema = axis.schema();
     const std::string name(schema.name);
     const std::vector<float> nodes(axis.nodes().begin(), axis.nodes().end());
     const hsize_t size = nodes.size();
@@ -108,11 +111,10 @@ class Encoder {
     WriteText(dataset, format::kInterpolation, Name(axis.scale()));
   }
 
-  void WriteVariable(Quantity quantity, const Variable& variable) {
-    const QuantitySchema& schema = Describe(quantity);
-    const std::string name(schema.name);
+  void WriteVariable(const QuantitySchema& quantity, const Variable& variable) {
+    const std::string name(quantity.name);
     const std::string error_name = name + std::string(kStandardErrorSuffix);
-    const std::string long_name(schema.long_name);
+    const std::string long_name(quantity.long_name);
     const Handle dataset = WriteValues(quantity, name, long_name, variable.scale, variable.values);
     if (variable.standard_errors.empty()) return;
     WriteText(dataset, format::kAncillaryVariables, error_name);
@@ -120,8 +122,8 @@ class Encoder {
                 variable.standard_errors);
   }
 
-  Handle WriteValues(Quantity quantity, const std::string& name, const std::string& long_name, Scale scale,
-                     const std::vector<float>& values) {
+  Handle WriteValues(const QuantitySchema& quantity, const std::string& name, const std::string& long_name,
+                     Scale scale, const std::vector<float>& values) {
     const std::vector<hsize_t> shape = Shape(table_, quantity);
     const int rank = static_cast<int>(shape.size());
     const float fill = std::numeric_limits<float>::quiet_NaN();
@@ -134,15 +136,15 @@ class Encoder {
     Handle dataset(H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                    H5Dclose);
     Require(H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
-    WriteText(dataset, format::kUnits, Describe(quantity).units);
+    WriteText(dataset, format::kUnits, quantity.units);
     WriteText(dataset, format::kLongName, long_name);
     WriteText(dataset, format::kInterpolation, Name(scale));
     WriteFillValue(dataset, fill);
-    for (int i = 0; i < rank; ++i) AttachAxis(dataset, kAxes[i]);
+    for (std::size_t axis = 0; axis < shape.size(); ++axis) AttachAxis(dataset, axis);
     return dataset;
   }
 
-  // In single precision and of one element, as netCDF wants it: of the type of the variable.
+  // One element of the type of the variable, single precision, as netCDF requires.
   void WriteFillValue(hid_t dataset, float fill) {
     const hsize_t one = 1;
     const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose);
@@ -152,12 +154,13 @@ class Encoder {
     Require(H5Awrite(attribute, H5T_NATIVE_FLOAT, &fill) >= 0);
   }
 
-  void AttachAxis(hid_t dataset, AxisId axis) {
-    const Handle scale(H5Dopen2(file_, std::string(Describe(axis).name).c_str(), H5P_DEFAULT), H5Dclose);
-    Require(H5DSattach_scale(dataset, scale, static_cast<unsigned>(Index(axis))) >= 0);
+  void AttachAxis(hid_t dataset, std::size_t axis) {
+    const std::string name(table_.schema().axes[axis].name);
+    const Handle scale(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    Require(H5DSattach_scale(dataset, scale, static_cast<unsigned>(axis)) >= 0);
   }
 
-  // The file with room for the seal: HDF5 hands out its part without the user block.
+  // The file with space for the seal: HDF5 returns its part without the user block.
   std::string Image() {
     Require(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
     const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
@@ -168,7 +171,7 @@ class Encoder {
     return image;
   }
 
-  const UncertaintyTable& table_;
+  const Table& table_;
   hdf5::Session session_;
   Handle file_;
   bool ok_ = true;
@@ -176,6 +179,6 @@ class Encoder {
 
 }  // namespace
 
-absl::StatusOr<std::string> EncodeTable(const UncertaintyTable& table) { return Encoder(table).Encode(); }
+absl::StatusOr<std::string> EncodeTable(const Table& table) { return Encoder(table).Encode(); }
 
 }  // namespace albtpu

@@ -21,12 +21,12 @@ absl::Status WithPath(const fs::path& path, const absl::Status& status) {
   return absl::Status(status.code(), absl::StrCat(path.string(), ": ", status.message()));
 }
 
-// A file that became shorter while it was read leaves no error number.
+// A file that shrinks while it is read sets no error number.
 absl::Status SystemError(int error) {
   return absl::ErrnoToStatus(error == 0 ? EIO : error, "cannot be read");
 }
 
-// Reads the whole file, or only as much as shows that it is no table.
+// Reads the whole file, or only its first bytes if they show that it is not a table.
 absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -51,13 +51,13 @@ absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
   return file;
 }
 
-absl::StatusOr<UncertaintyTable> Read(const fs::path& path) {
+absl::StatusOr<Table> Read(const fs::path& path, const TableSchema& schema) {
   absl::StatusOr<std::string> file = ReadSealedFile(path);
   if (!file.ok()) return file.status();
-  return DecodeTable(*file);
+  return DecodeTable(*file, schema);
 }
 
-absl::Status Write(const UncertaintyTable& table, const fs::path& path, Existing existing) {
+absl::Status Write(const Table& table, const fs::path& path, Existing existing) {
   const absl::StatusOr<std::string> file = EncodeTable(table);
   if (!file.ok()) return file.status();
   return WriteFileAtomically(path, *file, existing);
@@ -67,18 +67,30 @@ constexpr char kOutOfMemory[] = "there is not enough memory for this table";
 
 }  // namespace
 
-absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) try {
-  absl::StatusOr<UncertaintyTable> table = Read(path);
+absl::StatusOr<Table> ReadTable(const fs::path& path, const TableSchema& schema) try {
+  absl::StatusOr<Table> table = Read(path, schema);
   if (!table.ok()) return WithPath(path, table.status());
   return table;
 } catch (const std::bad_alloc&) {
   return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
 }
 
-absl::Status WriteTable(const UncertaintyTable& table, const fs::path& path, Existing existing) try {
+absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) try {
+  absl::StatusOr<Table> table = ReadTable(path, kSeaSurface);
+  if (!table.ok()) return table.status();
+  return UncertaintyTable(*std::move(table));
+} catch (const std::bad_alloc&) {
+  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+}
+
+absl::Status WriteTable(const Table& table, const fs::path& path, Existing existing) try {
   return Write(table, path, existing);
 } catch (const std::bad_alloc&) {
   return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+}
+
+absl::Status WriteTable(const UncertaintyTable& table, const fs::path& path, Existing existing) {
+  return WriteTable(table.table(), path, existing);
 }
 
 }  // namespace albtpu

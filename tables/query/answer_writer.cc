@@ -1,7 +1,6 @@
 #include "tables/query/answer_writer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace albtpu {
@@ -26,39 +25,7 @@ float Remaining(double limit, double ours) {
 
 }  // namespace
 
-AnswerWriter::AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers)
-    : query_(query),
-      records_(records),
-      answers_(answers),
-      s44_(answers.best_s44_orders != nullptr || answers.remaining_thu != nullptr ||
-           answers.remaining_tvu != nullptr) {
-  for (Quantity quantity : kQuantities) {
-    const std::size_t q = Index(quantity);
-    const bool errors = answers.standard_errors[q] != nullptr && records.has_standard_errors[q];
-    if (answers.values[q] == nullptr && !errors) continue;
-    const bool is_refraction = PlaceOf(quantity).is_refraction;
-    (is_refraction ? needs_.refraction : needs_.displacement) = true;
-    if (errors && !is_refraction) needs_.displacement_errors = true;
-    if (quantity == Quantity::kThu && query.coverage == Coverage::kP95) needs_.radius = true;
-  }
-  if (s44_) needs_.radius = true;
-  if (needs_.radius) needs_.refraction = needs_.displacement = true;
-}
-
-void AnswerWriter::Write(const PulseBlock& block, const BlockValues& numbers) const {
-  WriteOutcomes(block);
-  for (Quantity quantity : kQuantities) {
-    const std::size_t q = Index(quantity);
-    WriteNumbers(block, quantity, records_.has_values[q] ? &numbers.value(quantity) : nullptr,
-                 numbers.radius_over_thu(), answers_.values[q]);
-    WriteNumbers(block, quantity,
-                 records_.has_standard_errors[q] ? &numbers.standard_error(quantity) : nullptr,
-                 numbers.radius_over_thu(), answers_.standard_errors[q]);
-  }
-  if (s44_) WriteS44(block, numbers);
-}
-
-void AnswerWriter::WriteOutcomes(const PulseBlock& block) const {
+void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t* outcome_axes) {
   const auto write = [&](std::uint8_t* column, auto number_of) {
     if (column == nullptr) return;
     column += block.first();
@@ -68,14 +35,75 @@ void AnswerWriter::WriteOutcomes(const PulseBlock& block) const {
       for (std::size_t i = 0; i < block.count(); ++i) column[i] = number_of(block.codes()[i]);
     }
   };
-  write(answers_.outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
-  write(answers_.outcome_axes, [](std::int32_t code) {
+  write(outcomes, [](std::int32_t code) { return OneBased(OutcomeOf(code)); });
+  write(outcome_axes, [](std::int32_t code) {
     return code == outcome_code::kInside ? std::uint8_t{0} : OneBased(code % outcome_code::kOutside);
   });
 }
 
+void ClearOutside(const PulseBlock& block, float* column) {
+  if (block.all_inside()) return;
+  for (std::size_t i = 0; i < block.count(); ++i) {
+    if (block.codes()[i] != outcome_code::kInside) column[i] = kNoNumber;
+  }
+}
+
+AnswerWriter::AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers)
+    : query_(query),
+      records_(records),
+      answers_(answers),
+      s44_(answers.best_s44_orders != nullptr || answers.remaining_thu != nullptr ||
+           answers.remaining_tvu != nullptr) {
+  for (Quantity quantity : kQuantities) {
+    const std::size_t q = Index(quantity);
+    const bool error = answers.standard_errors[q] != nullptr && records.has_standard_errors[q];
+    if (answers.values[q] != nullptr) needs_.AddValue(records, q);
+    if (error) needs_.AddStandardError(records, q);
+    if (quantity == Quantity::kThu && (answers.values[q] != nullptr || error)) {
+      needs_radius_ = query.coverage == Coverage::kP95;
+    }
+  }
+  if (s44_) needs_radius_ = true;
+  if (!needs_radius_) return;
+  for (const Quantity quantity :
+       {Quantity::kRefractionAlongWind, Quantity::kRefractionCrossWind, Quantity::kThu, Quantity::kTvu}) {
+    needs_.AddValue(records, Index(quantity));
+  }
+}
+
+void AnswerWriter::Write(const PulseBlock& block, BlockValues& values) {
+  WriteOutcomes(block, answers_.outcomes, answers_.outcome_axes);
+  if (needs_radius_) {
+    FindRadius(block, values, End::kLow, radius_over_thu_);
+    if (block.has_two_ends()) {  // As LargerOf (interpolation.h).
+      FindRadius(block, values, End::kHigh, high_radius_over_thu_);
+      const BlockOf<float>& thu = values.value(Index(Quantity::kThu));
+      const BlockOf<float>& high_thu = values.value(Index(Quantity::kThu), End::kHigh);
+      for (std::size_t i = 0; i < block.count(); ++i) {
+        radius_over_thu_[i] =
+            LargerRadiusOverThu(thu[i], radius_over_thu_[i], high_thu[i], high_radius_over_thu_[i]);
+      }
+    }
+  }
+  values.TakeLarger(block);
+  for (Quantity quantity : kQuantities) {
+    const std::size_t q = Index(quantity);
+    WriteNumbers(block, quantity, records_.has_values[q] ? &values.value(q) : nullptr, answers_.values[q]);
+    WriteNumbers(block, quantity, records_.has_standard_errors[q] ? &values.standard_error(q) : nullptr,
+                 answers_.standard_errors[q]);
+  }
+  if (s44_) WriteS44(block, values);
+}
+
+void AnswerWriter::FindRadius(const PulseBlock& block, const BlockValues& values, End end,
+                              BlockOf<double>& radius) const {
+  const BlockOf<float>& along = values.value(Index(Quantity::kRefractionAlongWind), end);
+  const BlockOf<float>& cross = values.value(Index(Quantity::kRefractionCrossWind), end);
+  for (std::size_t i = 0; i < block.count(); ++i) radius[i] = RadiusOverThu({along[i], cross[i]});
+}
+
 void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,
-                                const BlockOf<double>& radius_over_thu, float* column) const {
+                                float* column) const {
   if (column == nullptr) return;
   column += block.first();
   const std::size_t count = block.count();
@@ -87,23 +115,22 @@ void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, cons
     std::copy_n(numbers->begin(), count, column);
   } else if (quantity == Quantity::kThu) {
     for (std::size_t i = 0; i < count; ++i)
-      column[i] = static_cast<float>((*numbers)[i] * radius_over_thu[i]);
+      column[i] = static_cast<float>((*numbers)[i] * radius_over_thu_[i]);
   } else {
     for (std::size_t i = 0; i < count; ++i) column[i] = static_cast<float>((*numbers)[i] * kFactor95);
   }
-  if (block.all_inside()) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (block.codes()[i] != outcome_code::kInside) column[i] = kNoNumber;
-  }
+  ClearOutside(block, column);
 }
 
-void AnswerWriter::WriteS44(const PulseBlock& block, const BlockValues& numbers) const {
+void AnswerWriter::WriteS44(const PulseBlock& block, const BlockValues& values) const {
+  const BlockOf<float>& thus = values.value(Index(Quantity::kThu));
+  const BlockOf<float>& tvus = values.value(Index(Quantity::kTvu));
   for (std::size_t i = 0; i < block.count(); ++i) {
     const std::size_t at = block.first() + i;
     const bool inside = block.codes()[i] == outcome_code::kInside;
-    const double depth = block.depth(i);
-    const auto thu = static_cast<float>(numbers.value(Quantity::kThu)[i] * numbers.radius_over_thu()[i]);
-    const auto tvu = static_cast<float>(numbers.value(Quantity::kTvu)[i] * kFactor95);
+    const double depth = block.coordinate(Index(AxisId::kDepth), i);
+    const auto thu = static_cast<float>(thus[i] * radius_over_thu_[i]);
+    const auto tvu = static_cast<float>(tvus[i] * kFactor95);
     if (answers_.best_s44_orders != nullptr) {
       const std::optional<S44Order> best = inside ? BestOrder(thu, tvu, depth) : std::nullopt;
       answers_.best_s44_orders[at] = best.has_value() ? OneBased(*best) : std::uint8_t{0};

@@ -1,4 +1,5 @@
-// From the numbers of a block to the columns of the caller: restated, not-a-number where there is none.
+// From the numbers of a block to the answers of a query: restated to its coverage, compared with S-44, NaN where there is
+// no number.
 #pragma once
 
 #include "tables/query/block_values.h"
@@ -8,7 +9,13 @@
 
 namespace albtpu {
 
-// All must outlive it.
+// Writes the outcomes of a block and the axes that made them; null what is not wanted.
+void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t* outcome_axes);
+
+// Puts NaN where a pulse of the block has no number.
+void ClearOutside(const PulseBlock& block, float* column);
+
+// Of a table of the sea surface. All arguments must outlive it.
 class AnswerWriter {
  public:
   AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers);
@@ -16,20 +23,24 @@ class AnswerWriter {
   // What must be found for the columns that are wanted.
   const Needs& needs() const { return needs_; }
 
-  void Write(const PulseBlock& block, const BlockValues& numbers) const;
+  // Leaves in `values` the larger of both ends, if the block has two.
+  void Write(const PulseBlock& block, BlockValues& values);
 
  private:
-  void WriteOutcomes(const PulseBlock& block) const;
-  // `numbers` is null where the table has none.
+  void FindRadius(const PulseBlock& block, const BlockValues& values, End end, BlockOf<double>& radius) const;
+  // `numbers` is null if the table has none.
   void WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,
-                    const BlockOf<double>& radius_over_thu, float* column) const;
-  void WriteS44(const PulseBlock& block, const BlockValues& numbers) const;
+                    float* column) const;
+  void WriteS44(const PulseBlock& block, const BlockValues& values) const;
 
   const Query& query_;
   const NodeRecords& records_;
   const AnswerColumns& answers_;
   bool s44_;
+  bool needs_radius_ = false;
   Needs needs_;
+  // The 95 % radius of the horizontal error over the THU; the second at the high end.
+  BlockOf<double> radius_over_thu_, high_radius_over_thu_;
 };
 
 }  // namespace albtpu

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-// What follows is compiled once for each instruction set.
+// The code below is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tables/query/axis_lookup.cc"
 #include <hwy/foreach_target.h>
@@ -24,21 +24,21 @@ using VI = hn::Vec<DI>;
 constexpr D d;
 constexpr DI di;
 
-// FoldAzimuth, exactly: up to kFarthestAzimuth whole half turns are subtracted without rounding.
+// FoldAzimuth, exactly: up to kFarthestAzimuth, subtracting whole half turns does not round.
 HWY_INLINE V Fold(V azimuth) {
   const V half_turn = hn::Set(d, 180.0f);
   const V magnitude = hn::Abs(azimuth);
   const V turns = hn::Floor(hn::Mul(magnitude, hn::Set(d, 1 / 180.0f)));
-  V rest = hn::NegMulAdd(turns, half_turn, magnitude);  // `turns` may be one too many or too few
+  V rest = hn::NegMulAdd(turns, half_turn, magnitude);  // `turns` may be off by one
   rest = hn::IfThenElse(hn::Lt(rest, hn::Zero(d)), hn::Add(rest, half_turn), rest);
   rest = hn::IfThenElse(hn::Ge(rest, half_turn), hn::Sub(rest, half_turn), rest);
   return hn::Min(rest, hn::Sub(half_turn, rest));
 }
 
-// The node below or at `x`; the last but one at the last and beyond, the first below it and at not-a-number.
+// The index of the node at or below `x`: the last but one for the last node and beyond, 0 below the first node and for NaN.
 HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   const std::vector<float>& nodes = axis.nodes;
-  constexpr std::size_t kFewNodes = 48;  // to compare with each is faster than to search
+  constexpr std::size_t kFewNodes = 48;  // comparing with each of them is faster than a search
   VI lower = hn::Zero(di);
   if (nodes.size() <= kFewNodes) {
     for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
@@ -58,7 +58,7 @@ HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   return lower;
 }
 
-// Between two nodes, for each coordinate.
+// The nodes around each coordinate.
 struct Interval {
   V from, to;
   V inverse_width;  // in the scale of the axis
@@ -77,7 +77,7 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
   const bool one_node = axis.nodes.size() == 1;
   const V first = hn::Set(d, axis.nodes.front()), last = hn::Set(d, axis.nodes.back());
   const VI invalid = hn::Set(di, axis.axis), outside = hn::Set(di, outcome_code::kOutside + axis.axis);
-  // The interval of the coordinates before: along a flight line often that of the next ones, all of them.
+  // The intervals of the previous coordinates. Along a flight line the next ones often lie in the same intervals.
   VI lower = hn::Zero(di);
   Interval interval{hn::Zero(d), hn::Zero(d), hn::Zero(d)};  // empty
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -131,13 +131,13 @@ namespace albtpu {
 HWY_EXPORT(LocateBlock);
 HWY_EXPORT(AddLowerNodesOfBlock);
 
-AxisLookup::AxisLookup(const Axis& axis)
+AxisLookup::AxisLookup(const Axis& axis, std::size_t index)
     : nodes_{.nodes = {axis.nodes().begin(), axis.nodes().end()},
              .inverse_widths = {},
-             .axis = static_cast<std::int32_t>(Index(axis.id())),
+             .axis = static_cast<std::int32_t>(index),
              .log = axis.scale() == Scale::kLog,
-             .folded = axis.id() == AxisId::kAzimuth,
-             .endless = axis.id() == AxisId::kFetch} {
+             .folded = axis.schema().is_folded,
+             .endless = axis.schema().is_endless} {
   for (std::size_t i = 0; i + 1 < axis.size(); ++i) {
     const double from = axis.nodes()[i], to = axis.nodes()[i + 1];
     nodes_.inverse_widths.push_back(static_cast<float>(1 / (nodes_.log ? std::log(to / from) : to - from)));

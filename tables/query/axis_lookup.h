@@ -1,4 +1,4 @@
-// Where many coordinates lie on an axis at a time: the fast twin of `Axis::Locate`.
+// Locates many coordinates on an axis at a time: the fast twin of `Axis::Locate`.
 #pragma once
 
 #include <cstddef>
@@ -9,45 +9,50 @@
 
 namespace albtpu {
 
-// What became of a pulse, as a number of which the least of all axes counts: an axis on which it is invalid,
-// kOutside and an axis that does not reach it, or kInside.
+// The outcome of a pulse on an axis as a number: the index of the axis if the coordinate is invalid, kOutside plus that
+// index if it is outside the nodes, or kInside. The outcome of the pulse is the least over all axes.
 namespace outcome_code {
 inline constexpr std::int32_t kOutside = 8;
 inline constexpr std::int32_t kInside = 16;
+static_assert(kMaxAxes <= kOutside);
 }  // namespace outcome_code
 
 // Immutable.
 class AxisLookup {
  public:
-  explicit AxisLookup(const Axis& axis);
+  // `index` is the place of the axis in its table.
+  AxisLookup(const Axis& axis, std::size_t index);
+
+  bool is_folded() const { return nodes_.folded; }
+  float last_node() const { return nodes_.nodes.back(); }
 
   // Counts of coordinates are multiples of this.
   static constexpr std::size_t kPadding = 8;
 
-  // Azimuths may not be farther from 0 than this, in degrees: fold them first.
+  // The greatest magnitude of an azimuth in degrees. Azimuths beyond it have to be folded first.
   static constexpr float kFarthestAzimuth = 1e6f;
 
-  // For each of `count` coordinates, in the units of the axis: adds `step` times the node below it to `rows`,
-  // sets `fractions` to the part of the way to the next node, 0 to 1, exactly 0 and 1 on nodes, and lowers
-  // `codes` to the outcome on this axis. A coordinate that is not inside counts as the first node.
-  // Outcomes and nodes are those of `Axis::Locate` exactly; fractions differ from its by 1e-6 at most.
+  // For each of `count` coordinates, in the units of the axis: adds `step` times the index of the node below it to
+  // `rows`, sets `fractions` to the fraction of the distance to the next node, 0 to 1 and exactly 0 or 1 on a node, and
+  // lowers `codes` to the outcome on this axis. A coordinate that is not inside counts as the first node. Outcomes and
+  // nodes are exactly those of `Axis::Locate`; fractions differ from its fractions by 1e-6 at most.
   void Locate(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows,
               float* fractions, std::int32_t* codes) const;
 
-  // Adds `step` times the node below each of `count` coordinates to `rows`; of coordinates that are not inside,
-  // and of azimuths too far from 0, that of any node but the last, or of the only one.
+  // Adds `step` times the index of the node below each of `count` coordinates to `rows`. For a coordinate that is not
+  // inside, or an azimuth beyond kFarthestAzimuth, it is any node but the last, or the only one.
   void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
                      std::int32_t* rows) const;
 
   // What the kernels read.
   struct Nodes {
-    std::vector<float> nodes;  // as they are
-    std::vector<float>
-        inverse_widths;  // 1 / distance of two neighbours, on a log scale that of their logarithms
-    std::int32_t axis;   // Index(id)
+    std::vector<float> nodes;
+    // 1 / the distance of two neighbours; on a log scale, the distance of their logarithms.
+    std::vector<float> inverse_widths;
+    std::int32_t axis;  // its index in the table
     bool log;
-    bool folded;   // azimuth
-    bool endless;  // fetch
+    bool folded;   // AxisSchema::is_folded
+    bool endless;  // AxisSchema::is_endless
   };
 
  private:

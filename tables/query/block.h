@@ -1,4 +1,4 @@
-// Pulses that are answered together: so few that all that they need stays in the first cache.
+// Blocks of pulses that are interpolated together, small enough for all of their data to stay in the first-level cache.
 #pragma once
 
 #include <cstddef>

@@ -2,12 +2,10 @@
 
 #include <cmath>
 
-#include "tables/coverage.h"
-
 namespace albtpu {
 namespace {
 
-// From records to columns.
+// Copies the numbers of consecutive records into columns.
 void Split(const float* __restrict records, std::size_t count, BlockOf<float>* columns) {
   static_assert(kRecordSize == 4);
   float* __restrict a = columns[0].begin();
@@ -22,7 +20,7 @@ void Split(const float* __restrict records, std::size_t count, BlockOf<float>* c
   }
 }
 
-// The record of the node that a pulse is on; negative if it is on none.
+// The record of the node that a pulse is on; negative if it is not on a node.
 std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
   std::ptrdiff_t node = pulses.first + pulses.rows[i];
   const auto step = [&](const float* fractions, std::ptrdiff_t step_of_axis) {
@@ -30,99 +28,61 @@ std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
     node += step_of_axis;
     return fractions[i] == 1;
   };
-  for (std::size_t outer = 0; outer < BlendedPulses::kOuterCount; ++outer) {
-    if (!step(pulses.fractions[outer], pulses.steps[outer])) return -1;
+  for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {
+    if (!step(pulses.fractions[slot], pulses.steps[slot])) return -1;
   }
   return step(pulses.last, 1) ? node : -1;
 }
 
 }  // namespace
 
-const BlockOf<float>& BlockValues::AtOneAzimuth::value(Quantity quantity) const {
-  const RecordPlace place = PlaceOf(quantity);
-  return (place.is_refraction ? refraction : displacement)[place.value];
-}
-
-const BlockOf<float>& BlockValues::AtOneAzimuth::standard_error(Quantity quantity) const {
-  const RecordPlace place = PlaceOf(quantity);
-  return (place.is_refraction ? refraction : displacement_errors)[place.standard_error];
-}
-
 void BlockValues::Find(const PulseBlock& block) {
-  Find(block, Side::kDownwind, downwind_);
-  if (!block.azimuth_absent()) return;
-  Find(block, Side::kCrosswind, crosswind_);
-  TakeLarger(block.count());
+  Find(block, End::kLow, low_);
+  if (block.has_two_ends()) Find(block, End::kHigh, high_);
 }
 
-void BlockValues::Find(const PulseBlock& block, Side side, AtOneAzimuth& numbers) {
-  const auto blend = [&](const Records& records, const BlendedPulses& pulses, BlockOf<float>* columns) {
-    Blend(records.data(), pulses, blended_->begin());
-    Split(blended_->begin(), pulses.count, columns);
-  };
-  if (needs_.refraction) {
-    const BlendedPulses pulses = block.WithoutDepth(side);
-    blend(records_.refraction, pulses, numbers.refraction);
-    TakeExponentials(pulses, true, numbers);
-  }
-  const BlendedPulses pulses = block.WithDepth(side);
-  if (needs_.displacement) {
-    blend(records_.displacement, pulses, numbers.displacement);
-    TakeExponentials(pulses, false, numbers);
-  }
-  if (needs_.displacement_errors) blend(records_.displacement_errors, pulses, numbers.displacement_errors);
-  if (!needs_.radius) return;
-  for (std::size_t i = 0; i < pulses.count; ++i) {
-    numbers.radius_over_thu[i] = RadiusOverThu({numbers.refraction[0][i], numbers.refraction[1][i]});
+void BlockValues::Find(const PulseBlock& block, End end, Columns& columns) {
+  for (std::size_t set = 0; set < records_.sets.size(); ++set) {
+    if (!needs_.sets[set]) continue;
+    const BlendedPulses& pulses = block.blended(records_.sets[set].over_last_axis, end);
+    Blend(records_.sets[set].numbers.data(), pulses, blended_->begin());
+    Split(blended_->begin(), pulses.count, columns[set].data());
+    if (!records_.sets[set].plain.empty()) TakeExponentials(pulses, set, columns);
   }
 }
 
-// On a node the number is what the table holds, which no exponential gives back.
-void BlockValues::TakeExponentials(const BlendedPulses& pulses, bool refraction,
-                                   AtOneAzimuth& numbers) const {
-  const Records& plain = refraction ? records_.plain_refraction : records_.plain_displacement;
-  for (Quantity quantity : kQuantities) {
-    const RecordPlace place = PlaceOf(quantity);
-    if (!records_.is_log[Index(quantity)] || place.is_refraction != refraction) continue;
-    BlockOf<float>& column = (refraction ? numbers.refraction : numbers.displacement)[place.value];
+// On a node, the value is the one in the table: the exponential of its rounded logarithm would differ.
+void BlockValues::TakeExponentials(const BlendedPulses& pulses, std::size_t set, Columns& columns) const {
+  const Records& plain = records_.sets[set].plain;
+  for (std::size_t q = 0; q < records_.quantity_count; ++q) {
+    const RecordPlace& place = records_.values[q];
+    if (!records_.is_log[q] || place.set != set) continue;
+    BlockOf<float>& column = columns[set][place.lane];
     for (std::size_t i = 0; i < pulses.count; ++i) {
       const std::ptrdiff_t node = NodeOf(pulses, i);
-      column[i] = node < 0 ? std::exp(column[i]) : plain[node * kRecordSize + place.value];
+      column[i] = node < 0 ? std::exp(column[i]) : plain[node * kRecordSize + place.lane];
     }
   }
 }
 
-// As LargerOf (interpolation.h).
-void BlockValues::TakeLarger(std::size_t count) {
-  if (needs_.radius) {
-    const BlockOf<float>&thu = downwind_.value(Quantity::kThu), &other = crosswind_.value(Quantity::kThu);
-    BlockOf<double>& radius = downwind_.radius_over_thu;
-    for (std::size_t i = 0; i < count; ++i) {
-      radius[i] = LargerRadiusOverThu(thu[i], radius[i], other[i], crosswind_.radius_over_thu[i]);
-    }
-  }
-  // Values and, if there are any, their standard errors.
-  const auto take_larger = [count](BlockOf<float>* values, const BlockOf<float>* others,
-                                   std::size_t quantities, BlockOf<float>* errors,
-                                   const BlockOf<float>* other_errors) {
-    for (std::size_t q = 0; q < quantities; ++q) {
+void BlockValues::TakeLarger(const PulseBlock& block) {
+  if (!block.has_two_ends()) return;
+  const std::size_t count = block.count();
+  for (std::size_t q = 0; q < records_.quantity_count; ++q) {
+    const RecordPlace &value = records_.values[q], &error = records_.standard_errors[q];
+    if (!records_.has_values[q] || !needs_.sets[value.set]) continue;
+    BlockOf<float>& values = low_[value.set][value.lane];
+    const BlockOf<float>& others = high_[value.set][value.lane];
+    if (records_.has_standard_errors[q] && needs_.sets[error.set]) {
+      BlockOf<float>& errors = low_[error.set][error.lane];
+      const BlockOf<float>& other_errors = high_[error.set][error.lane];
       for (std::size_t i = 0; i < count; ++i) {
-        const bool larger = std::abs(others[q][i]) > std::abs(values[q][i]);
-        if (errors != nullptr) errors[q][i] = larger ? other_errors[q][i] : errors[q][i];
-        values[q][i] = larger ? others[q][i] : values[q][i];
+        errors[i] = std::abs(others[i]) > std::abs(values[i]) ? other_errors[i] : errors[i];
       }
     }
-  };
-  AtOneAzimuth &a = downwind_, &b = crosswind_;
-  constexpr std::size_t kRefractions = 2;
-  if (needs_.refraction) {
-    take_larger(a.refraction, b.refraction, kRefractions, a.refraction + kRefractions,
-                b.refraction + kRefractions);
-  }
-  if (needs_.displacement) {
-    const bool errors = needs_.displacement_errors;
-    take_larger(a.displacement, b.displacement, kRecordSize, errors ? a.displacement_errors : nullptr,
-                b.displacement_errors);
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = std::abs(others[i]) > std::abs(values[i]) ? others[i] : values[i];
+    }
   }
 }
 

@@ -1,5 +1,8 @@
-// The numbers of a block of pulses, before they are restated and written.
+// The values and standard errors of a block of pulses, before they are restated and written.
 #pragma once
+
+#include <array>
+#include <cstddef>
 
 #include "tables/query/block.h"
 #include "tables/query/node_records.h"
@@ -7,44 +10,52 @@
 
 namespace albtpu {
 
-// Which numbers are to be found.
+// The sets of records that have to be blended.
 struct Needs {
-  bool refraction = false;           // its standard errors included
-  bool displacement = false;         // THU, TVU and the biases
-  bool displacement_errors = false;  // their standard errors
-  bool radius = false;               // the 95 % radius of the horizontal error; needs the first two
+  std::array<bool, NodeRecords::kMaxSets> sets{};
+
+  void AddValue(const NodeRecords& records, std::size_t quantity) {
+    sets[records.values[quantity].set] = true;
+  }
+  // The value included: the larger value decides which standard error belongs to it.
+  void AddStandardError(const NodeRecords& records, std::size_t quantity) {
+    AddValue(records, quantity);
+    sets[records.standard_errors[quantity].set] = true;
+  }
 };
 
-// At 2 sigma. Numbers of pulses that are not inside the table, and numbers that it does not hold, mean nothing.
+// At 2 sigma. Numbers of pulses that are outside the table, and numbers that the table does not hold, are undefined.
 class BlockValues {
  public:
   BlockValues(const NodeRecords& records, const Needs& needs) : records_(records), needs_(needs) {}
 
+  // At both ends, if the block has two.
   void Find(const PulseBlock& block);
 
-  const BlockOf<float>& value(Quantity quantity) const { return downwind_.value(quantity); }
-  const BlockOf<float>& standard_error(Quantity quantity) const { return downwind_.standard_error(quantity); }
-  const BlockOf<double>& radius_over_thu() const { return downwind_.radius_over_thu; }
+  // Of a block with two ends, takes at kLow each value that is larger in magnitude, and the standard error that belongs
+  // to it.
+  void TakeLarger(const PulseBlock& block);
+
+  const BlockOf<float>& value(std::size_t quantity, End end = End::kLow) const {
+    return column(records_.values[quantity], end);
+  }
+  const BlockOf<float>& standard_error(std::size_t quantity) const {
+    return column(records_.standard_errors[quantity], End::kLow);
+  }
 
  private:
-  struct AtOneAzimuth {
-    const BlockOf<float>& value(Quantity quantity) const;
-    const BlockOf<float>& standard_error(Quantity quantity) const;
+  using Columns = std::array<std::array<BlockOf<float>, kRecordSize>, NodeRecords::kMaxSets>;
 
-    BlockOf<float> refraction[kRecordSize];
-    BlockOf<float> displacement[kRecordSize];
-    BlockOf<float> displacement_errors[kRecordSize];
-    BlockOf<double> radius_over_thu;
-  };
-
-  void Find(const PulseBlock& block, Side side, AtOneAzimuth& numbers);
-  void TakeExponentials(const BlendedPulses& pulses, bool refraction, AtOneAzimuth& numbers) const;
-  void TakeLarger(std::size_t count);
+  const BlockOf<float>& column(const RecordPlace& place, End end) const {
+    return (end == End::kLow ? low_ : high_)[place.set][place.lane];
+  }
+  void Find(const PulseBlock& block, End end, Columns& columns);
+  void TakeExponentials(const BlendedPulses& pulses, std::size_t set, Columns& columns) const;
 
   const NodeRecords& records_;
   const Needs needs_;
-  BlockOf<float> blended_[kRecordSize];  // one record after the other
-  AtOneAzimuth downwind_, crosswind_;
+  BlockOf<float> blended_[kRecordSize];  // as consecutive records
+  Columns low_, high_;
 };
 
 }  // namespace albtpu

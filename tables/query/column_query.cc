@@ -3,81 +3,56 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cassert>
 #include <thread>
 
 #include "tables/query/answer_writer.h"
-#include "tables/query/block_values.h"
-#include "tables/query/node_records.h"
-#include "tables/query/pulse_block.h"
-#include "tables/query/sorted_pulses.h"
+#include "tables/query/table_layout.h"
 
 namespace albtpu {
 
-struct ColumnInterpolator::Layout {
-  explicit Layout(const UncertaintyTable& table)
-      : grid(table),
-        records(table),
-        fewest_to_sort(SortedPulses::Fewest(records.displacement.size() / kRecordSize)) {}
-
-  // Answers block by block, to the end or to where `fewest` pulses or more are left and the last block was in no
-  // order. Returns where it stopped.
-  std::size_t AnswerBlocks(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
-                           const AnswerColumns& answers, std::size_t fewest) const;
-
-  Grid grid;
-  NodeRecords records;
-  std::size_t fewest_to_sort;
+struct ColumnInterpolator::Layout : TableLayout {
+  using TableLayout::TableLayout;
 };
 
 ColumnInterpolator::ColumnInterpolator(const UncertaintyTable& table)
-    : layout_(std::make_unique<const Layout>(table)) {}
+    : layout_(std::make_unique<const Layout>(table.table())) {}
 ColumnInterpolator::~ColumnInterpolator() = default;
 ColumnInterpolator::ColumnInterpolator(ColumnInterpolator&&) noexcept = default;
 ColumnInterpolator& ColumnInterpolator::operator=(ColumnInterpolator&&) noexcept = default;
 
-void ColumnInterpolator::Answer(const Query& query, const PulseColumns& pulses, std::size_t begin,
-                                std::size_t end, const AnswerColumns& answers) const {
+template <typename Visit>
+void ForEachColumn(const AnswerColumns& wanted, AnswerColumns& other, const Visit& visit) {
+  const auto visit_if_wanted = [&](auto* column, auto*& same) {
+    if (column != nullptr) visit(column, same);
+  };
+  for (std::size_t q = 0; q < kQuantityCount; ++q) {
+    visit_if_wanted(wanted.values[q], other.values[q]);
+    visit_if_wanted(wanted.standard_errors[q], other.standard_errors[q]);
+  }
+  visit_if_wanted(wanted.remaining_thu, other.remaining_thu);
+  visit_if_wanted(wanted.remaining_tvu, other.remaining_tvu);
+  visit_if_wanted(wanted.outcomes, other.outcomes);
+  visit_if_wanted(wanted.outcome_axes, other.outcome_axes);
+  visit_if_wanted(wanted.best_s44_orders, other.best_s44_orders);
+}
+
+void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin,
+                                     std::size_t end, const AnswerColumns& answers) const {
   assert(CheckLengths(pulses).ok() && begin <= end && end <= pulses.size);
-  std::size_t first = begin;
-  while (true) {
-    first = layout_->AnswerBlocks(query, pulses, first, end, answers, layout_->fewest_to_sort);
-    if (first == end) return;
-    // What follows pulses in no order is likely in no order either.
-    const std::size_t count =
-        std::min(end - first, SortedPulses::kMost) / AxisLookup::kPadding * AxisLookup::kPadding;
-    SortedPulses sorted(layout_->grid, pulses, first, count, answers);
-    layout_->AnswerBlocks(query, sorted.pulses(), 0, count, sorted.answers(), SortedPulses::kNever);
-    sorted.CopyAnswers();
-    first += count;
-  }
+  InterpolateColumns(*layout_, pulses, begin, end, answers, [&](const AnswerColumns& columns) {
+    return AnswerWriter(query, layout_->records, columns);
+  });
 }
 
-std::size_t ColumnInterpolator::Layout::AnswerBlocks(const Query& query, const PulseColumns& pulses,
-                                                     std::size_t begin, std::size_t end,
-                                                     const AnswerColumns& answers, std::size_t fewest) const {
-  if (begin == end) return end;
-  const AnswerWriter writer(query, records, answers);
-  PulseBlock block(grid, pulses, std::min(kBlock, end - begin));
-  BlockValues numbers(records, writer.needs());
-  while (begin < end) {
-    block.MoveTo(begin, std::min(kBlock, end - begin));
-    numbers.Find(block);
-    writer.Write(block, numbers);
-    begin += block.count();
-    if (end - begin >= fewest && block.IsScattered()) break;
-  }
-  return begin;
-}
-
-void AnswerOnAllCores(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
-                      const AnswerColumns& answers) {
-  constexpr std::size_t kGrain = 8192;  // pulses of one piece of work: some 100 us and more
-  if (pulses.size < 4 * kGrain) return interpolator.Answer(query, pulses, 0, pulses.size, answers);
+void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,
+                           const PulseColumns& pulses, const AnswerColumns& answers) {
+  constexpr std::size_t kGrain = 8192;  // pulses in a piece of work, which takes at least 100 us
+  if (pulses.size < 4 * kGrain) return interpolator.Interpolate(query, pulses, 0, pulses.size, answers);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pulses.size, kGrain), [&](const auto& range) {
-    interpolator.Answer(query, pulses, range.begin(), range.end(), answers);
-    std::this_thread::yield();  // Who asks for one pulse waits for a piece, not for a slice of the system's.
+    interpolator.Interpolate(query, pulses, range.begin(), range.end(), answers);
+    // A query for a single pulse waits for one piece of work, not for a time slice of the system.
+    std::this_thread::yield();
   });
 }
 

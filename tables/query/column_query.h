@@ -1,24 +1,24 @@
-// Answers for many pulses at a time: the one engine behind the server, the client's --table and C++ users.
+// Answers for many pulses at a time: the engine behind the server, the client's --table and C++ users.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 
-#include "tables/query/interpolation.h"  // Users of this header have always had it too.
+#include "tables/query/interpolation.h"
 #include "tables/query/pulse_columns.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
 
-// A table laid out for speed. Immutable; used by any number of threads at a time.
+// A table laid out for speed. Immutable; may be used by any number of threads at a time.
 //
-// Answers are those of `Interpolate` (interpolation.h), its slow double precision twin: the same outcomes and
-// axes, at nodes the same bits, between them the same numbers within 1e-5, relative, and where corners cancel
-// within 4e-7 of the largest. What a pulse is answered depends on this pulse and the instruction set alone: not
-// on its neighbours, its place or the number of pulses. Along a flight line, where neighbours share a cell of
-// the table, answers come some seven times as fast as in no order: thousands in no order are sorted on the way.
+// Its answers are those of `Interpolate` (interpolation.h), its slow twin in double precision, with the same outcomes and
+// axes: at nodes bit for bit, between them within 1e-5, relative, or within 4e-7 of the largest corner where corners
+// cancel. The answer for a pulse depends on this pulse and the instruction set alone, not on its neighbours, its place or
+// the number of pulses. Along a flight line, where neighbours share a cell of the table, it is some seven times as fast
+// as in random order; thousands of pulses in random order are sorted on the way.
 //
-// Example, a flight line in a wind of 5 m/s:
+// Example, a flight line at a wind of 5 m/s:
 //   const absl::StatusOr<UncertaintyTable> table = ReadTable("survey.h5");
 //   const ColumnInterpolator interpolator(*table);
 //   const float wind_speed = 5, footprint = 0.5f;
@@ -29,7 +29,7 @@ namespace albtpu {
 //   AnswerColumns answers;
 //   answers.values[Index(Quantity::kThu)] = thu.data();
 //   answers.values[Index(Quantity::kTvu)] = tvu.data();
-//   AnswerOnAllCores(interpolator, {.coverage = Coverage::kP95}, pulses, answers);
+//   InterpolateOnAllCores(interpolator, {.coverage = Coverage::kP95}, pulses, answers);
 class ColumnInterpolator {
  public:
   // `table` need not outlive it.
@@ -38,18 +38,30 @@ class ColumnInterpolator {
   ColumnInterpolator(ColumnInterpolator&&) noexcept;
   ColumnInterpolator& operator=(ColumnInterpolator&&) noexcept;
 
-  // Answers the pulses `begin` to `end`, `end` not included, into the same rows of `answers`, on the thread
-  // that calls. `pulses` must be valid. Allocates nothing but, to sort, 7 MB at the most.
-  void Answer(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
-              const AnswerColumns& answers) const;
+  // Answers the pulses from `begin` to `end`, `end` not included, into the same rows of `answers`, on the calling thread.
+  // `pulses` must be valid. Allocates nothing, except at most 7 MB to sort pulses.
+  void Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
+                   const AnswerColumns& answers) const;
+
+  [[deprecated("renamed to Interpolate")]] void Answer(const Query& query, const PulseColumns& pulses,
+                                                       std::size_t begin, std::size_t end,
+                                                       const AnswerColumns& answers) const {
+    Interpolate(query, pulses, begin, end, answers);
+  }
 
  private:
   struct Layout;
   std::unique_ptr<const Layout> layout_;
 };
 
-// Answers all pulses: on all cores where there are enough of them to gain by it, else on this thread.
-void AnswerOnAllCores(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
-                      const AnswerColumns& answers);
+// Answers all pulses: on all cores if there are enough pulses for that to be faster, else on the calling thread.
+void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,
+                           const PulseColumns& pulses, const AnswerColumns& answers);
+
+[[deprecated("renamed to InterpolateOnAllCores")]] inline void AnswerOnAllCores(
+    const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
+    const AnswerColumns& answers) {
+  InterpolateOnAllCores(interpolator, query, pulses, answers);
+}
 
 }  // namespace albtpu

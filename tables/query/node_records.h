@@ -3,37 +3,38 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "tables/query/record_blend.h"
-#include "tables/uncertainty_table.h"
+#include "tables/table.h"
 
 namespace albtpu {
 
-// In records of 4 numbers. What a table does not hold is 0 here. On a log scale, values are logarithms.
-struct NodeRecords {
-  explicit NodeRecords(const UncertaintyTable& table);
-
-  Records refraction;           // no depth: along and cross wind, standard errors of both
-  Records displacement;         // THU, TVU, bias along the beam, vertical bias
-  Records displacement_errors;  // the standard errors of these; empty if there are none
-  // As the table has them, where any is a logarithm above; else empty.
-  Records plain_refraction, plain_displacement;
-
-  std::array<std::size_t, kAxisCount> nodes;
-  std::array<bool, kQuantityCount> has_values, has_standard_errors, is_log;
-};
-
-// Where a quantity stands.
+// Where the values or the standard errors of a quantity are.
 struct RecordPlace {
-  bool is_refraction;
-  std::size_t value;           // in the record
-  std::size_t standard_error;  // in the record of `refraction` or of `displacement_errors`
+  std::size_t set = 0;   // index into NodeRecords::sets
+  std::size_t lane = 0;  // which of the 4 numbers of a record
 };
-constexpr RecordPlace PlaceOf(Quantity quantity) {
-  constexpr std::size_t kRefractions = 2;
-  const std::size_t q = Index(quantity);
-  if (q < kRefractions) return {true, q, q + kRefractions};
-  return {false, q - kRefractions, q - kRefractions};
-}
+
+// Quantities over all axes and quantities over all but the last have sets of their own. Up to two quantities fit into
+// one set together with their standard errors. If there are more, their values fill sets of four, and so do their
+// standard errors. Numbers that a table does not hold are 0 here.
+struct NodeRecords {
+  explicit NodeRecords(const Table& table);
+
+  // The most sets that a table may need: three quantities over one number of axes, five over the other.
+  static constexpr std::size_t kMaxSets = 6;
+  static_assert(kMaxQuantities == 8 && kRecordSize == 4);
+
+  struct Set {
+    bool over_last_axis;
+    Records numbers;  // Of a variable on a log scale, the logarithms of its values.
+    Records plain;    // The values as the table holds them, if any of `numbers` is a logarithm; else empty.
+  };
+  std::vector<Set> sets;
+  std::size_t quantity_count;
+  std::array<RecordPlace, kMaxQuantities> values, standard_errors;
+  std::array<bool, kMaxQuantities> has_values{}, has_standard_errors{}, is_log{};
+};
 
 }  // namespace albtpu

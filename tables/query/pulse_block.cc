@@ -7,14 +7,11 @@
 namespace albtpu {
 namespace {
 
-constexpr float kDownwind = 0, kCrosswind = 90;  // degree
-
 std::size_t Padded(std::size_t count) {
   return (count + AxisLookup::kPadding - 1) / AxisLookup::kPadding * AxisLookup::kPadding;
 }
 static_assert(kBlock % AxisLookup::kPadding == 0);
 
-// AxisLookup folds azimuths that are some turns away at most.
 bool IsFar(float azimuth) { return std::abs(azimuth) > AxisLookup::kFarthestAzimuth; }
 
 bool AnyIsFar(std::span<const float> azimuths) {
@@ -23,7 +20,8 @@ bool AnyIsFar(std::span<const float> azimuths) {
   return far;
 }
 
-void BringNear(float* azimuths, std::size_t count) {
+// AxisLookup folds only azimuths that are not far.
+void FoldFar(float* azimuths, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     if (IsFar(azimuths[i])) azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i]));
   }
@@ -31,43 +29,78 @@ void BringNear(float* azimuths, std::size_t count) {
 
 }  // namespace
 
-Grid::Grid(const UncertaintyTable& table)
-    : axes_(table.axes().begin(), table.axes().end()),
-      depths_(static_cast<std::ptrdiff_t>(table.axis(AxisId::kDepth).size())) {
-  steps_[Index(AxisId::kDepth)] = 1;
+Grid::Grid(const Table& table) : last_size_(static_cast<std::ptrdiff_t>(table.axes().back().size())) {
+  for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
+    axes_.emplace_back(table.axes()[axis], axis);
+    const IfAbsent rule = table.schema().axes[axis].if_absent;
+    if (rule == IfAbsent::kLargerOfEnds) two_ended_axis_ = axis;
+    absent_is_last_node_[axis] = rule == IfAbsent::kLastNode;
+  }
+  steps_[last()] = 1;
   std::ptrdiff_t step = 1;
-  for (std::size_t axis = Index(AxisId::kDepth); axis-- > 0;) {
+  for (std::size_t axis = last(); axis-- > 0;) {
     const std::size_t size = table.axes()[axis].size();
     steps_[axis] = size > 1 ? step : 0;
     step *= static_cast<std::ptrdiff_t>(size);
   }
+  slots_ = {SlotsOf(table.schema(), false), SlotsOf(table.schema(), true)};
+}
+
+// The axes but the fastest one of the records take the slots in the blend order: all five if there are five, else the
+// first four, aligned at their end, so that the axis that changes most is blended last.
+Grid::Slots Grid::SlotsOf(const TableSchema& schema, bool over_last_axis) const {
+  constexpr std::size_t kFew = BlendedPulses::kFastest;
+  const std::size_t fastest = over_last_axis || last() == 0 ? last() : last() - 1;
+  std::vector<std::size_t> outer;
+  for (const std::size_t axis : schema.blend_order) {
+    if (axis < fastest) outer.push_back(axis);
+  }
+  Slots slots{.axes = {}, .steps = {}};
+  slots.axes.fill(kNoAxis);
+  std::size_t slot = outer.size() < kFew ? kFew - outer.size() : 0;
+  for (const std::size_t axis : outer) {
+    slots.axes[slot] = axis;
+    slots.steps[slot++] = step(axis) * (over_last_axis ? last_size_ : 1);
+  }
+  return slots;
+}
+
+float Grid::absent_coordinate(std::size_t axis) const {
+  return absent_is_last_node_[axis] ? axes_[axis].last_node() : std::numeric_limits<float>::quiet_NaN();
 }
 
 PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t most)
     : grid_(grid), pulses_(pulses) {
-  for (AxisId axis : kAxes) {
+  for (std::size_t axis = 0; axis < grid_.axis_count(); ++axis) {
     if (!IsConstant(axis)) continue;
-    BlockOf<float>& fractions = fractions_[Index(axis)];
-    if (axis == AxisId::kAzimuth && azimuth_absent()) {
-      downwind_row_ = LocateConstant(axis, kDownwind, most, fractions);
-      crosswind_row_ = LocateConstant(axis, kCrosswind, most, crosswind_);
+    const std::span<const float> column = pulses_.axis[axis];
+    if (axis == grid_.two_ended_axis() && column.empty()) {
+      has_two_ends_ = true;
+      low_row_ = LocateConstant(axis, static_cast<float>(kFoldedEnds[0]), most, fractions_[axis]);
+      high_row_ = LocateConstant(axis, static_cast<float>(kFoldedEnds[1]), most, high_fractions_);
       continue;
     }
-    const float coordinate =
-        pulses_[axis].empty() ? std::numeric_limits<float>::infinity() : pulses_[axis].front();
-    std::int32_t& row = axis == AxisId::kDepth ? constant_depth_ : constant_row_;
-    row += LocateConstant(axis, coordinate, most, fractions);
+    const float coordinate = column.empty() ? grid_.absent_coordinate(axis) : column.front();
+    std::int32_t& row = axis == grid_.last() ? constant_last_ : constant_row_;
+    row += LocateConstant(axis, coordinate, most, fractions_[axis]);
+  }
+  if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), most, 0.0f);
+  for (const bool over_last_axis : {false, true}) {
+    for (const End end : {End::kLow, End::kHigh}) {
+      if (end == End::kHigh && !has_two_ends_) continue;
+      blended_[over_last_axis ? 1 : 0][end == End::kHigh ? 1 : 0] = Blended(over_last_axis, end);
+    }
   }
 }
 
-std::int32_t PulseBlock::LocateConstant(AxisId axis, float coordinate, std::size_t most,
+std::int32_t PulseBlock::LocateConstant(std::size_t axis, float coordinate, std::size_t most,
                                         BlockOf<float>& fractions) {
   constexpr std::size_t kCount = AxisLookup::kPadding;
   float coordinates[kCount], fraction[kCount];
   std::int32_t rows[kCount] = {}, codes[kCount];
   std::fill_n(coordinates, kCount, coordinate);
   std::fill_n(codes, kCount, constant_code_);
-  if (axis == AxisId::kAzimuth) BringNear(coordinates, kCount);
+  if (grid_.axis(axis).is_folded()) FoldFar(coordinates, kCount);
   grid_.axis(axis).Locate(coordinates, kCount, static_cast<std::int32_t>(grid_.step(axis)), rows, fraction,
                           codes);
   constant_code_ = codes[0];
@@ -75,32 +108,35 @@ std::int32_t PulseBlock::LocateConstant(AxisId axis, float coordinate, std::size
   return rows[0];
 }
 
-void PulseBlock::LocateColumn(AxisId axis, BlockOf<std::int32_t>& rows) {
-  const std::span<const float> column = pulses_[axis].subspan(first_, count_);
+void PulseBlock::LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows) {
+  const std::span<const float> column = pulses_.axis[axis].subspan(first_, count_);
   const float* coordinates = column.data();
   BlockOf<float> copy;
-  const bool far = axis == AxisId::kAzimuth && AnyIsFar(column);
+  const bool far = grid_.axis(axis).is_folded() && AnyIsFar(column);
   if (far || Padded(count_) != count_) {
     std::copy(column.begin(), column.end(), copy.begin());
     std::fill(copy.begin() + count_, copy.begin() + Padded(count_), column.back());
-    if (far) BringNear(copy.begin(), Padded(count_));
+    if (far) FoldFar(copy.begin(), Padded(count_));
     coordinates = copy.begin();
   }
   grid_.axis(axis).Locate(coordinates, Padded(count_), static_cast<std::int32_t>(grid_.step(axis)),
-                          rows.begin(), fractions_[Index(axis)].begin(), codes_.begin());
+                          rows.begin(), fractions_[axis].begin(), codes_.begin());
 }
 
 void PulseBlock::MoveTo(std::size_t first, std::size_t count) {
   first_ = first;
   count_ = count;
+  for (auto& of_ends : blended_) {
+    for (BlendedPulses& pulses : of_ends) pulses.count = count;
+  }
   std::fill_n(codes_.begin(), Padded(count), constant_code_);
   std::fill_n(rows_.begin(), Padded(count), constant_row_);
-  for (AxisId axis : kAxes) {
-    if (!IsConstant(axis) && axis != AxisId::kDepth) LocateColumn(axis, rows_);
+  for (std::size_t axis = 0; axis < grid_.last(); ++axis) {
+    if (!IsConstant(axis)) LocateColumn(axis, rows_);
   }
-  const auto depths = static_cast<std::int32_t>(grid_.depths());
-  for (std::size_t i = 0; i < Padded(count); ++i) rows_with_depth_[i] = rows_[i] * depths + constant_depth_;
-  if (!IsConstant(AxisId::kDepth)) LocateColumn(AxisId::kDepth, rows_with_depth_);
+  const auto last_size = static_cast<std::int32_t>(grid_.last_size());
+  for (std::size_t i = 0; i < Padded(count); ++i) rows_with_last_[i] = rows_[i] * last_size + constant_last_;
+  if (!IsConstant(grid_.last())) LocateColumn(grid_.last(), rows_with_last_);
 
   std::int32_t differences = 0;
   for (std::size_t i = 0; i < count; ++i) differences |= codes_[i] ^ outcome_code::kInside;
@@ -113,28 +149,23 @@ bool PulseBlock::IsScattered() const {
   return 2 * moves > count_;
 }
 
-BlendedPulses PulseBlock::WithoutDepth(Side side) const {
-  const auto fractions = [&](AxisId axis) { return fractions_[Index(axis)].begin(); };
-  const bool downwind = side == Side::kDownwind;
-  return {.first = downwind ? downwind_row_ : crosswind_row_,
-          .rows = rows_.begin(),
-          .fractions = {fractions(AxisId::kWindSpeed), fractions(AxisId::kFetch),
-                        downwind ? fractions(AxisId::kAzimuth) : crosswind_.begin(),
-                        fractions(AxisId::kIncidence), nullptr},
-          .steps = {grid_.step(AxisId::kWindSpeed), grid_.step(AxisId::kFetch), grid_.step(AxisId::kAzimuth),
-                    grid_.step(AxisId::kIncidence), 0},
-          .last = fractions(AxisId::kFootprint),
-          .count = count_};
-}
-
-BlendedPulses PulseBlock::WithDepth(Side side) const {
-  BlendedPulses pulses = WithoutDepth(side);
-  pulses.first *= grid_.depths();
-  pulses.rows = rows_with_depth_.begin();
-  pulses.fractions[BlendedPulses::kFootprint] = pulses.last;
-  pulses.steps[BlendedPulses::kFootprint] = grid_.step(AxisId::kFootprint);
-  for (std::ptrdiff_t& step : pulses.steps) step *= grid_.depths();
-  pulses.last = fractions_[Index(AxisId::kDepth)].begin();
+BlendedPulses PulseBlock::Blended(bool over_last_axis, End end) const {
+  const bool high = end == End::kHigh;
+  const auto fractions = [&](std::size_t axis) {
+    return (high && axis == grid_.two_ended_axis() ? high_fractions_ : fractions_[axis]).begin();
+  };
+  const Grid::Slots& slots = grid_.slots(over_last_axis);
+  const std::size_t last = grid_.last();
+  BlendedPulses pulses;
+  pulses.first = (high ? high_row_ : low_row_) * (over_last_axis ? grid_.last_size() : 1);
+  pulses.rows = (over_last_axis ? rows_with_last_ : rows_).begin();
+  pulses.steps = slots.steps;
+  for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {
+    const std::size_t axis = slots.axes[slot];
+    if (axis != Grid::kNoAxis) pulses.fractions[slot] = fractions(axis);
+    if (axis == Grid::kNoAxis && slot != BlendedPulses::kFastest) pulses.fractions[slot] = zeros_.begin();
+  }
+  pulses.last = fractions(over_last_axis || last == 0 ? last : last - 1);
   return pulses;
 }
 

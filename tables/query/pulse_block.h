@@ -1,4 +1,4 @@
-// Where a block of pulses lies in a table.
+// The positions of a block of pulses in a table.
 #pragma once
 
 #include <array>
@@ -10,70 +10,99 @@
 #include "tables/query/block.h"
 #include "tables/query/pulse_columns.h"
 #include "tables/query/record_blend.h"
-#include "tables/uncertainty_table.h"
+#include "tables/table.h"
 
 namespace albtpu {
 
-// The axes of a table and of its records. Immutable.
+// The axes of a table and of its records, which lie over all axes or over all but the last. Immutable.
 class Grid {
  public:
-  explicit Grid(const UncertaintyTable& table);
+  explicit Grid(const Table& table);
 
-  const AxisLookup& axis(AxisId id) const { return axes_[Index(id)]; }
-  // Records without depth from one node to the next; 0 where there is no next.
-  std::ptrdiff_t step(AxisId id) const { return steps_[Index(id)]; }
-  std::ptrdiff_t depths() const { return depths_; }
+  static constexpr std::size_t kNoAxis = kMaxAxes;
+
+  std::size_t axis_count() const { return axes_.size(); }
+  std::size_t last() const { return axes_.size() - 1; }
+  const AxisLookup& axis(std::size_t index) const { return axes_[index]; }
+  // The records from one node to the next, in records without the last axis; 0 if the axis has one node. 1 for the last
+  // axis itself.
+  std::ptrdiff_t step(std::size_t axis) const { return steps_[axis]; }
+  std::ptrdiff_t last_size() const { return last_size_; }
+
+  // The axis that counts as its worse end if its column is absent, or kNoAxis.
+  std::size_t two_ended_axis() const { return two_ended_axis_; }
+  // The coordinate that stands for an absent column of any other axis: NaN if the axis needs a column.
+  float absent_coordinate(std::size_t axis) const;
+
+  // The axis that each slot blends, or kNoAxis, and the records from one of its nodes to the next.
+  struct Slots {
+    std::array<std::size_t, BlendedPulses::kSlotCount> axes;
+    std::array<std::ptrdiff_t, BlendedPulses::kSlotCount> steps;
+  };
+  const Slots& slots(bool over_last_axis) const { return slots_[over_last_axis ? 1 : 0]; }
 
  private:
+  Slots SlotsOf(const TableSchema& schema, bool over_last_axis) const;
+
   std::vector<AxisLookup> axes_;
-  std::array<std::ptrdiff_t, kAxisCount> steps_{};  // of the depth: 1
-  std::ptrdiff_t depths_;
+  std::array<std::ptrdiff_t, kMaxAxes> steps_{};
+  std::ptrdiff_t last_size_;
+  std::size_t two_ended_axis_ = kNoAxis;
+  std::array<bool, kMaxAxes> absent_is_last_node_{};
+  std::array<Slots, 2> slots_;
 };
 
-// Of pulses without azimuth there are two answers, one at each of these.
-enum class Side { kDownwind, kCrosswind };
+// If the column of the two-ended axis is absent, there are two answers, one at each end of the axis.
+enum class End { kLow, kHigh };
 
 // Moves along pulses, block by block. Constant columns are located once.
 class PulseBlock {
  public:
-  // `most` pulses at the most will be in a block. All must outlive it.
+  // A block will hold at most `most` pulses. All arguments must outlive it.
   PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t most);
+  PulseBlock(const PulseBlock&) = delete;
+  PulseBlock& operator=(const PulseBlock&) = delete;
 
-  // To the pulses `first` to `first + count`, the latter not included.
+  // Moves to the `count` pulses from `first` on.
   void MoveTo(std::size_t first, std::size_t count);
 
   std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }
-  bool azimuth_absent() const { return pulses_[AxisId::kAzimuth].empty(); }
-  float depth(std::size_t i) const {
-    return pulses_[AxisId::kDepth][IsConstant(AxisId::kDepth) ? 0 : first_ + i];
+  bool has_two_ends() const { return has_two_ends_; }
+  float coordinate(std::size_t axis, std::size_t i) const {
+    return pulses_.axis[axis][IsConstant(axis) ? 0 : first_ + i];
   }
 
   // The outcome of each pulse: outcome_code.
   const BlockOf<std::int32_t>& codes() const { return codes_; }
   bool all_inside() const { return all_inside_; }
 
-  // Whether most pulses are in another cell than the one before, depth aside.
+  // Whether most pulses are in another cell than the pulse before, apart from the last axis.
   bool IsScattered() const;
 
-  // Among records without depth and with it. Pulses with an azimuth have one side, downwind.
-  BlendedPulses WithoutDepth(Side side) const;
-  BlendedPulses WithDepth(Side side) const;
+  // The pulses among the records over all axes, or over all but the last. With one end, it is kLow.
+  const BlendedPulses& blended(bool over_last_axis, End end) const {
+    return blended_[over_last_axis ? 1 : 0][end == End::kHigh ? 1 : 0];
+  }
 
  private:
-  bool IsConstant(AxisId axis) const { return pulses_[axis].size() <= 1; }
-  std::int32_t LocateConstant(AxisId axis, float coordinate, std::size_t most, BlockOf<float>& fractions);
-  void LocateColumn(AxisId axis, BlockOf<std::int32_t>& rows);
+  bool IsConstant(std::size_t axis) const { return pulses_.axis[axis].size() <= 1; }
+  std::int32_t LocateConstant(std::size_t axis, float coordinate, std::size_t most,
+                              BlockOf<float>& fractions);
+  void LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows);
+  BlendedPulses Blended(bool over_last_axis, End end) const;
 
   const Grid& grid_;
   const PulseColumns& pulses_;
   std::size_t first_ = 0, count_ = 0;
-  std::int32_t constant_code_ = outcome_code::kInside, constant_row_ = 0, constant_depth_ = 0;
-  std::int32_t downwind_row_ = 0, crosswind_row_ = 0;
-  bool all_inside_ = false;
-  BlockOf<std::int32_t> codes_, rows_, rows_with_depth_;
-  std::array<BlockOf<float>, kAxisCount> fractions_;
-  BlockOf<float> crosswind_;  // fractions
+  std::int32_t constant_code_ = outcome_code::kInside, constant_row_ = 0, constant_last_ = 0;
+  std::int32_t low_row_ = 0, high_row_ = 0;
+  bool has_two_ends_ = false, all_inside_ = false;
+  std::array<std::array<BlendedPulses, 2>, 2> blended_;  // by over_last_axis, then by end
+  BlockOf<std::int32_t> codes_, rows_, rows_with_last_;
+  std::array<BlockOf<float>, kMaxAxes> fractions_;
+  BlockOf<float> high_fractions_;  // on the two-ended axis at its high end
+  BlockOf<float> zeros_;           // fractions of slots without an axis
 };
 
 }  // namespace albtpu

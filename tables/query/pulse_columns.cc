@@ -11,17 +11,19 @@ float NumberAt(std::span<const float> column, std::size_t i) { return column[col
 
 }  // namespace
 
-absl::Status CheckLengths(const PulseColumns& pulses) {
-  for (const AxisId axis : kAxes) {
-    const std::size_t length = pulses[axis].size();
-    const bool optional = axis == AxisId::kFetch || axis == AxisId::kAzimuth;
+absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses) {
+  for (std::size_t axis = 0; axis < schema.axes.size(); ++axis) {
+    const std::size_t length = pulses.axis[axis].size();
+    const bool optional = schema.axes[axis].if_absent != IfAbsent::kRefuse;
     if (length == pulses.size || length == 1 || (length == 0 && optional)) continue;
     return absl::InvalidArgumentError(absl::StrCat(
-        "column '", std::string(Describe(axis).name), "' has ", length, " numbers for ", pulses.size,
-        " pulses: one for each", optional ? ", one for all or none" : " or one for all", " would be right"));
+        "column '", std::string(schema.axes[axis].name), "' has ", length, " numbers for ", pulses.size,
+        " pulses: expected one for each pulse", optional ? ", one for all or none" : " or one for all"));
   }
   return absl::OkStatus();
 }
+
+absl::Status CheckLengths(const PulseColumns& pulses) { return CheckLengths(kSeaSurface, pulses); }
 
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i) {
   Pulse pulse{.wind_speed = NumberAt(pulses[AxisId::kWindSpeed], i),

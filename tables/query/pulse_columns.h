@@ -1,4 +1,4 @@
-// Many pulses and their answers as columns of single precision numbers, in memory of the caller.
+// Many pulses and their answers as columns of single-precision numbers in memory of the caller.
 #pragma once
 
 #include <array>
@@ -16,40 +16,46 @@
 
 namespace albtpu {
 
-static_assert(std::endian::native == std::endian::little, "columns go to and from the wire as they are");
+static_assert(std::endian::native == std::endian::little,
+              "columns are copied to and from the wire unchanged");
 
-// Pulses, a column an axis, in the units of the axes. A column has `size` numbers, or one for all pulses, or
-// none: of the fetch that is the fully developed sea, of the azimuth the worse of 0 and 90 degrees. The other
-// columns must not be empty where there are pulses.
+// Pulses as one column for each axis, in the units of the axes. A column has `size` numbers, or one for all pulses. The
+// columns of fetch and azimuth may be empty, which means a fully developed sea and the worse of 0 and 90 degrees; the
+// others only if there are no pulses. For a table of another kind, columns are in the order of its axes, and AxisSchema
+// says which may be empty.
 struct PulseColumns {
   std::size_t size = 0;
-  std::array<std::span<const float>, kAxisCount> axis;
+  std::array<std::span<const float>, kMaxAxes> axis;
+  static_assert(kMaxAxes == kAxisCount);
 
   std::span<const float> operator[](AxisId id) const { return axis[Index(id)]; }
 };
 
-// InvalidArgument, naming the first column whose length is not one that `PulseColumns` allows.
+// InvalidArgument, naming the first column whose length `PulseColumns` does not allow; of the sea surface, or of the kind
+// that `schema` describes.
 absl::Status CheckLengths(const PulseColumns& pulses);
+absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses);
 
-// The pulse at `i`.
+// The pulse at index `i`.
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i);
 
-// How answers are to be given. Which of them, the columns tell that are not null.
+// How to state the answers. The columns that are not null say which answers are wanted.
 struct Query {
   Coverage coverage = Coverage::kTwoSigma;
-  std::optional<S44Order> s44_order;  // What `remaining_thu` and `remaining_tvu` are of; NaN without.
+  std::optional<S44Order>
+      s44_order;  // The order of `remaining_thu` and `remaining_tvu`; without one they are NaN.
 };
 
-// Where to write answers: columns of as many elements as there are pulses; null what is not wanted. Numbers
-// are not-a-number where there is none, at the coverage of the query.
+// Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted. Numbers are
+// at the coverage of the query, and NaN where there is none.
 struct AnswerColumns {
   std::uint8_t* outcomes = nullptr;      // 1 interpolated, 2 out of domain, 3 invalid: Outcome + 1
   std::uint8_t* outcome_axes = nullptr;  // AxisId + 1 of the axis that made the outcome; 0 if interpolated
   std::array<float*, kQuantityCount> values{};
   std::array<float*, kQuantityCount> standard_errors{};
-  std::uint8_t* best_s44_orders = nullptr;  // S44Order + 1; 0 where none is left open or there is no number
-  float* remaining_thu = nullptr;           // m at 95 %, of the order of the query
-  float* remaining_tvu = nullptr;           // m at 95 %, of the order of the query
+  std::uint8_t* best_s44_orders = nullptr;  // S44Order + 1; 0 if no order is left open or there is no number
+  float* remaining_thu = nullptr;           // m at 95 %, for the order of the query
+  float* remaining_tvu = nullptr;           // m at 95 %, for the order of the query
 };
 
 }  // namespace albtpu

@@ -50,7 +50,7 @@ void CheckAnswers(const UncertaintyTable& table) {
   const fuzz::Twin twin(table);
   for (const bool azimuth_absent : {false, true}) {
     if (azimuth_absent) pulses.axis[Index(AxisId::kAzimuth)] = {};
-    interpolator.Answer({}, pulses, 0, kPulses, answers);
+    interpolator.Interpolate({}, pulses, 0, kPulses, answers);
     twin.MustAgree({}, pulses, answers);
   }
 }

@@ -68,7 +68,7 @@ TEST(Axis, RefusesZeroOnALogScale) {
 
 TEST(Axis, RefusesAzimuthsAboveAQuarterTurn) {
   EXPECT_THAT(Problem(AxisId::kAzimuth, {0, 91}),
-              HasSubstr("'azimuth' node 1 is 91 degree: azimuths are folded"));
+              HasSubstr("'azimuth' node 1 is 91 degree: nodes must not be above 90 degree"));
 }
 
 TEST(Axis, LocatesItsNodesExactly) {

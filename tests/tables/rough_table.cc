@@ -51,7 +51,7 @@ Corners CornersAround(const UncertaintyTable& table, Quantity quantity,
                       const std::array<float, kAxisCount>& at) {
   const Variable& variable = *table.variable(quantity);
   std::vector<std::size_t> rows = {0};
-  const std::size_t dimensions = Describe(quantity).over_depth ? kAxisCount : kAxisCount - 1;
+  const std::size_t dimensions = Describe(quantity).over_last_axis ? kAxisCount : kAxisCount - 1;
   for (std::size_t i = 0; i < dimensions; ++i) {
     const Axis& axis = table.axes()[i];
     const std::size_t lower = axis.Locate(at[i]).value().lower;

@@ -24,7 +24,7 @@ TEST(Schema, TakesFetchAndFootprintInTheirLogarithm) {
 TEST(Schema, GivesDepthToAllButRefraction) {
   for (Quantity quantity : kQuantities) {
     const bool is_angle = Describe(quantity).units == "degree";
-    EXPECT_EQ(Describe(quantity).over_depth, !is_angle) << Describe(quantity).name;
+    EXPECT_EQ(Describe(quantity).over_last_axis, !is_angle) << Describe(quantity).name;
   }
 }
 

@@ -48,7 +48,7 @@ double Formula(Quantity quantity, const Coordinates& at) {
 template <typename Function>
 std::vector<float> Tabulate(const UncertaintyTable::Axes& axes, Quantity quantity, Function f) {
   std::vector<float> values(ValueCount(axes, quantity));
-  const std::size_t dimensions = Describe(quantity).over_depth ? kAxisCount : kAxisCount - 1;
+  const std::size_t dimensions = Describe(quantity).over_last_axis ? kAxisCount : kAxisCount - 1;
   for (std::size_t i = 0; i < values.size(); ++i) {
     Coordinates at{};
     std::size_t rest = i;

@@ -70,7 +70,7 @@ TEST(UncertaintyTable, RefusesToLackWhatIsRequired) {
 TEST(UncertaintyTable, RefusesAxesInAnotherOrder) {
   Parts parts = PartsOf(TinyTable());
   std::swap(parts.axes[0], parts.axes[1]);
-  EXPECT_EQ(parts.Problem(), "axis 0 is 'fetch': 'wind_speed' stands here");
+  EXPECT_EQ(parts.Problem(), "axis 0 is 'fetch': expected 'wind_speed'");
 }
 
 TEST(UncertaintyTable, RefusesAWrongNumberOfValues) {

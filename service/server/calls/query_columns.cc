@@ -94,7 +94,7 @@ absl::Status QueryColumns(const TableCatalog& catalog, const v1::QueryColumnsReq
   head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
   response.Add(head);
   const AnswerColumns answers = AddColumns(*plan, *selection, pulses->size, response);
-  AnswerOnAllCores(plan->source->interpolator, plan->query, *pulses, answers);
+  InterpolateOnAllCores(plan->source->interpolator, plan->query, *pulses, answers);
   tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
   return absl::OkStatus();
 }

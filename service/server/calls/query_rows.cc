@@ -63,7 +63,7 @@ class RowColumns {
     if (places_.empty()) return;
     PulseColumns pulses{.size = places_.size(), .axis = {}};
     for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
-    AnswerOnAllCores(plan_.source->interpolator, plan_.query, pulses, AllocateAnswers());
+    InterpolateOnAllCores(plan_.source->interpolator, plan_.query, pulses, AllocateAnswers());
     tally.Add(outcomes_, outcome_axes_);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Write(i, *response.mutable_uncertainties(places_[i]));

@@ -5,7 +5,7 @@
 //   columns_errors     all six quantities, their standard errors and outcomes
 //   columns_p95        all six quantities at 95 %, and outcomes
 //   columns_absent     THU, TVU and both biases, without azimuth
-//   columns_threads    as columns, by AnswerOnAllCores
+//   columns_threads    as columns, by InterpolateOnAllCores
 //   rows               Interpolate, one pulse after the other: all six quantities and their standard errors
 //   plain              PlainInterpolator, one array for each quantity: THU, TVU and both biases
 //   plain_side_by_side the same, with the quantities side by side
@@ -94,14 +94,14 @@ void Columns(benchmark::State& state, const Case& of, const Query& query, const 
   const Answers answers(kMany, wanted);
   Measure(state, of, azimuth_absent,
           [&](const Tables& tables, const PulseColumns& pulses, std::size_t begin, std::size_t end) {
-            tables.columns.Answer(query, pulses, begin, end, answers.columns());
+            tables.columns.Interpolate(query, pulses, begin, end, answers.columns());
           });
 }
 
 void OnAllCores(benchmark::State& state, const Case& of) {
   const Answers answers(kMany, {});
   Measure(state, of, false, [&](const Tables& tables, const PulseColumns& pulses, std::size_t, std::size_t) {
-    AnswerOnAllCores(tables.columns, {}, pulses, answers.columns());
+    InterpolateOnAllCores(tables.columns, {}, pulses, answers.columns());
   });
 }
 

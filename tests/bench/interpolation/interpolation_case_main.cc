@@ -38,7 +38,7 @@ void WriteCase(const std::filesystem::path& folder, int megabytes, Order order, 
     std::vector<float> answer(count);
     AnswerColumns answers;
     answers.values[Index(quantity)] = answer.data();
-    interpolator.Answer({}, pulses.columns(), 0, count, answers);
+    interpolator.Interpolate({}, pulses.columns(), 0, count, answers);
     Write(folder / "values", Describe(quantity).name, table.variable(quantity)->values);
     Write(folder / "answers", Describe(quantity).name, answer);
   }

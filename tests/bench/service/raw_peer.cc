@@ -85,7 +85,7 @@ void Serve(int socket, const ColumnInterpolator& interpolator) {
       std::uint32_t count;
       std::memcpy(&count, requests.data() + taken, sizeof count);
       if (have - taken < RequestBytes(count)) break;
-      interpolator.Answer({}, ReadRequest(requests.data() + taken, count), 0, count,
+      interpolator.Interpolate({}, ReadRequest(requests.data() + taken, count), 0, count,
                           AnswerIn(answer.data(), count));
       if (!WriteAll(socket, answer.data(), AnswerBytes(count))) break;
       taken += RequestBytes(count);

@@ -51,7 +51,7 @@ constexpr std::array<std::pair<std::string_view, void (*)(const Load&, Record&)>
 void ExpectAnswersOf(const ColumnInterpolator& table, const FlightLine& line,
                      const std::vector<AnswerMemory>& answers) {
   AnswerMemory expected(line.size());
-  table.Answer({}, line.pulses(), 0, line.size(), expected.columns());
+  table.Interpolate({}, line.pulses(), 0, line.size(), expected.columns());
   for (const AnswerMemory& memory : answers) memory.ExpectSame(expected);
 }
 

@@ -39,7 +39,7 @@ PLUGIN = {
         #include <albtpu/tables/table_io.h>
         extern "C" bool Answers(const char* path) {
           const auto table = albtpu::ReadTable(path);
-          if (table.ok()) albtpu::ColumnInterpolator(*table).Answer({}, {}, 0, 0, {});
+          if (table.ok()) albtpu::ColumnInterpolator(*table).Interpolate({}, {}, 0, 0, {});
           return table.ok();
         }
         """,

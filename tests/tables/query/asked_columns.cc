@@ -82,7 +82,7 @@ std::vector<std::uint32_t> Answers::BitsAt(std::size_t i) const {
 
 Answers Ask(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
   Answers answers(pulses.size);
-  interpolator.Answer(query, pulses, 0, pulses.size, answers.columns());
+  interpolator.Interpolate(query, pulses, 0, pulses.size, answers.columns());
   return answers;
 }
 

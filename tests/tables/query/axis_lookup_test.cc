@@ -23,7 +23,7 @@ ALBTPU_ON_EACH_INSTRUCTION_SET(AxisLookupTest);
 
 std::vector<std::int32_t> LowerNodes(const Axis& axis, const std::vector<float>& coordinates) {
   std::vector<std::int32_t> rows(coordinates.size(), 100);
-  AxisLookup(axis).AddLowerNodes(coordinates.data(), coordinates.size(), 3, rows.data());
+  AxisLookup(axis, Index(axis.id())).AddLowerNodes(coordinates.data(), coordinates.size(), 3, rows.data());
   for (std::int32_t& row : rows) row = (row - 100) / 3;
   return rows;
 }
@@ -34,7 +34,7 @@ void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
                      AxisLookup::kPadding);
   std::vector<std::int32_t> rows(coordinates.size(), 7), codes(coordinates.size(), outcome_code::kInside);
   std::vector<float> fractions(coordinates.size(), -1);
-  AxisLookup(axis).Locate(coordinates.data(), coordinates.size(), 2, rows.data(), fractions.data(),
+  AxisLookup(axis, Index(axis.id())).Locate(coordinates.data(), coordinates.size(), 2, rows.data(), fractions.data(),
                           codes.data());
   const std::vector<std::int32_t> lower_nodes = LowerNodes(axis, coordinates);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_P(AxisLookupTest, KeepsTheLeastCode) {
   coordinates[3] = coordinates[4] = std::nanf("");
   std::vector<std::int32_t> rows(AxisLookup::kPadding),
       codes = {0, outcome_code::kInside, 3, outcome_code::kOutside, 3, outcome_code::kInside, 9, 4};
-  AxisLookup(axis).Locate(coordinates.data(), coordinates.size(), 1, rows.data(), fractions.data(),
+  AxisLookup(axis, Index(axis.id())).Locate(coordinates.data(), coordinates.size(), 1, rows.data(), fractions.data(),
                           codes.data());
   EXPECT_EQ(codes, (std::vector<std::int32_t>{0, outcome_code::kOutside + depth, 3, depth, 3,
                                               outcome_code::kInside, 9, 4}));

@@ -83,7 +83,7 @@ TEST_P(ColumnOrder, AnswersInAnyOrderAndInPiecesBitByBit) {
   Answers pieces(2000);
   const std::vector<std::size_t> cuts = {0, 0, 1, 9, 300, 557, 1999, 2000};
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    interpolator.Answer({}, Pulses(columns, 2000), cuts[i], cuts[i + 1], pieces.columns());
+    interpolator.Interpolate({}, Pulses(columns, 2000), cuts[i], cuts[i + 1], pieces.columns());
   }
   for (std::vector<float>& column : columns) {
     column.resize(2000, column.front());  // Also those of one number.
@@ -103,7 +103,7 @@ constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2;
 Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
   Answers answers(kSize);
   for (std::size_t first = kBegin; first < kEnd; first += kBlock) {
-    interpolator.Answer(query, pulses, first, std::min(first + kBlock, kEnd), answers.columns());
+    interpolator.Interpolate(query, pulses, first, std::min(first + kBlock, kEnd), answers.columns());
   }
   return answers;
 }
@@ -123,13 +123,13 @@ TEST_P(ColumnOrder, AnswersManyInNoOrderAsFewBitByBit) {
         const ColumnInterpolator interpolator(LargeTable(scale, errors));
         const Answers few = AskInBlocks(interpolator, query, pulses);
         Answers many(kSize);
-        interpolator.Answer(query, pulses, kBegin, kEnd, many.columns());
+        interpolator.Interpolate(query, pulses, kBegin, kEnd, many.columns());
         for (std::size_t i = 0; i < kSize; ++i) ASSERT_EQ(many.BitsAt(i), few.BitsAt(i)) << i;
 
         std::vector<float> thu(kSize);
         AnswerColumns one_column;
         one_column.values[Index(Quantity::kThu)] = thu.data();
-        interpolator.Answer(query, pulses, kBegin, kEnd, one_column);
+        interpolator.Interpolate(query, pulses, kBegin, kEnd, one_column);
         EXPECT_EQ(std::memcmp(thu.data(), few.values[Index(Quantity::kThu)].data(), kSize * sizeof(float)),
                   0);
       }
@@ -144,7 +144,7 @@ TEST_P(ColumnOrder, OnAllCoresAnswersBitByBitAsOnOne) {
   for (const Columns& columns : {LineColumns(kSize), RandomColumns(table, kSize, 4)}) {
     const Answers one = Ask(interpolator, {}, Pulses(columns, kSize));
     Answers all(kSize);
-    AnswerOnAllCores(interpolator, {}, Pulses(columns, kSize), all.columns());
+    InterpolateOnAllCores(interpolator, {}, Pulses(columns, kSize), all.columns());
     for (std::size_t i = 0; i < kSize; ++i) ASSERT_EQ(all.BitsAt(i), one.BitsAt(i));
   }
 }

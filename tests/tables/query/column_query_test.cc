@@ -136,7 +136,7 @@ TEST_P(ColumnQuery, IsExactAtEveryNode) {
     const Answers answers = Ask(ColumnInterpolator(table), {}, Pulses(columns, size));
     for (Quantity quantity : kQuantities) {
       const Variable& variable = *table.variable(quantity);
-      const std::size_t over = Describe(quantity).over_depth ? 1 : table.axis(AxisId::kDepth).size();
+      const std::size_t over = Describe(quantity).over_last_axis ? 1 : table.axis(AxisId::kDepth).size();
       for (std::size_t i = 0; i < size; ++i) {
         ASSERT_EQ(answers.values[Index(quantity)][i], variable.values[i / over]) << i;
         ASSERT_EQ(answers.errors[Index(quantity)][i], variable.standard_errors[i / over]) << i;
@@ -184,10 +184,10 @@ TEST_P(ColumnQuery, WritesWhatIsWantedAndNothingElse) {
     std::vector<float> value(600, 77), error(600, 77);
     AnswerColumns wanted;
     wanted.values[Index(quantity)] = value.data();
-    interpolator.Answer({}, Pulses(columns, 600), 5, 590, wanted);
+    interpolator.Interpolate({}, Pulses(columns, 600), 5, 590, wanted);
     wanted.values[Index(quantity)] = nullptr;
     wanted.standard_errors[Index(quantity)] = error.data();
-    interpolator.Answer({}, Pulses(columns, 600), 5, 590, wanted);
+    interpolator.Interpolate({}, Pulses(columns, 600), 5, 590, wanted);
     for (std::size_t i = 0; i < 600; ++i) {
       const bool inside = i >= 5 && i < 590;
       const float outside = 77;

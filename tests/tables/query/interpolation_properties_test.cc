@@ -76,7 +76,7 @@ class Asked {
       answers.values[q] = numbers[q].data();
       answers.standard_errors[q] = numbers[kQuantityCount + q].data();
     }
-    interpolator_.Answer({}, columns, 0, pulses.size(), answers);
+    interpolator_.Interpolate({}, columns, 0, pulses.size(), answers);
     std::vector<Numbers> rows(pulses.size());
     for (std::size_t i = 0; i < pulses.size(); ++i) {
       EXPECT_EQ(outcomes[i], 1) << i;

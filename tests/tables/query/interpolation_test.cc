@@ -72,7 +72,7 @@ void ExpectOracle(const UncertaintyTable& table, const Pulse& pulse) {
   ASSERT_EQ(result.outcome, Outcome::kInterpolated) << OutcomeText(result);
   for (Quantity quantity : kQuantities) {
     const Variable& variable = *table.variable(quantity);
-    const std::size_t dimensions = Describe(quantity).over_depth ? 6 : 5;
+    const std::size_t dimensions = Describe(quantity).over_last_axis ? 6 : 5;
     double value = Oracle(table, variable.values, variable.scale, pulse, dimensions);
     if (variable.scale == Scale::kLog) value = std::exp(value);
     EXPECT_NEAR(result[quantity], value, kRounding * std::abs(value)) << Describe(quantity).name;
@@ -116,7 +116,7 @@ TEST(Interpolation, IsExactAtEveryNode) {
       }
       const PulseUncertainty result = Interpolate(table, pulse);
       for (Quantity quantity : kQuantities) {
-        const std::size_t index = Describe(quantity).over_depth ? i : i / shape.back();
+        const std::size_t index = Describe(quantity).over_last_axis ? i : i / shape.back();
         ASSERT_EQ(result[quantity], table.variable(quantity)->values[index]) << i;
         ASSERT_EQ(result.standard_errors[Index(quantity)], table.variable(quantity)->standard_errors[index])
             << i;

@@ -23,14 +23,13 @@ class SortedPulsesTest : public testing::OnInstructionSet {
  protected:
   // Anywhere in the table, incidence and depth by pulse, the others constant.
   SortedPulsesTest()
-      : table_(SyntheticTable()), grid_(table_), incidence_(kSize), depth_(kSize), thu_(kSize) {
+      : table_(SyntheticTable()), grid_(table_.table()), incidence_(kSize), depth_(kSize), thu_(kSize) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> incidence(0, 25), depth(0, 20);
     for (float& number : incidence_) number = incidence(random);
     for (float& number : depth_) number = depth(random);
     pulses_.size = kSize;
     pulses_.axis = {std::span(&wind_speed_, 1), {}, incidence_, {}, std::span(&footprint_, 1), depth_};
-    wanted_.values[Index(Quantity::kThu)] = thu_.data();
   }
 
   bool IsScattered(const PulseColumns& pulses) const {
@@ -44,11 +43,10 @@ class SortedPulsesTest : public testing::OnInstructionSet {
   const Grid grid_;
   std::vector<float> incidence_, depth_, thu_;
   PulseColumns pulses_;
-  AnswerColumns wanted_;
 };
 ALBTPU_ON_EACH_INSTRUCTION_SET(SortedPulsesTest);
 
-// AnswerOnAllCores cuts a message of 65 536 pulses into pieces of 8192, of which a block comes first.
+// InterpolateOnAllCores cuts a message of 65 536 pulses into pieces of 8192, of which a block comes first.
 TEST(FewestPulsesToSort, AreFewerThanAPieceInTheTablesThatWeShip) {
   constexpr std::size_t kSurvey = 721'280, kPiece = 8192 - kBlock;
   EXPECT_LE(SortedPulses::Fewest(kSurvey), kPiece);
@@ -63,13 +61,13 @@ TEST(FewestPulsesToSort, AreMoreThanThereAreInTablesThatStayInTheCacheOrAreTooLa
 
 TEST_P(SortedPulsesTest, NeighboursShareACell) {
   EXPECT_TRUE(IsScattered(pulses_));
-  const SortedPulses sorted(grid_, pulses_, 0, kSize, wanted_);
+  const SortedPulses sorted(grid_, pulses_, 0, kSize);
   ASSERT_EQ(sorted.pulses().size, kSize);
   EXPECT_FALSE(IsScattered(sorted.pulses()));
 }
 
 TEST_P(SortedPulsesTest, PulsesStayWholeAndConstantColumnsWhereTheyAre) {
-  const SortedPulses sorted(grid_, pulses_, 8, kSize - 8, wanted_);
+  const SortedPulses sorted(grid_, pulses_, 8, kSize - 8);
   using Pair = std::pair<float, float>;
   std::vector<Pair> before, after;
   for (std::size_t i = 8; i < kSize; ++i) before.emplace_back(incidence_[i], depth_[i]);
@@ -83,19 +81,33 @@ TEST_P(SortedPulsesTest, PulsesStayWholeAndConstantColumnsWhereTheyAre) {
   EXPECT_TRUE(sorted.pulses()[AxisId::kAzimuth].empty());
 }
 
-TEST_P(SortedPulsesTest, AnswersGoWhereTheyWereWanted) {
+// Two columns of answers, of which any may be unwanted.
+struct TwoColumns {
+  float* numbers = nullptr;
+  std::uint8_t* outcomes = nullptr;
+  float* unwanted = nullptr;
+};
+template <typename Visit>
+void ForEachColumn(const TwoColumns& wanted, TwoColumns& other, const Visit& visit) {
+  if (wanted.numbers != nullptr) visit(wanted.numbers, other.numbers);
+  if (wanted.outcomes != nullptr) visit(wanted.outcomes, other.outcomes);
+  if (wanted.unwanted != nullptr) visit(wanted.unwanted, other.unwanted);
+}
+
+TEST_P(SortedPulsesTest, CopyAnswersBackIntoTheOrderOfThePulses) {
   constexpr std::size_t kBegin = 16, kCount = 4000;
   std::vector<std::uint8_t> outcomes(kSize, 9);
   std::fill(thu_.begin(), thu_.end(), -1.0f);
-  wanted_.outcomes = outcomes.data();
-  SortedPulses sorted(grid_, pulses_, kBegin, kCount, wanted_);
+  const TwoColumns wanted{.numbers = thu_.data(), .outcomes = outcomes.data()};
+  const SortedPulses sorted(grid_, pulses_, kBegin, kCount);
+  SortedAnswers<TwoColumns> answers(sorted, wanted);
   const std::span<const float> depths = sorted.pulses()[AxisId::kDepth];
   for (std::size_t i = 0; i < kCount; ++i) {
-    sorted.answers().values[Index(Quantity::kThu)][i] = 2 * depths[i];
-    sorted.answers().outcomes[i] = depths[i] < 10 ? 1 : 2;
+    answers.columns().numbers[i] = 2 * depths[i];
+    answers.columns().outcomes[i] = depths[i] < 10 ? 1 : 2;
   }
-  EXPECT_EQ(sorted.answers().values[Index(Quantity::kTvu)], nullptr);
-  sorted.CopyAnswers();
+  EXPECT_EQ(answers.columns().unwanted, nullptr);
+  answers.CopyBack();
   for (std::size_t i = 0; i < kSize; ++i) {
     const bool asked = i >= kBegin && i < kBegin + kCount;
     ASSERT_EQ(thu_[i], asked ? 2 * depth_[i] : -1);
