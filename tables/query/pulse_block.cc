@@ -29,7 +29,8 @@ void FoldFar(float* azimuths, std::size_t count) {
 
 }  // namespace
 
-Grid::Grid(const Table& table) : last_size_(static_cast<std::ptrdiff_t>(table.axes().back().size())) {
+Grid::Grid(const Table& table)
+    : last_(table.axes().size() - 1), last_size_(static_cast<std::ptrdiff_t>(table.axes().back().size())) {
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
     axes_.emplace_back(table.axes()[axis], axis);
     const IfAbsent rule = table.schema().axes[axis].if_absent;
@@ -86,10 +87,9 @@ PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t
   }
   if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), most, 0.0f);
   for (const bool over_last_axis : {false, true}) {
-    for (const End end : {End::kLow, End::kHigh}) {
-      if (end == End::kHigh && !has_two_ends_) continue;
-      blended_[over_last_axis ? 1 : 0][end == End::kHigh ? 1 : 0] = Blended(over_last_axis, end);
-    }
+    std::array<BlendedPulses, 2>& of_ends = blended_[over_last_axis ? 1 : 0];
+    SetBlended(over_last_axis, End::kLow, of_ends[0]);
+    if (has_two_ends_) SetBlended(over_last_axis, End::kHigh, of_ends[1]);
   }
 }
 
@@ -149,14 +149,13 @@ bool PulseBlock::IsScattered() const {
   return 2 * moves > count_;
 }
 
-BlendedPulses PulseBlock::Blended(bool over_last_axis, End end) const {
+void PulseBlock::SetBlended(bool over_last_axis, End end, BlendedPulses& pulses) const {
   const bool high = end == End::kHigh;
   const auto fractions = [&](std::size_t axis) {
     return (high && axis == grid_.two_ended_axis() ? high_fractions_ : fractions_[axis]).begin();
   };
   const Grid::Slots& slots = grid_.slots(over_last_axis);
   const std::size_t last = grid_.last();
-  BlendedPulses pulses;
   pulses.first = (high ? high_row_ : low_row_) * (over_last_axis ? grid_.last_size() : 1);
   pulses.rows = (over_last_axis ? rows_with_last_ : rows_).begin();
   pulses.steps = slots.steps;
@@ -166,7 +165,6 @@ BlendedPulses PulseBlock::Blended(bool over_last_axis, End end) const {
     if (axis == Grid::kNoAxis && slot != BlendedPulses::kFastest) pulses.fractions[slot] = zeros_.begin();
   }
   pulses.last = fractions(over_last_axis || last == 0 ? last : last - 1);
-  return pulses;
 }
 
 }  // namespace albtpu

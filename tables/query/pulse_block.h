@@ -21,8 +21,8 @@ class Grid {
 
   static constexpr std::size_t kNoAxis = kMaxAxes;
 
-  std::size_t axis_count() const { return axes_.size(); }
-  std::size_t last() const { return axes_.size() - 1; }
+  std::size_t axis_count() const { return last_ + 1; }
+  std::size_t last() const { return last_; }
   const AxisLookup& axis(std::size_t index) const { return axes_[index]; }
   // The records from one node to the next, in records without the last axis; 0 if the axis has one node. 1 for the last
   // axis itself.
@@ -44,6 +44,7 @@ class Grid {
  private:
   Slots SlotsOf(const TableSchema& schema, bool over_last_axis) const;
 
+  std::size_t last_;
   std::vector<AxisLookup> axes_;
   std::array<std::ptrdiff_t, kMaxAxes> steps_{};
   std::ptrdiff_t last_size_;
@@ -90,7 +91,7 @@ class PulseBlock {
   std::int32_t LocateConstant(std::size_t axis, float coordinate, std::size_t most,
                               BlockOf<float>& fractions);
   void LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows);
-  BlendedPulses Blended(bool over_last_axis, End end) const;
+  void SetBlended(bool over_last_axis, End end, BlendedPulses& pulses) const;
 
   const Grid& grid_;
   const PulseColumns& pulses_;

@@ -26,7 +26,7 @@ struct TableLayout {
 // where it stopped. `writer` says by needs() what it writes by Write(block, values).
 template <typename Writer>
 std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pulses, std::size_t begin,
-                              std::size_t end, std::size_t fewest_to_sort, Writer writer) {
+                              std::size_t end, std::size_t fewest_to_sort, Writer&& writer) {
   if (begin == end) return end;
   PulseBlock block(layout.grid, pulses, std::min(kBlock, end - begin));
   BlockValues values(layout.records, writer.needs());
