@@ -41,8 +41,9 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
   if (schema.is_folded && node > kFoldedEnds[1]) {
-    return absl::StrCat(WithUnits(node, schema),
-                        ": nodes must not be above 90 degree, azimuths are folded below it");
+    return absl::StrCat(
+        WithUnits(node, schema),
+        ": nodes must not be above 90 degree (larger azimuths are folded into 0 to 90 degree)");
   }
   if (index > 0 && !(node > nodes[index - 1])) {
     return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),

@@ -36,9 +36,9 @@ class Axis {
   const std::vector<double>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
 
-  // Where `coordinate`, in the units of the axis, lies; nothing if it is outside the nodes or not a number. A folded axis
-  // folds it first. An endless axis holds it at the last node, and answers at any coordinate above zero if it has one
-  // node only.
+  // Where `coordinate`, in the units of the axis, lies; nothing if it is outside the nodes or not a number. A
+  // folded axis folds it first. An endless axis holds it at the last node, and answers at any coordinate above zero
+  // if it has one node only.
   std::optional<Bracket> Locate(double coordinate) const;
 
  private:
@@ -50,8 +50,8 @@ class Axis {
   std::vector<double> scaled_nodes_;  // The nodes, or their logarithms.
 };
 
-// The azimuth in [0, 90] degrees that has the same statistics as `azimuth`, which may be any finite angle in degrees. A
-// Gaussian sea looks the same after a turn by 180 degrees and when mirrored at the wind axis.
+// The azimuth in [0, 90] degrees that has the same statistics as `azimuth`, which may be any finite angle in
+// degrees. A Gaussian sea looks the same after a turn by 180 degrees and when mirrored at the wind axis.
 double FoldAzimuth(double azimuth);
 
 // The ends of a folded axis.

@@ -8,20 +8,20 @@
 namespace albtpu {
 namespace {
 
-constexpr double kOutside = 0.05;  // What a 95 % interval or radius leaves out.
+constexpr double kOutside = 0.05;  // The probability of lying outside a 95 % interval or radius.
 
-// The probability that a centred normal point with standard deviations 1 and `axis_ratio` lies farther out
-// than `radius`, and its derivative by the radius. With x = rho cos t, y = axis_ratio rho sin t the point has
-// a Rayleigh distributed rho and a uniform t, so the probability is the mean over t of exp(-radius^2 / (2
-// w)), w = cos^2 t + axis_ratio^2 sin^2 t. The integrand is smooth and periodic: equal steps converge
-// exponentially.
+// The probability that a centred normal point with standard deviations 1 and `axis_ratio` lies beyond `radius`, and
+// its derivative with respect to the radius. Write the point as x = rho cos t, y = axis_ratio rho sin t: rho has a
+// Rayleigh distribution and t a uniform one, so that the probability is the mean over t of exp(-radius^2 / (2 w)),
+// w = cos^2 t + axis_ratio^2 sin^2 t. The integrand is smooth and periodic, so that a sum over equal steps
+// converges exponentially.
 struct Tail {
   double probability;
   double slope;
 };
 
 Tail TailBeyond(double radius, double axis_ratio) {
-  constexpr int kSteps = 64;  // Over a quarter turn, at midpoints: w is never 0.
+  constexpr int kSteps = 64;  // Midpoints over a quarter turn, where w is never 0.
   Tail tail{0, 0};
   for (int i = 0; i < kSteps; ++i) {
     const double t = (i + 0.5) * std::numbers::pi / (2 * kSteps);
@@ -35,15 +35,15 @@ Tail TailBeyond(double radius, double axis_ratio) {
 
 double SolveRadiusFactor95(double axis_ratio) {
   double radius = 2;
-  for (int i = 0; i < 6; ++i) {  // Newton; from 2, five steps reach 1e-14 for every axis ratio.
+  for (int i = 0; i < 6; ++i) {  // Newton's method; from 2, five steps reach 1e-14 for every axis ratio.
     const Tail tail = TailBeyond(radius, axis_ratio);
     radius -= (tail.probability - kOutside) / tail.slope;
   }
   return radius / (2 * std::hypot(1.0, axis_ratio));
 }
 
-// The factor at equal steps of the axis ratio. Its second derivative stays below 0.73, so that lines between
-// the nodes err by less than 0.73 / 8 / kIntervals^2 = 9e-8.
+// The factor at equal steps of the axis ratio. Its second derivative is below 0.73, so that the error of linear
+// interpolation between the nodes is below 0.73 / 8 / kIntervals^2 = 9e-8.
 constexpr int kIntervals = 1024;
 using RadiusFactors = std::array<double, kIntervals + 1>;
 

@@ -6,7 +6,7 @@
 namespace albtpu {
 
 std::filesystem::path InstalledDataDirectory() {
-  std::error_code error;  // Without /proc, relative to the current folder.
+  std::error_code error;  // Without /proc, the path is relative to the current folder.
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   return program.parent_path().parent_path() / "share" / "albtpu";
 }

@@ -5,11 +5,11 @@
 
 namespace albtpu {
 
-// The environment variable `ALBTPU_TABLES` unless it is empty; else PREFIX/share/albtpu/tables of the program
-// that runs as PREFIX/bin/NAME. The folder need not exist.
+// The value of the environment variable `ALBTPU_TABLES`. If it is empty or not set, PREFIX/share/albtpu/tables for a
+// program that runs as PREFIX/bin/NAME. The folder need not exist.
 std::filesystem::path DefaultTablesDirectory();
 
-// PREFIX/share/albtpu of the program that runs as PREFIX/bin/NAME. The folder need not exist.
+// PREFIX/share/albtpu for a program that runs as PREFIX/bin/NAME. The folder need not exist.
 std::filesystem::path InstalledDataDirectory();
 
 }  // namespace albtpu

@@ -14,7 +14,7 @@ struct Sha256::Context {
   ~Context() { EVP_MD_CTX_free(evp); }
 };
 
-// OpenSSL fails at these calls only for want of memory.
+// These calls of OpenSSL fail only if there is not enough memory.
 Sha256::Sha256() : context_(std::make_unique<Context>()) {
   if (context_->evp == nullptr || EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr) != 1) {
     throw std::bad_alloc();

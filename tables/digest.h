@@ -1,4 +1,4 @@
-// SHA-256, the fingerprint of a file (seal.h) and of the content of a table (uncertainty_table.h).
+// SHA-256, the digest of a file (seal.h) and of the content of a table (table.h).
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace albtpu {
 
 using Sha256Digest = std::array<std::uint8_t, 32>;
 
-// The digest of all bytes given to Update, in their order.
+// The digest of all bytes passed to Update, in their order.
 class Sha256 {
  public:
   Sha256();
@@ -23,7 +23,7 @@ class Sha256 {
   void Update(const void* bytes, std::size_t count);
   void Update(std::string_view text) { Update(text.data(), text.size()); }
 
-  // To be called once, last.
+  // Must be called once, after all calls of Update.
   Sha256Digest Finish();
 
  private:

@@ -1,5 +1,5 @@
-// The names and limits of the written form, which FORMAT.md specifies. Those of the user block are in seal.h, the names
-// of axes and variables in schema.h.
+// The names and limits of the written form, which FORMAT.md specifies. Those of the user block are in seal.h, the
+// names of axes and variables in schema.h.
 #pragma once
 
 #include <array>
@@ -32,13 +32,13 @@ inline constexpr std::string_view kInterpolation = "interpolation";
 inline constexpr std::string_view kAncillaryVariables = "ancillary_variables";
 inline constexpr std::string_view kFillValue = "_FillValue";
 
-// The most nodes of an axis, and the most values of a variable (1 GiB): they bound the memory that a malformed file can
-// make a reader allocate.
+// The most nodes of an axis, and the most values of a variable (1 GiB): they bound the memory that a malformed file
+// can make a reader allocate.
 inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
 inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
 
-// The greatest node, the least distance between two nodes and the greatest magnitude of a value, each in its own units.
-// They are far beyond any sea, and let single precision interpolate between them.
+// The greatest node, the least distance between two nodes and the greatest magnitude of a value, each in its own
+// units. They are far beyond any sea, and let single precision interpolate between them.
 inline constexpr double kGreatestNode = 1e9;
 inline constexpr double kLeastNodeDistance = 1e-6;
 inline constexpr float kGreatestValue = 1e6f;

@@ -18,8 +18,8 @@ absl::Status Invalid(std::string_view attribute, std::string_view problem) {
       absl::StrFormat("attribute '%s' %s", std::string(attribute), std::string(problem)));
 }
 
-// The length in bytes of the UTF-8 character that `text` begins with; 0 if it begins with none (Unicode 15,
-// table 3-7).
+// The length in bytes of the UTF-8 character at the beginning of `text`; 0 if there is no valid character (Unicode
+// 15, table 3-7).
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const auto in = [&](std::size_t i, int low, int high) {
@@ -39,7 +39,7 @@ std::size_t CharacterLength(std::string_view text) {
 absl::Status CheckText(std::string_view attribute, std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == '\0')
-      return Invalid(attribute, absl::StrCat("holds a NUL at byte ", i, ": text has none"));
+      return Invalid(attribute, absl::StrCat("has a NUL at byte ", i, ": text must not contain NUL"));
     const std::size_t length = CharacterLength(text.substr(i));
     if (length == 0) return Invalid(attribute, absl::StrCat("is not UTF-8 at byte ", i));
     i += length;
@@ -61,10 +61,11 @@ bool IsAttributeName(std::string_view name) {
 
 absl::Status CheckAttribute(std::string_view name, const AttributeValue& value) {
   if (!IsAttributeName(name)) {
-    return Invalid(name, "has no name that can be written: letters, digits and underscores, no digit first");
+    return Invalid(name,
+                   "has an invalid name: use letters, digits and underscores, and do not begin with a digit");
   }
   for (std::string_view reserved : format::kReservedAttributes) {
-    if (name == reserved) return Invalid(name, "is reserved: it is written from the table itself");
+    if (name == reserved) return Invalid(name, "is reserved: it is written from the contents of the table");
   }
   const std::string* text = std::get_if<std::string>(&value);
   return text == nullptr ? absl::OkStatus() : CheckText(name, *text);
@@ -76,11 +77,13 @@ absl::Status CheckProvenance(const Provenance& provenance) {
   if (!IsId(provenance.id)) {
     return Invalid(format::kId,
                    absl::StrCat("is '", provenance.id,
-                                "': it takes lowercase letters, digits, '-' and '_', and begins with a "
-                                "letter or a digit"));
+                                "': use lowercase letters, digits, '-' and '_', and begin with a letter or a "
+                                "digit"));
   }
-  if (provenance.version.empty()) return Invalid(format::kVersion, "is empty: name this making of the table");
-  if (provenance.title.find('\n') != std::string::npos) return Invalid(format::kTitle, "is not one line");
+  if (provenance.version.empty())
+    return Invalid(format::kVersion, "is empty: name this edition of the table");
+  if (provenance.title.find('\n') != std::string::npos)
+    return Invalid(format::kTitle, "has several lines: it must be one line");
   absl::Status status = CheckText(format::kVersion, provenance.version);
   if (status.ok()) status = CheckText(format::kTitle, provenance.title);
   if (status.ok()) status = CheckText(format::kCampaign, provenance.campaign);

@@ -1,4 +1,4 @@
-// Where a table comes from: its global attributes, and the rules for them.
+// The origin of a table: its global attributes and the rules for them.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace albtpu {
 
 using AttributeValue = std::variant<std::string, std::int64_t, double, std::vector<double>>;
 
-// What is needed to trust a table and to make it again. `id` names what the table is, `version` which making
-// of it; neither is the name of its file.
+// What is needed to trust a table and to make it again. `id` names what the table is, `version` which edition of it.
+// Neither is the name of its file.
 struct Provenance {
   std::string id;        // [a-z0-9][a-z0-9_-]*
   std::string version;   // not empty
   std::string title;     // one line
-  std::string campaign;  // the TOML text that made it; empty for published tables
+  std::string campaign;  // the TOML text that it was made from; empty for published tables
   // All other global attributes, by name (FORMAT.md).
   std::map<std::string, AttributeValue> attributes;
 };
 
-// InvalidArgument, naming the attribute, when a rule of `Provenance` is broken, when text is not UTF-8 or
-// holds a NUL, or when the name of an attribute is not [A-Za-z_][A-Za-z0-9_]* or is reserved (format.h).
+// InvalidArgument, naming the attribute, if a rule of `Provenance` is broken, if a text is not UTF-8 or contains
+// NUL, or if the name of an attribute is not [A-Za-z_][A-Za-z0-9_]* or is reserved (format.h).
 absl::Status CheckProvenance(const Provenance& provenance);
 
 }  // namespace albtpu

@@ -5,7 +5,7 @@
 namespace albtpu {
 namespace {
 
-// The limits of one order at 95 %: THU `c + e d`, TVU `sqrt(a^2 + (b d)^2)`, d the depth in m.
+// The limits of an order at 95 %: THU `c + e d`, TVU `sqrt(a^2 + (b d)^2)`, where d is the depth in m.
 struct Limits {
   std::string_view name;
   double c;  // m
@@ -14,7 +14,7 @@ struct Limits {
   double b;
 };
 
-// IHO S-44 edition 6.1.0, Table 1; in the order of kS44Orders.
+// IHO S-44 edition 6.1.0, Table 1, in the order of kS44Orders.
 constexpr std::array<Limits, kS44Orders.size()> kLimits = {{
     {"exclusive", 1, 0, 0.15, 0.0075},
     {"special", 2, 0, 0.25, 0.0075},
@@ -56,7 +56,7 @@ std::optional<S44Order> BestOrder(double thu, double tvu, double depth) {
 }
 
 std::optional<double> RemainingBudget(double limit, double ours) {
-  if (!(ours <= limit)) return std::nullopt;  // Not a number leaves nothing.
+  if (!(ours <= limit)) return std::nullopt;  // False for NaN, too.
   return std::sqrt((limit - ours) * (limit + ours));
 }
 

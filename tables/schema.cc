@@ -3,8 +3,8 @@
 namespace albtpu {
 namespace {
 
-// The numbers of the sea do not change when the azimuth turns by 180 degrees or is mirrored at the wind axis, and beyond
-// the longest fetch the sea is fully developed.
+// The numbers of the sea do not change when the azimuth turns by 180 degrees or is mirrored at the wind axis, and
+// beyond the longest fetch the sea is fully developed.
 constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
     {.name = "wind_speed",
      .units = "m s-1",

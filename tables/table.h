@@ -14,8 +14,8 @@
 
 namespace albtpu {
 
-// A quantity at every node, row-major in the order of the axes, the last axis fastest. The last axis is missing if the
-// quantity does not depend on it.
+// A quantity at every node, row-major in the order of the axes, the last axis fastest. The last axis is missing if
+// the quantity does not depend on it.
 struct Variable {
   std::vector<float> values;           // Finite, at most 1e6 in magnitude; not negative unless a bias.
   std::vector<float> standard_errors;  // Of the same shape and limits, not negative. Empty: not known.
@@ -30,9 +30,9 @@ class Table {
   using Axes = std::vector<Axis>;
   using Variables = std::vector<std::optional<Variable>>;
 
-  // Fails with InvalidArgument if the axes are not those of the schema, a required variable is missing, a shape does not
-  // fit the axes, a value breaks the rules of `Variable`, or the provenance its own. The message names the axis or the
-  // variable and the index. `schema` must be well-formed and outlive the table.
+  // Fails with InvalidArgument if the axes are not those of the schema, a required variable is missing, a shape
+  // does not fit the axes, a value breaks the rules of `Variable`, or the provenance its own. The message names the
+  // axis or the variable and the index. `schema` must be well-formed and outlive the table.
   static absl::StatusOr<Table> Create(const TableSchema& schema, Axes axes, Variables variables,
                                       Provenance provenance);
 
@@ -42,8 +42,8 @@ class Table {
   const Variable* variable(std::size_t quantity) const;
   const Provenance& provenance() const { return provenance_; }
 
-  // SHA-256, 64 hexadecimal digits, over kind, id, axes, values, standard errors, units, scales and campaign; not over
-  // date, version, commit or other attributes. Two tables with the same digest give the same answers.
+  // SHA-256, 64 hexadecimal digits, over kind, id, axes, values, standard errors, units, scales and campaign; not
+  // over date, version, commit or other attributes. Two tables with the same digest give the same answers.
   const std::string& digest() const { return digest_; }
 
  private:

@@ -61,9 +61,9 @@ struct TableSchema {
   // Slowest first: the order of the dimensions of every variable.
   std::span<const AxisSchema> axes;
   std::span<const QuantitySchema> quantities;
-  // Every axis once, as an index into `axes`, from the one that changes least along a flight line; the last axis of the
-  // table comes last. The interpolator blends the axes in this order and keeps what the first ones give from pulse to
-  // pulse. The order decides the rounding of an answer, too.
+  // Every axis once, as an index into `axes`, from the one that changes least along a flight line; the last axis of
+  // the table comes last. The interpolator blends the axes in this order and keeps what the first ones give from
+  // pulse to pulse. The order decides the rounding of an answer, too.
   std::span<const std::size_t> blend_order;
 };
 

@@ -19,8 +19,9 @@ class UncertaintyTable {
   using Axes = std::array<Axis, kAxisCount>;
   using Variables = std::array<std::optional<Variable>, kQuantityCount>;
 
-  // Fails with InvalidArgument if an axis is in the wrong place, a required variable is missing, a shape does not fit the
-  // axes, or a value breaks the rules of `Variable`. The message names the axis or the variable and the index.
+  // Fails with InvalidArgument if an axis is in the wrong place, a required variable is missing, a shape does not
+  // fit the axes, or a value breaks the rules of `Variable`. The message names the axis or the variable and the
+  // index.
   static absl::StatusOr<UncertaintyTable> Create(Axes axes, Variables variables, Provenance provenance);
   // Requires a table of kind kSeaSurface.
   explicit UncertaintyTable(Table table);
@@ -33,8 +34,8 @@ class UncertaintyTable {
   // Whether the numbers were published by others: no campaign made the table.
   bool is_published() const { return provenance().campaign.empty(); }
 
-  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not over date,
-  // version, commit or other attributes. Two tables with the same digest give the same answers.
+  // SHA-256, 64 hexadecimal digits, over id, axes, values, standard errors, units, scales and campaign; not over
+  // date, version, commit or other attributes. Two tables with the same digest give the same answers.
   const std::string& digest() const { return table_.digest(); }
 
   const Table& table() const { return table_; }

@@ -1,4 +1,4 @@
-// What program this is: printed by `--version`, recorded in the provenance of every table.
+// The version of the program, printed by `--version` and recorded in the provenance of every table.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 namespace albtpu {
 
 std::string_view Version();  // "0.1.0"
-// "1a2b3c4d5e6f", "-dirty" behind it if the tree was changed, "unknown" outside git.
+// "1a2b3c4d5e6f", with "-dirty" appended if the working tree had changes; "unknown" outside of git.
 std::string_view Commit();
 
 }  // namespace albtpu

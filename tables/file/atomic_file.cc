@@ -24,7 +24,7 @@ absl::Status SystemError(const char* verb, const fs::path& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot ", verb, " '", path.string(), "'"));
 }
 
-// A file that is removed again unless it gets its name.
+// A file that is removed again unless TakeName succeeds.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& folder) : folder_(folder) {
@@ -56,7 +56,7 @@ class TemporaryFile {
 
   bool Sync() { return fsync(descriptor_) == 0; }
 
-  // Fails with EEXIST when `path` exists and is to be kept.
+  // Fails with EEXIST if `path` exists and is to be kept.
   bool TakeName(const fs::path& path, Existing existing) {
     named_ = existing == Existing::kReplace ? rename(path_.c_str(), path.c_str()) == 0 : RenameToNew(path);
     return named_;
@@ -66,7 +66,7 @@ class TemporaryFile {
   bool RenameToNew(const fs::path& path) {
     if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return true;
     if (errno != EINVAL && errno != ENOSYS) return false;
-    // File systems that cannot rename so, such as NFS, can link: a link never replaces.
+    // File systems without this rename, such as NFS, have links, and a link never replaces a file.
     return link(path_.c_str(), path.c_str()) == 0 && unlink(path_.c_str()) == 0;
   }
 
@@ -76,11 +76,11 @@ class TemporaryFile {
   bool named_ = false;
 };
 
-// Makes the name itself durable. Some file systems cannot sync a folder and say EINVAL: they are taken as
-// they are.
+// Makes the name itself durable. Some file systems cannot sync a folder and return EINVAL, which is not an error
+// here.
 bool SyncFolder(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return errno == EACCES;  // A folder may be writable and not readable.
+  if (descriptor < 0) return errno == EACCES;  // A folder may be writable but not readable.
   const bool synced = fsync(descriptor) == 0 || errno == EINVAL;
   const int error = errno;
   close(descriptor);
@@ -90,19 +90,19 @@ bool SyncFolder(const fs::path& folder) {
 
 absl::Status AlreadyThere(const fs::path& path) {
   return absl::AlreadyExistsError(
-      absl::StrCat("'", path.string(), "' exists: it is not overwritten unless asked for"));
+      absl::StrCat("'", path.string(), "' already exists: it is overwritten only on request"));
 }
 
 absl::Status CheckTarget(const fs::path& path, Existing existing) {
   if (!path.has_filename()) {
-    return absl::InvalidArgumentError(absl::StrCat("'", path.string(), "' is not the name of a file"));
+    return absl::InvalidArgumentError(absl::StrCat("'", path.string(), "' is not a file name"));
   }
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) return absl::OkStatus();
   if (!fs::is_regular_file(status)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("'", path.string(), "' is not a regular file: it is left alone"));
+        absl::StrCat("'", path.string(), "' is not a regular file: it is not replaced"));
   }
   return existing == Existing::kKeep ? AlreadyThere(path) : absl::OkStatus();
 }

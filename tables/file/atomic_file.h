@@ -1,5 +1,5 @@
-// A whole file or none: bytes go to a temporary name in the same folder, are synced, and take their name at
-// the end.
+// Writes a whole file or none: the bytes go to a temporary name in the same folder, are synced, and get their name
+// at the end.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace albtpu {
 
-// AlreadyExists when something is at `path` and is to be kept; InvalidArgument when it is not a regular file;
-// otherwise the reason of the system. On failure nothing is left behind and `path` is as it was.
+// AlreadyExists if a file is at `path` and is to be kept; InvalidArgument if `path` is not a regular file;
+// otherwise the error of the system. After a failure there is no temporary file and `path` is unchanged.
 absl::Status WriteFileAtomically(const std::filesystem::path& path, absl::string_view bytes,
                                  Existing existing);
 
-// Whether a file of this name is one of those temporary ones: what a killed writer leaves.
+// Whether this is the name of such a temporary file, as a killed writer leaves it behind.
 bool IsTemporaryName(absl::string_view name);
 
 }  // namespace albtpu

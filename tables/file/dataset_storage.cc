@@ -14,16 +14,16 @@
 namespace albtpu::hdf5 {
 namespace {
 
-constexpr std::size_t kChecksumBytes = 4;  // that fletcher32 puts behind a chunk
+constexpr std::size_t kChecksumBytes = 4;  // appended to a chunk by fletcher32
 
 template <typename... Arguments>
 absl::Status Problem(const absl::FormatSpec<Arguments...>& format, const Arguments&... arguments) {
   return absl::InvalidArgumentError(absl::StrFormat(format, arguments...));
 }
 
-// The bytes that fletcher32 adds to each chunk, which may be none. The filters must be deflate with or
-// without the others of tables, in the order in which all who write them have them: others would be programs
-// that HDF5 loads.
+// The number of bytes that fletcher32 appends to each chunk, 0 without it. The filters must be deflate, with or
+// without the other two, in the order in which all writers apply them. For other filters, HDF5 would load a
+// plug-in.
 absl::StatusOr<std::size_t> BytesBehindDeflate(hid_t creation) {
   constexpr std::array<H5Z_filter_t, 3> kOrder = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE,
                                                   H5Z_FILTER_FLETCHER32};
@@ -36,17 +36,17 @@ absl::StatusOr<std::size_t> BytesBehindDeflate(hid_t creation) {
                                                nullptr, 0, nullptr, nullptr);
     next = std::find(next, kOrder.end(), filter);
     if (next == kOrder.end()) {
-      return Problem("goes through filter %d of HDF5: shuffle and deflate are right", filter);
+      return Problem("uses filter %d of HDF5: expected shuffle and deflate", filter);
     }
     ++next;
     deflated = deflated || filter == H5Z_FILTER_DEFLATE;
     if (filter == H5Z_FILTER_FLETCHER32) behind = kChecksumBytes;
   }
-  if (!deflated) return Problem("is in chunks without deflate: shuffle and deflate are right");
+  if (!deflated) return Problem("is in chunks without deflate: expected shuffle and deflate");
   return behind;
 }
 
-// Inflates chunks as HDF5 will, to see whether it gets what it expects.
+// Inflates chunks as HDF5 will, to check that they have the expected size.
 class Chunks {
  public:
   Chunks(hid_t dataset, std::size_t bytes, std::size_t behind)
@@ -72,7 +72,7 @@ class Chunks {
   std::vector<Bytef> stored_, inflated_;
 };
 
-// The next of the corners of chunks, last dimension first; false behind the last one.
+// Moves to the corner of the next chunk, last dimension first; false after the last chunk.
 bool Advance(std::vector<hsize_t>& offset, const std::vector<hsize_t>& chunk,
              const std::vector<hsize_t>& shape) {
   for (std::size_t i = shape.size(); i-- > 0;) {
@@ -87,12 +87,14 @@ absl::Status CheckChunks(hid_t dataset, hid_t creation, const std::vector<hsize_
   std::vector<hsize_t> chunk(shape.size());
   if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) !=
       static_cast<int>(chunk.size())) {
-    return Problem("has chunks of another shape than its own");
+    return Problem("has chunks of another rank than its own");
   }
   std::size_t room = format::kMaxChunkValues, values = 1;
   for (const hsize_t size : chunk) {
     room /= std::max<hsize_t>(size, 1);
-    if (room == 0) return Problem("is in chunks of more than %d values", format::kMaxChunkValues);
+    if (room == 0)
+      return Problem("has chunks of more than %d values, the most that a chunk may have",
+                     format::kMaxChunkValues);
     values *= std::max<hsize_t>(size, 1);
   }
   const absl::StatusOr<std::size_t> behind = BytesBehindDeflate(creation);
@@ -111,14 +113,14 @@ absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation);
   if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) {
-    return Problem("has its values in other files: they should be in this one");
+    return Problem("has its values in other files: expected them in this file");
   }
   if (layout == H5D_CHUNKED) return CheckChunks(dataset, creation, shape);
   std::size_t count = 1;
   for (const hsize_t size : shape) count *= size;
   const hsize_t stored = H5Dget_storage_size(dataset);
   if (stored == count * sizeof(float)) return absl::OkStatus();
-  return Problem("has %d values in %d bytes: it should have %d", count, stored, count * sizeof(float));
+  return Problem("has %d values in %d bytes: expected %d bytes", count, stored, count * sizeof(float));
 }
 
 }  // namespace albtpu::hdf5

@@ -1,4 +1,4 @@
-// How the numbers of an HDF5 dataset are stored, looked at before HDF5 reads them.
+// Checks how the numbers of an HDF5 dataset are stored before HDF5 reads them.
 #pragma once
 
 #include <hdf5.h>
@@ -9,11 +9,11 @@
 
 namespace albtpu::hdf5 {
 
-// Success if all values of a dataset of float32 lie in its own file, in chunks of tables or in one piece, and
-// each chunk has as many bytes as its shape says. HDF5 1.10 takes the last for granted: of a chunk that has
-// fewer, as damage or malice can make it, it reads on in memory that is not the chunk's.
+// Success if all values of a float32 dataset lie in its own file, contiguous or in chunks as FORMAT.md allows, and
+// each chunk has as many bytes as its shape requires. HDF5 1.10 does not check the size: if a chunk has fewer
+// bytes, by damage or malice, it reads beyond the memory of the chunk.
 //
-// InvalidArgument: the message goes on from the name of the dataset.
+// InvalidArgument: the message continues a sentence that begins with the name of the dataset.
 absl::Status CheckStorage(hid_t dataset, const std::vector<hsize_t>& shape);
 
 }  // namespace albtpu::hdf5

@@ -1,11 +1,11 @@
-// What to do about a file that exists under the name of an output.
+// What to do if a file already has the name of an output.
 #pragma once
 
 namespace albtpu {
 
 enum class Existing {
-  kKeep,     // Refuse to write, with AlreadyExists.
-  kReplace,  // Replace it when the new file is whole.
+  kKeep,     // Fail with AlreadyExists.
+  kReplace,  // Replace it once the new file is complete.
 };
 
 }  // namespace albtpu

@@ -12,7 +12,7 @@
 namespace albtpu::hdf5 {
 namespace {
 
-// HDF5 is built with or without threads; its own lock or ours, one is enough.
+// HDF5 may be built without thread safety; this lock makes up for it.
 std::mutex& ProcessLock() {
   static std::mutex mutex;
   return mutex;
@@ -61,11 +61,11 @@ absl::Status Unreadable(const std::string& name) {
   return absl::InvalidArgumentError(absl::StrFormat("attribute '%s' cannot be read", name));
 }
 
-// Before anything of the size that an attribute claims is allocated.
+// Called before memory of the size that an attribute claims is allocated.
 absl::Status CheckSize(std::size_t count, std::size_t size, const std::string& name) {
   if (count <= format::kMaxAttributeBytes / size) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrFormat("attribute '%s' is longer than %d bytes, the most that one may have", name,
+      absl::StrFormat("attribute '%s' is longer than %d bytes, the most that an attribute may have", name,
                       format::kMaxAttributeBytes));
 }
 
@@ -104,9 +104,9 @@ absl::StatusOr<AttributeValue> ReadNumbers(hid_t attribute, hsize_t count, const
 
 }  // namespace
 
-// All that we open we close, so that nothing is left for HDF5's exit handler but what HDF5 1.10 lost on files
-// that proved damaged: parts of object headers that it never frees, of which it prints "infinite loop closing
-// library", and files whose closing failed, which it freed, keeps the identifiers of, and would close again.
+// HDF5's exit handler is turned off. We close everything that we open, so that it would find only what HDF5 1.10
+// lost track of in damaged files: parts of object headers that it never frees, for which it prints "infinite loop
+// closing library", and files whose closing failed, which it has freed but would close again by their identifiers.
 Session::Session() : lock_(ProcessLock()) {
   [[maybe_unused]] static const herr_t without_exit_handler = H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
@@ -120,7 +120,7 @@ std::string NameInMemory() {
   return absl::StrFormat("/dev/null/table-%d", ++count);
 }
 
-// The in-memory driver wants to own its image. These callbacks lend it ours: what it allocates, copies and
+// The in-memory driver expects to own its image. These callbacks lend it ours: whatever it allocates, copies or
 // frees is the one buffer, which is their user data.
 Handle OpenImage(absl::string_view bytes) {
   const auto lend = [](size_t, H5FD_file_image_op_t, void* buffer) -> void* { return buffer; };
@@ -129,7 +129,7 @@ Handle OpenImage(absl::string_view bytes) {
   const auto take_back = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
   const auto same = [](void* buffer) -> void* { return buffer; };
   const auto keep = [](void*) -> herr_t { return 0; };
-  void* const buffer = const_cast<char*>(bytes.data());  // Nothing writes through a file opened to be read.
+  void* const buffer = const_cast<char*>(bytes.data());  // Nothing writes through a file opened for reading.
   H5FD_file_image_callbacks_t callbacks = {lend, copy, grow, take_back, same, keep, buffer};
 
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -138,7 +138,8 @@ Handle OpenImage(absl::string_view bytes) {
   H5Pset_fapl_core(access, kIncrement, kOnDisk);
   H5Pset_file_image_callbacks(access, &callbacks);
   H5Pset_file_image(access, buffer, bytes.size());
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);  // An object that HDF5 lost does not keep our bytes in use.
+  H5Pset_fclose_degree(access,
+                       H5F_CLOSE_STRONG);  // Closing the file also closes objects that HDF5 lost track of.
   return Handle(H5Fopen(NameInMemory().c_str(), H5F_ACC_RDONLY, access), H5Fclose);
 }
 

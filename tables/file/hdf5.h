@@ -1,5 +1,5 @@
-// What we need around the C library of HDF5: one caller at a time, silence, and handles that close
-// themselves.
+// A thin layer over the C library of HDF5: one caller at a time, no messages on standard error, and handles that
+// close themselves.
 #pragma once
 
 #include <hdf5.h>
@@ -15,8 +15,9 @@
 
 namespace albtpu::hdf5 {
 
-// While one lives, no other thread of the process is in HDF5 through us, and HDF5 prints nothing to standard
-// error. Nor does it at the end of the program, where it would go through what damaged files made it lose.
+// While a session exists, no other thread of the process calls HDF5 through this layer, and HDF5 prints nothing to
+// standard error. Neither does it at the end of the program, when it would report the objects that it lost track of
+// in damaged files.
 class Session {
  public:
   Session();
@@ -30,8 +31,8 @@ class Session {
   void* printer_data_ = nullptr;
 };
 
-// An HDF5 object with the function that closes it. What failed to open is false, and HDF5 refuses it wherever
-// it is used, so that a sequence of calls may be checked at its end.
+// An HDF5 object with the function that closes it. A handle that failed to open is false, and HDF5 rejects it in
+// every call, so that a sequence of calls may be checked at its end.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -42,32 +43,30 @@ class Handle {
   }
 
   explicit operator bool() const { return id_ >= 0; }
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it is one, to the C library.
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): the C library expects hid_t.
 
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
 
-// What HDF5 calls a file in memory: another name each time, since of two files of one name it takes the
-// second to be the first, whatever their bytes, for as long as it has that open; and damage may keep it open.
-// It looks for the name on disk, too, and if there is such a file it refuses the bytes; behind a device there
-// is none.
+// A name for a file in memory, different each time. HDF5 takes two open files with the same name for the same file,
+// whatever their bytes, and damage may keep a file open. HDF5 also looks for the name on disk and refuses the bytes
+// if there is such a file; the name lies below a device, where there can be no file.
 std::string NameInMemory();
 
-// Opens the bytes of a file in memory, without a copy, to be read only. They must outlive what is returned.
+// Opens the bytes of a file in memory for reading, without a copy. They must outlive the handle.
 Handle OpenImage(absl::string_view bytes);
 
-// Writes an attribute: text as a fixed-length UTF-8 string, numbers as 64 bits, a vector as one dimension;
-// what is empty as a null dataspace, as netCDF does. False if HDF5 refuses.
+// Writes an attribute: a text as a fixed-length UTF-8 string, a number with 64 bits, a vector as one dimension, and
+// an empty text or vector as a null dataspace, as netCDF does. False if HDF5 refuses.
 bool WriteAttribute(hid_t object, const std::string& name, const AttributeValue& value);
 
-// An attribute by its name. Text may be of fixed or variable length,
-// numbers of any size. NotFound: there is none of that name. InvalidArgument: it is of a kind that
-// AttributeValue does not have.
+// The attribute of that name. Text may be of fixed or variable length, numbers of any size. NotFound: there is no
+// such attribute. InvalidArgument: it is of a type that AttributeValue does not have.
 absl::StatusOr<AttributeValue> ReadAttribute(hid_t object, const std::string& name);
 
-// The names of all attributes of an object, sorted; fails only if HDF5 cannot read them.
+// The sorted names of all attributes of an object. Fails only if HDF5 cannot read them.
 absl::StatusOr<std::vector<std::string>> AttributeNames(hid_t object);
 
 }  // namespace albtpu::hdf5

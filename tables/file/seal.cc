@@ -56,13 +56,14 @@ absl::Status CheckHeader(absl::string_view head, std::uint64_t file_length) {
   if (!absl::StartsWith(head, Magic().substr(0, head.size()))) {
     if (absl::StartsWith(head, kHdf5Magic)) {
       return absl::DataLossError(
-          "is an HDF5 file without the seal of albtpu: not a table, or its first 512 bytes are lost");
+          "is an HDF5 file without the seal of albtpu: it is not a table, or it has lost its first 512 "
+          "bytes");
     }
     return absl::DataLossError("is not a table of albtpu: it does not begin with its seal");
   }
   if (head.size() < kSize) {
     return absl::DataLossError(
-        absl::StrFormat("is truncated: %d bytes are there, a table has more than %d", file_length, kSize));
+        absl::StrFormat("is truncated: it has %d bytes, and a table has more than %d", file_length, kSize));
   }
   const auto version = GetLittleEndian<std::uint32_t>(head, kVersionOffset);
   if (version != kFormatVersion) {
@@ -72,11 +73,11 @@ absl::Status CheckHeader(absl::string_view head, std::uint64_t file_length) {
   const auto length = GetLittleEndian<std::uint64_t>(head, kLengthOffset);
   if (file_length < length) {
     return absl::DataLossError(
-        absl::StrFormat("is truncated: %d of its %d bytes are there", file_length, length));
+        absl::StrFormat("is truncated: it has %d of its %d bytes", file_length, length));
   }
   if (file_length > length) {
     return absl::DataLossError(
-        absl::StrFormat("is damaged: it has %d bytes, its seal says %d", file_length, length));
+        absl::StrFormat("is damaged: it has %d bytes, and its seal says %d", file_length, length));
   }
   return absl::OkStatus();
 }

@@ -198,8 +198,8 @@ absl::Status CheckCoverage(hid_t file) {
                absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
 }
 
-// A file without the attribute is of the default kind. One that names the default kind is refused, so that a table has
-// one written form.
+// A file without the attribute is of the default kind. One that names the default kind is refused, so that a table
+// has one written form.
 absl::Status CheckKind(hid_t file, const TableSchema& schema) {
   std::string kind(format::kDefaultTableKind);
   if (H5Aexists(file, std::string(format::kTableKind).c_str()) > 0) {

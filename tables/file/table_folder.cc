@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPreferredName = "survey";
 
-// With the text around, less than the kilobyte after which the service cuts messages: they travel in HTTP
-// headers.
+// With the text around them, these are less than the kilobyte at which the service cuts messages, which travel in
+// HTTP headers.
 constexpr std::size_t kMaxListedBytes = 800;
 constexpr std::size_t kMaxQuotedBytes = 100;
 
@@ -29,7 +29,7 @@ bool IsName(std::string_view text) {
   });
 }
 
-// The name of a table or version whose file this is; nothing for other files.
+// The name of the table or version that a file has by its name; nothing for other files.
 std::optional<std::string> TableStem(const fs::path& path) {
   std::string stem = path.stem().string();
   if (path.extension() != ".h5" || !IsName(stem)) return std::nullopt;
@@ -63,7 +63,7 @@ absl::StatusOr<std::vector<TableFile>> FindVersions(const fs::path& folder) {
   return files;
 }
 
-// A run of digits, or a run of other characters, taken from the front of `text`.
+// Removes a run of digits, or a run of other characters, from the front of `text`.
 std::string_view TakeRun(std::string_view& text) {
   const bool digits = absl::ascii_isdigit(text[0]);
   const auto end =
@@ -95,7 +95,8 @@ std::string ListNames(std::span<const TableFile> tables) {
   return names.empty() ? "none" : names;
 }
 
-// The newest version of the only name among the tables that `counts`; nothing if there are several, or none.
+// The newest version of the only name among the tables for which `counts` holds; nothing if there are several names
+// or none.
 template <typename Predicate>
 std::optional<std::size_t> OnlyName(std::span<const TableFile> tables, Predicate counts) {
   std::optional<std::size_t> only;
@@ -133,13 +134,12 @@ absl::StatusOr<std::vector<TableFile>> FindTables(const fs::path& folder) {
   std::sort(files.begin(), files.end(), [](const TableFile& a, const TableFile& b) {
     return a.name != b.name ? a.name < b.name : IsOlder(b.version, a.version);
   });
-  for (std::size_t i = 1; i < files.size(); ++i) {  // The empty version is the oldest: the last of its name.
+  for (std::size_t i = 1; i < files.size();
+       ++i) {  // The empty version is the oldest one and so the last of its name.
     if (files[i].name != files[i - 1].name || !files[i].version.empty()) continue;
-    return absl::InvalidArgumentError(absl::StrCat("'", files[i].path.string(), "' and '",
-                                                   files[i - 1].path.string(), "' are both table '",
-                                                   files[i].name,
-                                                   "': move one into the folder of the other, "
-                                                   "or give it another name"));
+    return absl::InvalidArgumentError(
+        absl::StrCat("'", files[i].path.string(), "' and '", files[i - 1].path.string(), "' are both table '",
+                     files[i].name, "': move one of them into the folder of the other, or rename it"));
   }
   return files;
 }
@@ -153,7 +153,7 @@ bool IsOlder(std::string_view version, std::string_view other) {
     if (order != 0) return order < 0;
   }
   if (a.empty() != b.empty()) return a.empty();
-  return version < other;  // They differ in leading zeros at most.
+  return version < other;  // They differ at most in leading zeros.
 }
 
 absl::StatusOr<std::size_t> FindTable(std::span<const TableFile> tables, std::string_view request,
@@ -172,7 +172,7 @@ absl::StatusOr<std::size_t> FindTable(std::span<const TableFile> tables, std::st
   if (!only.has_value()) only = OnlyName(tables, [](const TableFile& table) { return !table.published; });
   if (only.has_value()) return *only;
   return absl::FailedPreconditionError(
-      absl::StrCat("no table is named, and there is no default: name one of ", ListNames(tables)));
+      absl::StrCat("no table is named and there is no default table: name one of ", ListNames(tables)));
 }
 
 }  // namespace albtpu

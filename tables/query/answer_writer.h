@@ -1,5 +1,5 @@
-// From the numbers of a block to the answers of a query: restated to its coverage, compared with S-44, NaN where there is
-// no number.
+// From the numbers of a block to the answers of a query: restated to its coverage, compared with S-44, NaN where
+// there is no number.
 #pragma once
 
 #include "tables/query/block_values.h"

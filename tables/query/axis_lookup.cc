@@ -35,7 +35,8 @@ HWY_INLINE V Fold(V azimuth) {
   return hn::Min(rest, hn::Sub(half_turn, rest));
 }
 
-// The index of the node at or below `x`: the last but one for the last node and beyond, 0 below the first node and for NaN.
+// The index of the node at or below `x`: the last but one for the last node and beyond, 0 below the first node and
+// for NaN.
 HWY_INLINE VI LowerNode(const AxisLookup::Nodes& axis, V x) {
   const std::vector<float>& nodes = axis.nodes;
   constexpr std::size_t kFewNodes = 48;  // comparing with each of them is faster than a search

@@ -9,8 +9,8 @@
 
 namespace albtpu {
 
-// The outcome of a pulse on an axis as a number: the index of the axis if the coordinate is invalid, kOutside plus that
-// index if it is outside the nodes, or kInside. The outcome of the pulse is the least over all axes.
+// The outcome of a pulse on an axis as a number: the index of the axis if the coordinate is invalid, kOutside plus
+// that index if it is outside the nodes, or kInside. The outcome of the pulse is the least over all axes.
 namespace outcome_code {
 inline constexpr std::int32_t kOutside = 8;
 inline constexpr std::int32_t kInside = 16;
@@ -33,9 +33,9 @@ class AxisLookup {
   static constexpr float kFarthestAzimuth = 1e6f;
 
   // For each of `count` coordinates, in the units of the axis: adds `step` times the index of the node below it to
-  // `rows`, sets `fractions` to the fraction of the distance to the next node, 0 to 1 and exactly 0 or 1 on a node, and
-  // lowers `codes` to the outcome on this axis. A coordinate that is not inside counts as the first node. Outcomes and
-  // nodes are exactly those of `Axis::Locate`; fractions differ from its fractions by 1e-6 at most.
+  // `rows`, sets `fractions` to the fraction of the distance to the next node, 0 to 1 and exactly 0 or 1 on a node,
+  // and lowers `codes` to the outcome on this axis. A coordinate that is not inside counts as the first node.
+  // Outcomes and nodes are exactly those of `Axis::Locate`; fractions differ from its fractions by 1e-6 at most.
   void Locate(const float* coordinates, std::size_t count, std::int32_t step, std::int32_t* rows,
               float* fractions, std::int32_t* codes) const;
 

@@ -1,4 +1,5 @@
-// Blocks of pulses that are interpolated together, small enough for all of their data to stay in the first-level cache.
+// Blocks of pulses that are interpolated together, small enough for all of their data to stay in the first-level
+// cache.
 #pragma once
 
 #include <cstddef>

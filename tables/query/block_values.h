@@ -32,8 +32,8 @@ class BlockValues {
   // At both ends, if the block has two.
   void Find(const PulseBlock& block);
 
-  // Of a block with two ends, takes at kLow each value that is larger in magnitude, and the standard error that belongs
-  // to it.
+  // Of a block with two ends, takes at kLow each value that is larger in magnitude, and the standard error that
+  // belongs to it.
   void TakeLarger(const PulseBlock& block);
 
   const BlockOf<float>& value(std::size_t quantity, End end = End::kLow) const {

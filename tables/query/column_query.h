@@ -12,11 +12,11 @@ namespace albtpu {
 
 // A table laid out for speed. Immutable; may be used by any number of threads at a time.
 //
-// Its answers are those of `Interpolate` (interpolation.h), its slow twin in double precision, with the same outcomes and
-// axes: at nodes bit for bit, between them within 1e-5, relative, or within 4e-7 of the largest corner where corners
-// cancel. The answer for a pulse depends on this pulse and the instruction set alone, not on its neighbours, its place or
-// the number of pulses. Along a flight line, where neighbours share a cell of the table, it is some seven times as fast
-// as in random order; thousands of pulses in random order are sorted on the way.
+// Its answers are those of `Interpolate` (interpolation.h), its slow twin in double precision, with the same
+// outcomes and axes: at nodes bit for bit, between them within 1e-5, relative, or within 4e-7 of the largest corner
+// where corners cancel. The answer for a pulse depends on this pulse and the instruction set alone, not on its
+// neighbours, its place or the number of pulses. Along a flight line, where neighbours share a cell of the table,
+// it is some seven times as fast as in random order; thousands of pulses in random order are sorted on the way.
 //
 // Example, a flight line at a wind of 5 m/s:
 //   const absl::StatusOr<UncertaintyTable> table = ReadTable("survey.h5");
@@ -38,8 +38,8 @@ class ColumnInterpolator {
   ColumnInterpolator(ColumnInterpolator&&) noexcept;
   ColumnInterpolator& operator=(ColumnInterpolator&&) noexcept;
 
-  // Answers the pulses from `begin` to `end`, `end` not included, into the same rows of `answers`, on the calling thread.
-  // `pulses` must be valid. Allocates nothing, except at most 7 MB to sort pulses.
+  // Answers the pulses from `begin` to `end`, `end` not included, into the same rows of `answers`, on the calling
+  // thread. `pulses` must be valid. Allocates nothing, except at most 7 MB to sort pulses.
   void Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
                    const AnswerColumns& answers) const;
 

@@ -24,8 +24,8 @@ class Grid {
   std::size_t axis_count() const { return last_ + 1; }
   std::size_t last() const { return last_; }
   const AxisLookup& axis(std::size_t index) const { return axes_[index]; }
-  // The records from one node to the next, in records without the last axis; 0 if the axis has one node. 1 for the last
-  // axis itself.
+  // The records from one node to the next, in records without the last axis; 0 if the axis has one node. 1 for the
+  // last axis itself.
   std::ptrdiff_t step(std::size_t axis) const { return steps_[axis]; }
   std::ptrdiff_t last_size() const { return last_size_; }
 

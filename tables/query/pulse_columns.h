@@ -19,10 +19,10 @@ namespace albtpu {
 static_assert(std::endian::native == std::endian::little,
               "columns are copied to and from the wire unchanged");
 
-// Pulses as one column for each axis, in the units of the axes. A column has `size` numbers, or one for all pulses. The
-// columns of fetch and azimuth may be empty, which means a fully developed sea and the worse of 0 and 90 degrees; the
-// others only if there are no pulses. For a table of another kind, columns are in the order of its axes, and AxisSchema
-// says which may be empty.
+// Pulses as one column for each axis, in the units of the axes. A column has `size` numbers, or one for all pulses.
+// The columns of fetch and azimuth may be empty, which means a fully developed sea and the worse of 0 and 90
+// degrees; the others only if there are no pulses. For a table of another kind, columns are in the order of its
+// axes, and AxisSchema says which may be empty.
 struct PulseColumns {
   std::size_t size = 0;
   std::array<std::span<const float>, kMaxAxes> axis;
@@ -31,8 +31,8 @@ struct PulseColumns {
   std::span<const float> operator[](AxisId id) const { return axis[Index(id)]; }
 };
 
-// InvalidArgument, naming the first column whose length `PulseColumns` does not allow; of the sea surface, or of the kind
-// that `schema` describes.
+// InvalidArgument, naming the first column whose length `PulseColumns` does not allow; of the sea surface, or of
+// the kind that `schema` describes.
 absl::Status CheckLengths(const PulseColumns& pulses);
 absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses);
 
@@ -42,12 +42,12 @@ Pulse PulseAt(const PulseColumns& pulses, std::size_t i);
 // How to state the answers. The columns that are not null say which answers are wanted.
 struct Query {
   Coverage coverage = Coverage::kTwoSigma;
-  std::optional<S44Order>
-      s44_order;  // The order of `remaining_thu` and `remaining_tvu`; without one they are NaN.
+  // The order of `remaining_thu` and `remaining_tvu`, which are NaN without it.
+  std::optional<S44Order> s44_order;
 };
 
-// Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted. Numbers are
-// at the coverage of the query, and NaN where there is none.
+// Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted.
+// Numbers are at the coverage of the query, and NaN where there is none.
 struct AnswerColumns {
   std::uint8_t* outcomes = nullptr;      // 1 interpolated, 2 out of domain, 3 invalid: Outcome + 1
   std::uint8_t* outcome_axes = nullptr;  // AxisId + 1 of the axis that made the outcome; 0 if interpolated

@@ -25,7 +25,8 @@ HWY_INLINE W Lerp(W fraction, W from, W to) {
   return hn::MulAdd(fraction, to, hn::NegMulAdd(fraction, from, from));
 }
 
-// The corners of a cell on those axes on which a pulse lies between two nodes. The last of these axes is blended first.
+// The corners of a cell on those axes on which a pulse lies between two nodes. The last of these axes is blended
+// first.
 struct Corners {
   std::ptrdiff_t steps[3];
   float fractions[3];
@@ -157,8 +158,8 @@ class Cell {
     }
   }
 
-  // Few lines can be on their way to the first-level cache at a time: prefetching into it raises the rate in random order
-  // by a fifth, prefetching into the second-level cache doubles it.
+  // Few lines can be on their way to the first-level cache at a time: prefetching into it raises the rate in random
+  // order by a fifth, prefetching into the second-level cache doubles it.
   static HWY_INLINE void ToSecondCache(const float* number) {
     constexpr int kRead = 0, kSecondCache = 2;
     __builtin_prefetch(number, kRead, kSecondCache);

@@ -17,13 +17,14 @@ inline constexpr std::size_t kRecordSize = 4;
 // A record for each node, and one more, so that the last one has a neighbour, too.
 using Records = std::vector<float, tbb::cache_aligned_allocator<float>>;
 
-// Pulses among records. The axes are blended in the order of their slots, those that change least along a flight line
-// first, so that their result is kept from pulse to pulse. The order, and with it the rounding, does not depend on the
-// pulses.
+// Pulses among records. The axes are blended in the order of their slots, those that change least along a flight
+// line first, so that their result is kept from pulse to pulse. The order, and with it the rounding, does not
+// depend on the pulses.
 struct BlendedPulses {
-  // A slot for each axis but the fastest one of the records. The result of the first two is kept while they and the cell
-  // stay the same; that of the third on both of its sides, while the first two and the cell stay the same. An unused slot
-  // has step 0 and fraction 0; only kFastest may have no fractions at all, which takes the kernel for four slots.
+  // A slot for each axis but the fastest one of the records. The result of the first two is kept while they and the
+  // cell stay the same; that of the third on both of its sides, while the first two and the cell stay the same. An
+  // unused slot has step 0 and fraction 0; only kFastest may have no fractions at all, which takes the kernel for
+  // four slots.
   enum Slot { kSlowest, kSlow, kMiddle, kFast, kFastest, kSlotCount };
   static_assert(kSlotCount == kMaxAxes - 1);
 
@@ -35,8 +36,8 @@ struct BlendedPulses {
   std::size_t count = 0;
 };
 
-// Writes `count` records to `blended`: at a corner exactly the record there, elsewhere within 1e-6 of the largest of the
-// corners.
+// Writes `count` records to `blended`: at a corner exactly the record there, elsewhere within 1e-6 of the largest
+// of the corners.
 void Blend(const float* records, const BlendedPulses& pulses, float* blended);
 
 }  // namespace albtpu

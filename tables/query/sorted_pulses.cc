@@ -8,8 +8,9 @@
 
 namespace albtpu {
 // Sorting takes an eighth of the time of interpolating in random order. It pays if the table, whose records have 16
-// bytes, does not fit into the second-level cache, and if the pulses, each of which reads 64 records, read at least half
-// as many records as the table has: with fewer, neighbours rarely find what they share in the cache (interpolation_bench).
+// bytes, does not fit into the second-level cache, and if the pulses, each of which reads 64 records, read at least
+// half as many records as the table has: with fewer, neighbours rarely find what they share in the cache
+// (interpolation_bench).
 std::size_t SortedPulses::Fewest(std::size_t records) {
   constexpr std::size_t kRecordsInCache = 1 << 16, kRecordsAPulse = 128;
   const std::size_t fewest = records / kRecordsAPulse;

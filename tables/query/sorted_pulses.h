@@ -13,8 +13,8 @@ namespace albtpu {
 
 class SortedPulses {
  public:
-  // The most pulses that are sorted at a time: a column of them stays in the second-level cache. With their answers they
-  // take at most some 100 bytes a pulse.
+  // The most pulses that are sorted at a time: a column of them stays in the second-level cache. With their answers
+  // they take at most some 100 bytes a pulse.
   static constexpr std::size_t kMost = std::size_t{1} << 16;
 
   // The number of pulses in random order from which sorting them is faster, in a table of this many records: at most
@@ -42,9 +42,8 @@ class SortedPulses {
   PulseColumns pulses_;
 };
 
-// Columns for the answers to sorted pulses. `Columns` is a struct of pointers with a function
-// ForEachColumn(wanted, other, visit), which calls `visit` with each column that is not null and the same column of the
-// other struct.
+// Columns for the answers to sorted pulses. `Columns` is a struct of pointers with a function ForEachColumn(wanted,
+// other, visit), which calls `visit` with each column that is not null and the same column of the other struct.
 template <typename Columns>
 class SortedAnswers {
  public:

@@ -28,8 +28,8 @@ bool IsValid(const AxisSchema& axis, double coordinate) {
   return std::isfinite(coordinate) || (axis.is_endless && coordinate > 0);
 }
 
-// The nodes around a pulse that have weight, each as an index into a variable and a weight; the weights add up to 1. For
-// a pulse on a node there is that node alone, so that the answer is exactly the value in the table.
+// The nodes around a pulse that have weight, each as an index into a variable and a weight; the weights add up to
+// 1. For a pulse on a node there is that node alone, so that the answer is exactly the value in the table.
 class Corners {
  public:
   // Over the first `axis_count` axes of the table.

@@ -25,12 +25,12 @@ struct TableValues {
 // At one coordinate for each axis of the table.
 TableValues InterpolateAt(const Table& table, std::span<const double> coordinates);
 
-// The same where coordinates may be absent (IfAbsent). At an axis of which both ends count, each value is the larger in
-// magnitude, with its standard error; without numbers at both ends there are none.
+// The same where coordinates may be absent (IfAbsent). At an axis of which both ends count, each value is the
+// larger in magnitude, with its standard error; without numbers at both ends there are none.
 TableValues Interpolate(const Table& table, std::span<const std::optional<float>> coordinates);
 
-// Where to write answers: columns of as many elements as there are pulses, at the indices of the schema; null what is not
-// wanted.
+// Where to write answers: columns of as many elements as there are pulses, at the indices of the schema; null what
+// is not wanted.
 struct ValueColumns {
   std::uint8_t* outcomes = nullptr;      // 1 interpolated, 2 out of domain, 3 invalid: Outcome + 1
   std::uint8_t* outcome_axes = nullptr;  // index + 1 of the axis that made the outcome; 0 if interpolated
@@ -38,9 +38,9 @@ struct ValueColumns {
   std::array<float*, kMaxQuantities> standard_errors{};
 };
 
-// A table laid out for speed. Its answers are those of `Interpolate`, with the same outcomes and axes: at nodes bit for
-// bit, between them within 1e-5, relative, or within 4e-7 of the largest corner where corners cancel. Immutable; may be
-// used by any number of threads at a time.
+// A table laid out for speed. Its answers are those of `Interpolate`, with the same outcomes and axes: at nodes bit
+// for bit, between them within 1e-5, relative, or within 4e-7 of the largest corner where corners cancel.
+// Immutable; may be used by any number of threads at a time.
 class TableInterpolator {
  public:
   // `table` need not outlive it.
@@ -49,8 +49,8 @@ class TableInterpolator {
   TableInterpolator(TableInterpolator&&) noexcept;
   TableInterpolator& operator=(TableInterpolator&&) noexcept;
 
-  // Answers the pulses from `begin` to `end`, `end` not included, into the same rows of `answers`, on the calling thread.
-  // `pulses` must be valid: CheckLengths(schema, pulses).
+  // Answers the pulses from `begin` to `end`, `end` not included, into the same rows of `answers`, on the calling
+  // thread. `pulses` must be valid: CheckLengths(schema, pulses).
   void Interpolate(const PulseColumns& pulses, std::size_t begin, std::size_t end,
                    const ValueColumns& answers) const;
 

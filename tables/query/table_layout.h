@@ -22,8 +22,8 @@ struct TableLayout {
   std::size_t fewest_to_sort;
 };
 
-// Interpolates block by block up to `end`, or to a scattered block that leaves at least `fewest_to_sort` pulses. Returns
-// where it stopped. `writer` says by needs() what it writes by Write(block, values).
+// Interpolates block by block up to `end`, or to a scattered block that leaves at least `fewest_to_sort` pulses.
+// Returns where it stopped. `writer` says by needs() what it writes by Write(block, values).
 template <typename Writer>
 std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pulses, std::size_t begin,
                               std::size_t end, std::size_t fewest_to_sort, Writer&& writer) {

@@ -23,7 +23,7 @@ std::string Problem(AxisId id, std::vector<double> nodes) {
   return std::string(axis.status().message());
 }
 
-// lower + fraction, so that one number says where a coordinate lies; negative when it lies nowhere.
+// The position of a coordinate as one number, lower + fraction; negative if it is outside.
 double Place(const Axis& axis, double coordinate) {
   const std::optional<Bracket> bracket = axis.Locate(coordinate);
   return bracket.has_value() ? static_cast<double>(bracket->lower) + bracket->fraction : -1;
@@ -50,7 +50,7 @@ TEST(Axis, RefusesNodesThatAreNotFinite) {
   EXPECT_THAT(Problem(AxisId::kWindSpeed, {kNaN}), HasSubstr("'wind_speed' node 0 is nan m s-1"));
 }
 
-TEST(Axis, RefusesNodesThatSinglePrecisionDoesNotHold) {
+TEST(Axis, RefusesNodesThatSinglePrecisionCannotRepresent) {
   EXPECT_THAT(Problem(AxisId::kFootprint, {0.1}), HasSubstr("not representable in single precision"));
   EXPECT_TRUE(Axis::Create(AxisId::kFootprint, {static_cast<double>(0.1f)}).ok());
   EXPECT_THAT(Problem(AxisId::kFetch, {1, 1e300}), HasSubstr("not representable"));
@@ -92,12 +92,12 @@ TEST(Axis, LocatesInTheLogarithmOnALogScale) {
   EXPECT_DOUBLE_EQ(Place(footprint, 2), 1.25);
 }
 
-TEST(Axis, TakesTheScaleThatItIsGiven) {
+TEST(Axis, UsesTheGivenScale) {
   EXPECT_EQ(MakeAxis(AxisId::kFetch, {1, 2}).scale(), Scale::kLog);
   EXPECT_DOUBLE_EQ(Place(*Axis::Create(AxisId::kFetch, {1, 3}, Scale::kLinear), 2), 0.5);
 }
 
-TEST(Axis, HoldsNothingOutsideItsNodes) {
+TEST(Axis, LocatesNothingOutsideItsNodes) {
   const Axis depth = MakeAxis(AxisId::kDepth, {1, 2});
   for (double outside :
        {std::nextafter(1.0, 0.0), std::nextafter(2.0, 3.0), -1.0, kInfinity, -kInfinity, kNaN}) {
@@ -114,13 +114,13 @@ TEST(Axis, HoldsFetchAboveItsLastNode) {
   EXPECT_EQ(fetch.Locate(-kInfinity), std::nullopt);
 }
 
-TEST(Axis, OfOneFetchAnswersAtAnyFetchAboveZero) {
+TEST(Axis, WithOneFetchAnswersAtAnyFetchAboveZero) {
   const Axis fetch = MakeAxis(AxisId::kFetch, {1000});
   for (double inside : {1e-3, 1000.0, 1e9, kInfinity}) EXPECT_EQ(Place(fetch, inside), 0) << inside;
   for (double outside : {0.0, -1.0, kNaN}) EXPECT_EQ(fetch.Locate(outside), std::nullopt) << outside;
 }
 
-TEST(Axis, OfOneNodeAnswersThereOnly) {
+TEST(Axis, WithOneNodeAnswersOnlyThere) {
   const Axis depth = MakeAxis(AxisId::kDepth, {2});
   EXPECT_EQ(Place(depth, 2), 0);
   EXPECT_EQ(depth.Locate(2.1), std::nullopt);

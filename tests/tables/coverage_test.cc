@@ -12,7 +12,7 @@
 namespace albtpu {
 namespace {
 
-// The probability that |(x, y)| < radius for standard deviations 1 and q > 0, by another road than
+// The probability that |(x, y)| < radius for standard deviations 1 and q > 0, computed differently from
 // coverage.cc: the integral over x of its density times P(|y| < sqrt(radius^2 - x^2)), with x = radius sin t.
 double ProbabilityWithin(double radius, double q) {
   constexpr int kSteps = 20'000;
@@ -53,7 +53,7 @@ TEST(Coverage, OfAnIsotropicNormalIsTheRayleighQuantile) {
   EXPECT_NEAR(RadiusFactor95(1), std::sqrt(-2 * std::log(0.05)) / (2 * std::numbers::sqrt2), 1e-9);
 }
 
-TEST(Coverage, RadiusHolds95PercentForEveryAxisRatio) {
+TEST(Coverage, RadiusContains95PercentForEveryAxisRatio) {
   for (double q : {0.02, 0.05, 0.1, 0.1234, 0.2, 0.33333, 0.5, 0.6543, 0.7777, 0.85, 0.95, 0.9999}) {
     EXPECT_NEAR(RadiusFactor95(q), FactorByBisection(q), 1e-6) << q;
   }
@@ -81,19 +81,19 @@ TEST(Coverage, P95RestatesValuesAndTheirStandardErrors) {
   EXPECT_FLOAT_EQ(u.standard_errors[Index(Quantity::kTvu)], static_cast<float>(0.05 * kOneDimension));
 }
 
-TEST(Coverage, P95LeavesBiasesAsTheyAre) {
+TEST(Coverage, P95DoesNotChangeBiases) {
   const PulseUncertainty u = WithCoverage(Uncertainty(1, 2), Coverage::kP95);
   EXPECT_EQ(u[Quantity::kBiasAlongBeam], -0.25f);
   EXPECT_EQ(u[Quantity::kBiasVertical], 0.125f);
   EXPECT_EQ(u.standard_errors[Index(Quantity::kBiasAlongBeam)], 0.03f);
 }
 
-TEST(Coverage, DoesNotCareWhichRefractionIsLarger) {
+TEST(Coverage, IsTheSameWhicheverRefractionIsLarger) {
   EXPECT_EQ(WithCoverage(Uncertainty(1, 2), Coverage::kP95)[Quantity::kThu],
             WithCoverage(Uncertainty(2, 1), Coverage::kP95)[Quantity::kThu]);
 }
 
-TEST(Coverage, TakesAFlatSeaForOneDimension) {
+TEST(Coverage, TreatsAFlatSeaAsOneDimension) {
   EXPECT_FLOAT_EQ(WithCoverage(Uncertainty(0, 0), Coverage::kP95)[Quantity::kThu],
                   static_cast<float>(2 * kOneDimension));
 }
@@ -124,7 +124,7 @@ TEST(Coverage, WithoutAzimuthIsTheLargerOfDownwindAndCrosswind) {
   }
 }
 
-TEST(Coverage, InventsNoNumbers) {
+TEST(Coverage, GivesNoNumbersWhereThereAreNone) {
   PulseUncertainty none = Uncertainty(1, 1);
   none.outcome = Outcome::kOutOfDomain;
   none.values.fill(std::numeric_limits<float>::quiet_NaN());

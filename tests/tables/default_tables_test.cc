@@ -8,13 +8,13 @@
 namespace albtpu {
 namespace {
 
-TEST(DefaultTables, LieBesideTheProgram) {
+TEST(DefaultTables, AreInstalledBesideTheProgram) {
   unsetenv("ALBTPU_TABLES");
   const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe");
   EXPECT_EQ(DefaultTablesDirectory(), program.parent_path().parent_path() / "share/albtpu/tables");
 }
 
-TEST(DefaultTables, AreWhereTheEnvironmentSays) {
+TEST(DefaultTables, AreInTheFolderThatTheEnvironmentNames) {
   setenv("ALBTPU_TABLES", "/somewhere/else", 1);
   EXPECT_EQ(DefaultTablesDirectory(), "/somewhere/else");
   setenv("ALBTPU_TABLES", "", 1);

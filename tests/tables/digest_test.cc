@@ -19,7 +19,7 @@ TEST(Digest, IsSha256) {
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
-TEST(Digest, DoesNotSeeHowBytesAreSplit) {
+TEST(Digest, DoesNotDependOnHowBytesAreSplit) {
   Sha256 sha;
   sha.Update("a");
   sha.Update("");

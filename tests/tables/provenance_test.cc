@@ -18,7 +18,7 @@ std::string Problem(const Provenance& provenance) {
   return std::string(status.message());
 }
 
-TEST(Provenance, TakesWhatTheRulesAllow) {
+TEST(Provenance, AcceptsWhatTheRulesAllow) {
   EXPECT_TRUE(CheckProvenance(Good()).ok());
   Provenance provenance = Good();
   provenance.id = "0-survey_2";
@@ -36,7 +36,7 @@ TEST(Provenance, RefusesIdsThatAreNotNames) {
   }
 }
 
-TEST(Provenance, RefusesNoVersion) {
+TEST(Provenance, RefusesAnEmptyVersion) {
   Provenance provenance = Good();
   provenance.version = "";
   EXPECT_THAT(Problem(provenance), HasSubstr("'version' is empty"));
@@ -45,11 +45,11 @@ TEST(Provenance, RefusesNoVersion) {
 TEST(Provenance, RefusesATitleOfTwoLines) {
   Provenance provenance = Good();
   provenance.title = "one\ntwo";
-  EXPECT_THAT(Problem(provenance), HasSubstr("'title' is not one line"));
+  EXPECT_THAT(Problem(provenance), HasSubstr("'title' has several lines"));
 }
 
 TEST(Provenance, RefusesTextThatIsNotUtf8) {
-  // A lone continuation, an overlong slash, a surrogate, above U+10FFFF, and a cut character.
+  // A lone continuation byte, an overlong slash, a surrogate, a character above U+10FFFF, and a truncated character.
   for (const char* bad :
        {"\x80", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE6\xB5"}) {
     Provenance provenance = Good();
@@ -61,10 +61,10 @@ TEST(Provenance, RefusesTextThatIsNotUtf8) {
 TEST(Provenance, RefusesNulInText) {
   Provenance provenance = Good();
   provenance.campaign = std::string("a\0b", 3);
-  EXPECT_THAT(Problem(provenance), HasSubstr("attribute 'campaign' holds a NUL at byte 1"));
+  EXPECT_THAT(Problem(provenance), HasSubstr("attribute 'campaign' has a NUL at byte 1"));
 }
 
-TEST(Provenance, RefusesNamesThatAreTakenOrCannotBeWritten) {
+TEST(Provenance, RefusesReservedAndInvalidAttributeNames) {
   for (const char* name : {"id", "Conventions", "content_digest", "coverage"}) {
     Provenance provenance = Good();
     provenance.attributes[name] = std::int64_t{1};

@@ -7,7 +7,7 @@
 namespace albtpu {
 namespace {
 
-// IHO S-44 edition 6.1.0, Table 1, worked out by hand.
+// IHO S-44 edition 6.1.0, Table 1, computed by hand.
 TEST(S44, LimitsThuByOrder) {
   EXPECT_DOUBLE_EQ(ThuLimit(S44Order::kExclusive, 40), 1);
   EXPECT_DOUBLE_EQ(ThuLimit(S44Order::kSpecial, 40), 2);
@@ -26,7 +26,7 @@ TEST(S44, LimitsTvuByOrder) {
   EXPECT_NEAR(TvuLimit(S44Order::k2, 40), 1.358823020117, 1e-12);  // sqrt(1 + 0.92^2)
 }
 
-TEST(S44, KeepsThePapersTwoPercentApart) {
+TEST(S44, KeepsTheLimitPrintedInThePaperApart) {
   EXPECT_DOUBLE_EQ(ThuLimitAsPrintedByBirkebak(10), 5.2);
   EXPECT_DOUBLE_EQ(ThuLimit(S44Order::k1b, 10), 5.5);
 }
@@ -37,7 +37,7 @@ TEST(S44, FindsEveryOrderByItsName) {
   EXPECT_EQ(FindS44Order(""), std::nullopt);
 }
 
-TEST(S44, TakesTheStrictestOrderThatBothUncertaintiesLeaveOpen) {
+TEST(S44, FindsTheStrictestOrderThatBothUncertaintiesMeet) {
   EXPECT_EQ(BestOrder(0, 0, 10), S44Order::kExclusive);
   EXPECT_EQ(BestOrder(1.5, 0.1, 10), S44Order::kSpecial);  // THU decides
   EXPECT_EQ(BestOrder(0.1, 0.2, 10), S44Order::kSpecial);  // TVU decides
@@ -47,18 +47,18 @@ TEST(S44, TakesTheStrictestOrderThatBothUncertaintiesLeaveOpen) {
   EXPECT_EQ(BestOrder(21.1, 0, 10), std::nullopt);
 }
 
-TEST(S44, LeavesNoOrderOpenAtItsVeryLimit) {
+TEST(S44, DoesNotMeetAnOrderExactlyAtItsLimit) {
   EXPECT_EQ(BestOrder(1, 0, 0), S44Order::kSpecial);
   EXPECT_EQ(BestOrder(0, 0.15, 0), S44Order::kSpecial);
 }
 
-TEST(S44, KnowsNoOrderForWhatIsNotANumber) {
+TEST(S44, FindsNoOrderForNaN) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(BestOrder(nan, 0.1, 10), std::nullopt);
   EXPECT_EQ(BestOrder(0.1, nan, 10), std::nullopt);
 }
 
-TEST(S44, GrowsMilderFromOrderToOrder) {
+TEST(S44, HasLooserLimitsFromOrderToOrder) {
   for (double depth : {0.0, 1.0, 20.0, 100.0}) {
     for (std::size_t i = 1; i < kS44Orders.size(); ++i) {
       EXPECT_LE(ThuLimit(kS44Orders[i - 1], depth), ThuLimit(kS44Orders[i], depth));
@@ -67,7 +67,7 @@ TEST(S44, GrowsMilderFromOrderToOrder) {
   }
 }
 
-TEST(S44, LeavesTheOtherSideOfARightTriangle) {
+TEST(S44, SubtractsBudgetsInQuadrature) {
   EXPECT_DOUBLE_EQ(*RemainingBudget(5, 3), 4);
   EXPECT_DOUBLE_EQ(*RemainingBudget(0.5, 0), 0.5);
   EXPECT_EQ(*RemainingBudget(0.5, 0.5), 0);

@@ -5,7 +5,7 @@
 namespace albtpu {
 namespace {
 
-TEST(Schema, DescribesAxesInTheOrderOfTheDesign) {
+TEST(Schema, DescribesAxesInTheOrderOfTheFormat) {
   EXPECT_EQ(Describe(AxisId::kWindSpeed).name, "wind_speed");
   EXPECT_EQ(Describe(AxisId::kFetch).name, "fetch");
   EXPECT_EQ(Describe(AxisId::kIncidence).name, "incidence");
@@ -14,26 +14,26 @@ TEST(Schema, DescribesAxesInTheOrderOfTheDesign) {
   EXPECT_EQ(Describe(AxisId::kDepth).name, "depth");
 }
 
-TEST(Schema, TakesFetchAndFootprintInTheirLogarithm) {
+TEST(Schema, HasLogarithmicFetchAndFootprint) {
   for (AxisId axis : kAxes) {
     const bool is_log = axis == AxisId::kFetch || axis == AxisId::kFootprint;
     EXPECT_EQ(Describe(axis).scale, is_log ? Scale::kLog : Scale::kLinear) << Describe(axis).name;
   }
 }
 
-TEST(Schema, GivesDepthToAllButRefraction) {
+TEST(Schema, HasDepthForAllQuantitiesButRefraction) {
   for (Quantity quantity : kQuantities) {
     const bool is_angle = Describe(quantity).units == "degree";
     EXPECT_EQ(Describe(quantity).over_last_axis, !is_angle) << Describe(quantity).name;
   }
 }
 
-TEST(Schema, FindsEveryNameItGives) {
+TEST(Schema, FindsEveryName) {
   for (AxisId axis : kAxes) EXPECT_EQ(FindAxis(Describe(axis).name), axis);
   for (Quantity quantity : kQuantities) EXPECT_EQ(FindQuantity(Describe(quantity).name), quantity);
 }
 
-TEST(Schema, FindsNothingUnderAnotherName) {
+TEST(Schema, FindsNothingForOtherNames) {
   EXPECT_EQ(FindAxis("thu"), std::nullopt);
   EXPECT_EQ(FindAxis(""), std::nullopt);
   EXPECT_EQ(FindQuantity("depth"), std::nullopt);

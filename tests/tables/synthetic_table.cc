@@ -20,7 +20,7 @@ Value OrDie(absl::StatusOr<Value> value) {
   return *std::move(value);
 }
 
-// Smooth, bent on every axis, positive (but for the bias along the beam), and of the order of the real thing.
+// Smooth, curved along every axis, positive (except the bias along the beam), and of a realistic magnitude.
 double Formula(Quantity quantity, const Coordinates& at) {
   const auto [wind_speed, fetch, incidence, azimuth, footprint, depth] = at;
   const double radians = std::numbers::pi / 180;
@@ -44,7 +44,7 @@ double Formula(Quantity quantity, const Coordinates& at) {
   return 0;
 }
 
-// `f` at every node that the quantity has, in the order of a variable.
+// `f` at every node of the quantity, in the order of a variable.
 template <typename Function>
 std::vector<float> Tabulate(const UncertaintyTable::Axes& axes, Quantity quantity, Function f) {
   std::vector<float> values(ValueCount(axes, quantity));

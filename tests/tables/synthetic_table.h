@@ -1,5 +1,4 @@
-// Tables from a smooth formula, for tests that need a table and not the sea: made in a moment, the same every
-// time.
+// Tables from a smooth formula, for tests that need a table but not the sea: quick to make and always the same.
 #pragma once
 
 #include <string>
@@ -11,16 +10,15 @@ namespace albtpu::testing {
 struct SyntheticOptions {
   std::string id = "synthetic";
   std::string version = "1";
-  double factor = 1;       // On every value and standard error: tables of two factors can be told apart.
-  bool published = false;  // Without biases and standard errors, as tables made of published angles are.
+  double factor = 1;       // Multiplies every value and standard error: tables with different factors differ.
+  bool published = false;  // Without biases and standard errors, like tables of published angles.
 };
 
 // Covers wind 3-10 m/s, fetch 1 km to fully developed (100 km), incidence 0-25 degrees, azimuth 0-90 degrees,
-// footprint 0.25-2 m, depth 0-20 m. Values have the size and the trends of the sea's, but not its truth.
+// footprint 0.25-2 m, depth 0-20 m. Values have the magnitude and the trends of the sea's, but are not true.
 UncertaintyTable SyntheticTable(const SyntheticOptions& options = {});
 
-// A table of two nodes an axis or one, in which `scale` is that of every variable: small enough to reason
-// about.
+// A table with one or two nodes on each axis, and with `scale` for every variable: small enough to check by hand.
 UncertaintyTable TinyTable(Scale scale = Scale::kLinear);
 
 // The axis of these nodes, which are rounded to single precision. The nodes must be valid.

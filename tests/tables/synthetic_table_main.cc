@@ -1,6 +1,6 @@
 // albtpu_synthetic_table OUT.h5 [--id ID] [--version VERSION] [--factor F] [--published]
 //
-// Writes the table of synthetic_table.h, for tests of programs that want a table file. An existing file is
+// Writes the table of synthetic_table.h, for tests of programs that need a table file. An existing file is
 // replaced.
 #include <cstdlib>
 #include <iostream>

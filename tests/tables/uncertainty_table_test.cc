@@ -16,7 +16,7 @@ using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TinyTable;
 using ::testing::HasSubstr;
 
-// The parts of a valid table, for tests to break one.
+// The parts of a valid table, for tests that make one of them invalid.
 struct Parts {
   UncertaintyTable::Axes axes;
   UncertaintyTable::Variables variables;
@@ -55,7 +55,7 @@ TEST(UncertaintyTable, MayLackBiasesAndStandardErrors) {
   EXPECT_TRUE(table.variable(Quantity::kThu)->standard_errors.empty());
 }
 
-TEST(UncertaintyTable, RefusesToLackWhatIsRequired) {
+TEST(UncertaintyTable, RefusesMissingRequiredQuantities) {
   for (Quantity quantity : kQuantities) {
     Parts parts = PartsOf(TinyTable());
     parts.variables[Index(quantity)].reset();
@@ -148,7 +148,7 @@ TEST(UncertaintyTable, RefusesABadProvenance) {
   EXPECT_THAT(parts.Problem(), HasSubstr("attribute 'id'"));
 }
 
-TEST(ContentDigest, SeesEverythingThatAnswersDependOn) {
+TEST(ContentDigest, CoversEverythingThatAnswersDependOn) {
   const Parts original = PartsOf(TinyTable());
   const std::string digest = original.Digest();
   EXPECT_EQ(digest.size(), 64u);
@@ -185,7 +185,7 @@ TEST(ContentDigest, SeesEverythingThatAnswersDependOn) {
   EXPECT_NE(parts.Digest(), digest);
 }
 
-TEST(ContentDigest, DoesNotSeeVersionTitleOrOtherAttributes) {
+TEST(ContentDigest, DoesNotCoverVersionTitleOrOtherAttributes) {
   Parts parts = PartsOf(TinyTable());
   const std::string digest = parts.Digest();
   parts.provenance.version = "another";

@@ -47,24 +47,24 @@ TEST(AtomicFile, HasThePermissionsOfAnyNewFile) {
   EXPECT_EQ(fs::status(folder / "new").permissions(), fs::status(folder / "other").permissions());
 }
 
-TEST(AtomicFile, KeepsWhatIsThere) {
+TEST(AtomicFile, KeepsAnExistingFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "old") << "precious";
   const absl::Status status = WriteFileAtomically(folder / "old", "bytes", Existing::kKeep);
   EXPECT_EQ(status.code(), absl::StatusCode::kAlreadyExists);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("old' exists"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("old' already exists"));
   EXPECT_EQ(Contents(folder / "old"), "precious");
   EXPECT_EQ(FileCount(folder), 1u);
 }
 
-TEST(AtomicFile, ReplacesWhatIsThereIfAskedTo) {
+TEST(AtomicFile, ReplacesAnExistingFileOnRequest) {
   const TemporaryFolder folder;
   std::ofstream(folder / "old") << "stale";
   ASSERT_TRUE(WriteFileAtomically(folder / "old", "bytes", Existing::kReplace).ok());
   EXPECT_EQ(Contents(folder / "old"), "bytes");
 }
 
-TEST(AtomicFile, LetsOneOfManyWritersWinANewName) {
+TEST(AtomicFile, LetsExactlyOneOfManyWritersCreateAFile) {
   const TemporaryFolder folder;
   std::vector<int> won(8);
   std::vector<std::thread> writers;
@@ -78,14 +78,14 @@ TEST(AtomicFile, LetsOneOfManyWritersWinANewName) {
   EXPECT_EQ(FileCount(folder), 1u);
 }
 
-TEST(AtomicFile, SaysThatTheFolderIsMissing) {
+TEST(AtomicFile, ReportsAMissingFolder) {
   const TemporaryFolder folder;
   const absl::Status status = WriteFileAtomically(folder / "no/file", "bytes", Existing::kKeep);
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
 }
 
-TEST(AtomicFile, SaysThatTheFolderIsNotWritable) {
+TEST(AtomicFile, ReportsAFolderThatIsNotWritable) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
@@ -94,13 +94,13 @@ TEST(AtomicFile, SaysThatTheFolderIsNotWritable) {
   EXPECT_EQ(status.code(), absl::StatusCode::kPermissionDenied);
 }
 
-TEST(AtomicFile, SaysThatTheFolderIsAFile) {
+TEST(AtomicFile, ReportsAFolderThatIsAFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file");
   EXPECT_FALSE(WriteFileAtomically(folder / "file/x", "bytes", Existing::kReplace).ok());
 }
 
-TEST(AtomicFile, LeavesFoldersAndDevicesAlone) {
+TEST(AtomicFile, DoesNotReplaceFoldersOrDevices) {
   const TemporaryFolder folder;
   for (const fs::path& path : {folder.path(), fs::path("/dev/null")}) {
     const absl::Status status = WriteFileAtomically(path, "bytes", Existing::kReplace);
@@ -111,8 +111,8 @@ TEST(AtomicFile, LeavesFoldersAndDevicesAlone) {
   EXPECT_FALSE(WriteFileAtomically("", "bytes", Existing::kReplace).ok());
 }
 
-// A limit on the size of files fails writes where a full disk does: in the middle.
-TEST(AtomicFile, LeavesNothingBehindWhenTheWriteFails) {
+// With a limit on the size of files, a write fails halfway, as it does on a full disk.
+TEST(AtomicFile, LeavesNothingBehindAfterAFailedWrite) {
   const TemporaryFolder folder;
   std::ofstream(folder / "old") << "precious";
   rlimit before;

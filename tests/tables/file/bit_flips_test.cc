@@ -1,5 +1,6 @@
-// Every bit of a small table, flipped: refused or harmless, never a changed answer. Behind the seal every
-// 31st, or all of them, which takes minutes: ALBTPU_EVERY_BIT=1 bit_flips_test
+// Flips every bit of a small table: the file is refused or the flip is harmless, and no answer ever changes. If the
+// flip is made before the file is sealed, it tries every 31st bit, or all of them, which takes minutes:
+// ALBTPU_EVERY_BIT=1 bit_flips_test
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::size_t kUserBlockBits = 8 * seal::kSize;
 
-// The smallest of our tables: two nodes an axis or one, without biases and standard errors.
+// Our smallest table: one or two nodes on each axis, without biases and standard errors.
 UncertaintyTable SmallTable() {
   const UncertaintyTable tiny = testing::TinyTable();
   UncertaintyTable::Variables variables;
@@ -33,7 +34,7 @@ void Flip(std::string& file, std::size_t bit) {
   file[bit / 8] = static_cast<char>(file[bit / 8] ^ (1 << bit % 8));
 }
 
-TEST(BitFlips, OfAFileAreRefusedAllOfThem) {
+TEST(BitFlips, InASealedFileAreAllRefused) {
   std::string file = EncodeTable(SmallTable()).value();
   ASSERT_TRUE(DecodeTable(file).ok());
   for (std::size_t bit = 0; bit < 8 * file.size(); ++bit) {
@@ -44,9 +45,8 @@ TEST(BitFlips, OfAFileAreRefusedAllOfThem) {
   EXPECT_TRUE(DecodeTable(file).ok());
 }
 
-// As a computer with bad memory would write it: the seal is right and what it seals is not. Of those files
-// that are taken, the content digest says that they answer as the table does; and it is not just repeated
-// from the file.
+// A computer with faulty memory can write such a file: the seal matches damaged content. If the file is accepted, the
+// content digest, computed anew, shows that it gives the answers of the table.
 TEST(BitFlips, BeforeTheSealWasMadeChangeNoAnswer) {
   const UncertaintyTable table = SmallTable();
   const std::string file = EncodeTable(table).value();
@@ -75,13 +75,13 @@ TEST(BitFlips, BeforeTheSealWasMadeChangeNoAnswer) {
     for (const AxisId axis : kAxes) ASSERT_EQ(decoded->axis(axis).nodes(), table.axis(axis).nodes());
   }
   EXPECT_GT(refused, 0u);
-  EXPECT_GT(harmless, 0u);  // Half of what HDF5 writes is room for more.
+  EXPECT_GT(harmless, 0u);  // Half of the bytes that HDF5 writes are unused space.
   std::cout << refused << " flips refused, " << harmless << " harmless\n";
-  EXPECT_EQ(DecodeTable(file)->digest(), table.digest());  // None of those before it is read in its place.
+  EXPECT_EQ(DecodeTable(file)->digest(), table.digest());  // None of the earlier files is read in its place.
 }
 
-// Of objects whose beginning is damaged, HDF5 loses a part in its own memory, and at exit would say so.
-TEST(BitFlips, AreNotSpokenOfAtTheEndOfTheProgram) {
+// HDF5 loses track of objects whose beginning is damaged, and would report them at exit.
+TEST(BitFlips, AreNotReportedAtTheEndOfTheProgram) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto refuse_and_exit = [] {
     const std::string file = EncodeTable(SmallTable()).value();

@@ -1,4 +1,4 @@
-// Sealed files that would make a reader open other files, load programs, or take memory without end.
+// Sealed files that would make a reader open other files, load plug-ins, or use unlimited memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -20,7 +20,7 @@ using testing::ProblemAfter;
 
 const std::vector<hsize_t> kShape = {2, 1, 2, 2, 1, 2};  // of the tiny table
 
-// A dataset as a variable should be, but for how it is stored, in the place of THU.
+// Replaces THU by a dataset that differs from a valid one only in how it is stored.
 void ReplaceThu(hid_t file, hid_t creation) {
   H5Ldelete(file, "thu", H5P_DEFAULT);
   const Handle space(H5Screate_simple(6, kShape.data(), nullptr), H5Sclose);
@@ -67,20 +67,20 @@ TEST(ForeignStorage, IsRefusedBehindLinks) {
             refusal);
 }
 
-TEST(ForeignStorage, IsRefusedInOtherFiles) {
+TEST(ForeignStorage, IsRefusedIfItIsInOtherFiles) {
   EXPECT_EQ(ProblemAfter([](hid_t file) {
               const Handle creation = Creation();
               H5Pset_external(creation, "/dev/zero", 0, H5F_UNLIMITED);
               ReplaceThu(file, creation);
             }),
-            "variable 'thu' has its values in other files: they should be in this one");
+            "variable 'thu' has its values in other files: expected them in this file");
   EXPECT_EQ(ProblemAfter([](hid_t file) {
               const Handle creation = Creation();
               const Handle space(H5Screate_simple(6, kShape.data(), nullptr), H5Sclose);
               H5Pset_virtual(creation, space, "/dev/zero", "/thu", space);
               ReplaceThu(file, creation);
             }),
-            "variable 'thu' has its values in other files: they should be in this one");
+            "variable 'thu' has its values in other files: expected them in this file");
 }
 
 TEST(ForeignStorage, IsRefusedThroughOtherFilters) {
@@ -90,7 +90,7 @@ TEST(ForeignStorage, IsRefusedThroughOtherFilters) {
                 H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, 2);
                 ReplaceThu(file, creation);
               }),
-              EndsWith("of HDF5: shuffle and deflate are right"));
+              EndsWith("of HDF5: expected shuffle and deflate"));
 }
 
 TEST(ForeignStorage, IsRefusedInChunksWithoutDeflate) {
@@ -99,7 +99,7 @@ TEST(ForeignStorage, IsRefusedInChunksWithoutDeflate) {
               H5Pset_chunk(creation, 6, kShape.data());
               ReplaceThu(file, creation);
             }),
-            "variable 'thu' is in chunks without deflate: shuffle and deflate are right");
+            "variable 'thu' is in chunks without deflate: expected shuffle and deflate");
 }
 
 TEST(ForeignStorage, IsRefusedThroughFiltersInAnotherOrder) {
@@ -108,11 +108,11 @@ TEST(ForeignStorage, IsRefusedThroughFiltersInAnotherOrder) {
               H5Pset_shuffle(creation);
               ReplaceThu(file, creation);
             }),
-            "variable 'thu' goes through filter 2 of HDF5: shuffle and deflate are right");
+            "variable 'thu' uses filter 2 of HDF5: expected shuffle and deflate");
 }
 
-// What HDF5 1.10 takes for a whole chunk, and reads on behind.
-TEST(ForeignStorage, IsRefusedInChunksThatAreTooShort) {
+// HDF5 1.10 takes these for whole chunks and reads beyond them.
+TEST(ForeignStorage, IsRefusedIfChunksAreTooShort) {
   const auto problem_of_chunk = [](std::string stored, std::uint32_t skipped_filters) {
     return ProblemAfter([&](hid_t file) {
       ReplaceThu(file, DeflatedCreation());
@@ -133,12 +133,12 @@ TEST(ForeignStorage, IsRefusedInChunksThatAreTooShort) {
   EXPECT_THAT(problem_of_chunk(Deflated(std::string(kChunkBytes, '\0')), 0), HasSubstr("'content_digest'"));
 }
 
-TEST(ForeignStorage, IsRefusedWhereAChunkIsMissing) {
+TEST(ForeignStorage, IsRefusedIfAChunkIsMissing) {
   EXPECT_EQ(ProblemAfter([](hid_t file) { ReplaceThu(file, DeflatedCreation()); }),
             "variable 'thu' has a chunk that is missing or damaged");
 }
 
-TEST(ForeignStorage, IsRefusedWhereItIsSharedByDatasets) {
+TEST(ForeignStorage, IsRefusedIfDatasetsShareIt) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 ReplaceThu(file, DeflatedCreation());
                 const Handle thu(H5Dopen2(file, "thu", H5P_DEFAULT), H5Dclose);
@@ -167,10 +167,10 @@ TEST(ForeignStorage, IsRefusedInLargeChunks) {
                 EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
                 EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
               }),
-              HasSubstr("is in chunks of more than 65536 values"));
+              HasSubstr("has chunks of more than 65536 values"));
 }
 
-TEST(ForeignStorage, IsRefusedWhereNothingIsStored) {
+TEST(ForeignStorage, IsRefusedIfNothingIsStored) {
   EXPECT_EQ(ProblemAfter([](hid_t file) {
               H5Ldelete(file, "depth", H5P_DEFAULT);
               const hsize_t size = 60000;
@@ -182,11 +182,11 @@ TEST(ForeignStorage, IsRefusedWhereNothingIsStored) {
               EXPECT_TRUE(hdf5::WriteAttribute(dataset, "units", std::string("m")));
               EXPECT_TRUE(hdf5::WriteAttribute(dataset, "interpolation", std::string("linear")));
             }),
-            "axis 'depth' has 60000 values in 0 bytes: it should have 240000");
+            "axis 'depth' has 60000 values in 0 bytes: expected 240000 bytes");
 }
 
-// HDF5 1.10 would read on behind the piece, in memory that is not its own.
-TEST(ForeignStorage, IsRefusedInAPieceOfTheHeaderThatIsTooShort) {
+// HDF5 1.10 would read beyond the data, in memory that it does not own.
+TEST(ForeignStorage, IsRefusedIfDataInTheObjectHeaderIsTooShort) {
   const std::vector<float> values(16, 42.5f);
   std::string file = testing::Forge([&](hid_t root) {
     const Handle creation = Creation();
@@ -201,10 +201,10 @@ TEST(ForeignStorage, IsRefusedInAPieceOfTheHeaderThatIsTooShort) {
   ASSERT_NE(at, std::string::npos);
   file[at] = 21;
   seal::Apply(file);
-  EXPECT_EQ(testing::Problem(file), "variable 'thu' has 16 values in 21 bytes: it should have 64");
+  EXPECT_EQ(testing::Problem(file), "variable 'thu' has 16 values in 21 bytes: expected 64 bytes");
 }
 
-TEST(ForeignStorage, IsRefusedInAttributesWithoutEnd) {
+TEST(ForeignStorage, IsRefusedInHugeAttributes) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
                 H5Tset_size(type, format::kMaxAttributeBytes + 1);

@@ -1,4 +1,4 @@
-// Files with an unbroken seal whose HDF5 part was edited, and what the decoder says of them.
+// Files with an intact seal and an edited HDF5 part, and the messages of the decoder about them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace albtpu::testing {
 
-// A valid table whose HDF5 part `change` has edited, sealed again.
+// A valid table, sealed again after `change` has edited its HDF5 part.
 inline std::string Forge(const std::function<void(hid_t file)>& change) {
   const TemporaryFolder folder;
   const std::string path = (folder / "t.h5").string();

@@ -22,12 +22,12 @@ void ExpectDataLoss(const std::string& file, const std::string& message) {
   EXPECT_THAT(std::string(status.message()), HasSubstr(message));
 }
 
-TEST(Seal, HoldsOnTheFileItWasMadeFor) {
+TEST(Seal, AcceptsTheFileThatItWasMadeFor) {
   EXPECT_TRUE(seal::Check(Sealed()).ok());
   EXPECT_TRUE(seal::Check(Sealed(seal::kSize)).ok());
 }
 
-TEST(Seal, LiesAsSpecified) {
+TEST(Seal, HasTheSpecifiedLayout) {
   const std::string file = Sealed(0x0201 + 512);
   EXPECT_EQ(file.substr(0, 8),
             "\x89"
@@ -38,7 +38,7 @@ TEST(Seal, LiesAsSpecified) {
   EXPECT_EQ(file.substr(512), std::string(0x0201, 'x'));
 }
 
-TEST(Seal, BreaksAtEveryFlippedBit) {
+TEST(Seal, DetectsEveryFlippedBit) {
   const std::string whole = Sealed(520);
   for (std::size_t byte = 0; byte < whole.size(); ++byte) {
     for (int bit = 0; bit < 8; ++bit) {
@@ -49,27 +49,27 @@ TEST(Seal, BreaksAtEveryFlippedBit) {
   }
 }
 
-TEST(Seal, BreaksAtEveryTruncation) {
+TEST(Seal, DetectsEveryTruncation) {
   const std::string whole = Sealed(520);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     EXPECT_EQ(seal::Check(whole.substr(0, length)).code(), absl::StatusCode::kDataLoss) << length;
   }
 }
 
-TEST(Seal, SaysWhatIsWrong) {
+TEST(Seal, ReportsWhatIsWrong) {
   const std::string whole = Sealed(700);
   ExpectDataLoss("", "is empty");
   ExpectDataLoss("wind_speed,depth\n5,10\n", "does not begin with its seal");
   ExpectDataLoss("\x89HDF\r\n\x1a\n" + std::string(600, '\0'), "HDF5 file without the seal");
-  ExpectDataLoss(whole.substr(0, 5), "is truncated: 5 bytes are there");
-  ExpectDataLoss(whole.substr(0, 600), "is truncated: 600 of its 700 bytes");
-  ExpectDataLoss(whole + "x", "has 701 bytes, its seal says 700");
+  ExpectDataLoss(whole.substr(0, 5), "is truncated: it has 5 bytes");
+  ExpectDataLoss(whole.substr(0, 600), "is truncated: it has 600 of its 700 bytes");
+  ExpectDataLoss(whole + "x", "has 701 bytes, and its seal says 700");
   std::string changed = whole;
   changed[650] = 'y';
   ExpectDataLoss(changed, "do not have the SHA-256");
 }
 
-TEST(Seal, NamesTheVersionItCannotRead) {
+TEST(Seal, NamesAVersionThatItCannotRead) {
   std::string newer = Sealed();
   newer[seal::kVersionOffset] = 2;
   const absl::Status status = seal::Check(newer);
@@ -77,7 +77,7 @@ TEST(Seal, NamesTheVersionItCannotRead) {
   EXPECT_EQ(status.message(), "has format version 2: this program reads version 1");
 }
 
-TEST(Seal, KnowsAForeignFileByItsFirstBytes) {
+TEST(Seal, RecognizesAnotherFormatByItsFirstBytes) {
   EXPECT_EQ(seal::CheckHeader(std::string(seal::kSize, 'z'), std::uint64_t{1} << 40).code(),
             absl::StatusCode::kDataLoss);
 }

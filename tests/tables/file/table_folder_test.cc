@@ -47,7 +47,8 @@ TEST_F(TableFolder, MayHoldOtherFiles) {
                            "notes/README", ".git/x.h5", "deep/er/1.h5", "empty/.keep"}) {
     Touch(name);
   }
-  std::filesystem::create_directories(folder_ / "sub" / "2.h5");  // A folder is no table, whatever its name.
+  std::filesystem::create_directories(folder_ / "sub" /
+                                      "2.h5");  // A folder is not a table, whatever its name.
   EXPECT_THAT(FullNames(), IsEmpty());
 }
 
@@ -70,7 +71,7 @@ TEST_F(TableFolder, MayNotGiveOneNameToTwoTables) {
   EXPECT_THAT(std::string(status.message()), AllOf(HasSubstr("quick.h5'"), HasSubstr("quick/1.h5'")));
 }
 
-TEST(Version, IsOrderedAsPeopleCount) {
+TEST(Version, IsOrderedByNumbers) {
   const std::vector<std::string> from_the_oldest = {"",           "1",        "1.0",  "1.0-rc1", "1.2",
                                                     "1.10",       "2",        "10",   "010.1",   "2024-05-01",
                                                     "2024-12-01", "20240501", "beta", "v9",      "v10"};
@@ -82,7 +83,7 @@ TEST(Version, IsOrderedAsPeopleCount) {
   }
 }
 
-TEST(Version, TellsLeadingZerosApart) {
+TEST(Version, DistinguishesLeadingZeros) {
   EXPECT_TRUE(IsOlder("1.01", "1.1") || IsOlder("1.1", "1.01"));
   EXPECT_FALSE(IsOlder("1.01", "1.1") && IsOlder("1.1", "1.01"));
 }
@@ -101,7 +102,7 @@ TEST(FindTable, TakesTheNewestVersionUnlessOneIsNamed) {
   EXPECT_EQ(*FindTable(tables, "survey/1"), 2u);
 }
 
-TEST(FindTable, SaysWhichTablesThereAre) {
+TEST(FindTable, ListsTheTablesThatThereAre) {
   const auto tables = Named({{"quick", ""}, {"survey", "2"}});
   for (const char* name : {"slow", "survey/3", "quick/", "/quick", "2", "Quick"}) {
     const absl::Status status = FindTable(tables, name).status();
@@ -125,16 +126,16 @@ TEST(FindTable, PrefersTheGivenDefault) {
   EXPECT_EQ(*FindTable(tables, "survey", "quick"), 1u);
 }
 
-TEST(FindTable, ThenSurvey) {
+TEST(FindTable, PrefersSurveyNext) {
   EXPECT_EQ(*FindTable(Named({{"a", ""}, {"survey", "2"}, {"survey", "1"}}), ""), 1u);
 }
 
-TEST(FindTable, ThenTheOnlyName) {
+TEST(FindTable, TakesTheOnlyNameNext) {
   EXPECT_EQ(*FindTable(Named({{"a", ""}}), ""), 0u);
   EXPECT_EQ(*FindTable(Named({{"a", "2"}, {"a", "1"}}), ""), 0u);
 }
 
-TEST(FindTable, ThenTheOnlyNameThatIsNotPublished) {
+TEST(FindTable, TakesTheOnlyNameThatIsNotPublishedNext) {
   auto tables = Named({{"a", ""}, {"b", "2"}, {"b", "1"}, {"c", ""}});
   tables[0].published = tables[3].published = true;
   EXPECT_EQ(*FindTable(tables, ""), 1u);
@@ -143,7 +144,7 @@ TEST(FindTable, ThenTheOnlyNameThatIsNotPublished) {
   EXPECT_EQ(FindTable(tables, "").status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
-TEST(FindTable, ElseAsksForAName) {
+TEST(FindTable, AsksForANameOtherwise) {
   const absl::Status status = FindTable(Named({{"a", ""}, {"b", ""}}), "").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_THAT(std::string(status.message()), HasSubstr("a, b"));

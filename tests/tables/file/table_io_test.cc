@@ -67,7 +67,7 @@ UncertaintyTable With(const UncertaintyTable& table, Provenance provenance) {
   return *UncertaintyTable::Create(table.axes(), std::move(variables), std::move(provenance));
 }
 
-TEST(TableIo, ReadsWhatItWrote) {
+TEST(TableIo, ReadsBackWhatItHasWritten) {
   ExpectRoundTrip(SyntheticTable());
   ExpectRoundTrip(SyntheticTable({.published = true}));
   ExpectRoundTrip(TinyTable());
@@ -88,7 +88,7 @@ TEST(TableIo, KeepsTheTypesOfAttributes) {
   ExpectRoundTrip(With(TinyTable(), provenance));
 }
 
-// Attributes above 64 KiB lie elsewhere in HDF5.
+// HDF5 stores attributes above 64 KiB in another place.
 TEST(TableIo, KeepsALongCampaign) {
   Provenance provenance = TinyTable().provenance();
   provenance.campaign = std::string(300'000, '#') + "\n";
@@ -114,8 +114,8 @@ TEST(TableIo, KeepsAnExistingFileUnlessAskedToReplaceIt) {
   EXPECT_TRUE(ReadTable(folder / "t.h5").ok());
 }
 
-// HDF5 looks for a file of the name that one in memory goes by.
-TEST(TableIo, DoesNotCareWhatElseIsInTheFolderWhereItRuns) {
+// HDF5 looks on disk for a file with the name of a file in memory.
+TEST(TableIo, WorksWhateverFilesAreInTheCurrentFolder) {
   const TemporaryFolder folder;
   for (const std::string name : {"table", "tables", "survey.h5"}) Save(folder / name, "something else");
   const fs::path before = fs::current_path();
@@ -124,13 +124,13 @@ TEST(TableIo, DoesNotCareWhatElseIsInTheFolderWhereItRuns) {
   fs::current_path(before);
 }
 
-TEST(TableIo, NamesTheFileThatIsNotThere) {
+TEST(TableIo, NamesAMissingFile) {
   const absl::Status status = ReadTable("no/such.h5").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(status.message(), "no/such.h5: no such file");
 }
 
-TEST(TableIo, DoesNotReadWhatIsNotAFile) {
+TEST(TableIo, RefusesFoldersAndDevices) {
   const TemporaryFolder folder;
   for (const fs::path& path : {folder.path(), fs::path("/dev/zero")}) {
     const absl::Status status = ReadTable(path).status();
@@ -139,21 +139,21 @@ TEST(TableIo, DoesNotReadWhatIsNotAFile) {
   }
 }
 
-TEST(TableIo, SaysWhatIsWrongWithADamagedFile) {
+TEST(TableIo, ReportsHowAFileIsDamaged) {
   const TemporaryFolder folder;
   const fs::path path = folder / "t.h5";
   ASSERT_TRUE(WriteTable(TinyTable(), path, Existing::kKeep).ok());
   const std::string whole = Contents(path);
   std::string flipped = whole;
   flipped[whole.size() / 2] ^= 1;
-  std::string text = whole;  // What a transfer in text mode makes of it.
+  std::string text = whole;  // As a transfer in text mode would change it.
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
 
   const std::pair<std::string, std::string> cases[] = {
       {"", "is empty"},
       {"depth,thu\n1,2\n", "does not begin with its seal"},
       {whole.substr(512), "HDF5 file without the seal"},
-      {whole.substr(0, 100), "is truncated: 100 bytes are there"},
+      {whole.substr(0, 100), "is truncated: it has 100 bytes"},
       {whole.substr(0, whole.size() - 1), "is truncated: "},
       {whole + "x", "is damaged: it has"},
       {flipped, "is damaged: its bytes"},
@@ -184,7 +184,7 @@ TEST(TableIo, ReadsAndWritesFromManyThreads) {
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST(TableIo, SaysThatTheFolderToWriteIntoIsMissing) {
+TEST(TableIo, ReportsAMissingFolder) {
   const TemporaryFolder folder;
   const absl::Status status = WriteTable(TinyTable(), folder / "no/t.h5", Existing::kKeep);
   EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));

@@ -1,5 +1,4 @@
-// Files with an unbroken seal that are not valid tables: made by someone else's program, or by a mistake in
-// ours.
+// Files with an intact seal that are not valid tables: written by another program, or by ours with an error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,12 +22,12 @@ void SetNode(hid_t file, const char* axis, std::vector<float> nodes) {
   EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes.data()), 0);
 }
 
-// Every value of a variable of the tiny table, which has 16 at most.
+// Sets every value of a variable of the tiny table, which has at most 16.
 void SetValues(hid_t file, const char* variable, float value) {
   SetNode(file, variable, std::vector<float>(16, value));
 }
 
-// Puts a dataset of another type or shape, with the attributes that a reader asks for, in the place of one.
+// Replaces a dataset by one of another type or shape that has the required attributes.
 void Replace(hid_t file, const char* name, hid_t type, const std::vector<hsize_t>& shape, const char* units) {
   H5Ldelete(file, name, H5P_DEFAULT);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -50,12 +49,12 @@ void SetAttribute(hid_t file, const char* object, const char* name, const Attrib
   EXPECT_TRUE(hdf5::WriteAttribute(at, name, value));
 }
 
-TEST(WrongSchema, IsNotWhatAnUnchangedFileHas) {
+TEST(WrongSchema, IsNotFoundInAnUnchangedFile) {
   std::string file = Forge([](hid_t) {});
   EXPECT_TRUE(DecodeTable(file).ok()) << DecodeTable(file).status();
 }
 
-TEST(WrongSchema, IsFoundWhenThereIsNoHdf5) {
+TEST(WrongSchema, IsFoundIfThereIsNoHdf5) {
   std::string file(2000, 'x');
   seal::Apply(file);
   EXPECT_THAT(Problem(file), HasSubstr("is not HDF5"));
@@ -64,14 +63,14 @@ TEST(WrongSchema, IsFoundWhenThereIsNoHdf5) {
   EXPECT_THAT(Problem(file), HasSubstr("is not HDF5"));
 }
 
-TEST(WrongSchema, IsFoundWhenADatasetIsMissing) {
+TEST(WrongSchema, IsFoundIfADatasetIsMissing) {
   EXPECT_EQ(ProblemAfter([](hid_t file) { H5Ldelete(file, "depth", H5P_DEFAULT); }),
             "axis 'depth' is missing");
   EXPECT_THAT(ProblemAfter([](hid_t file) { H5Ldelete(file, "tvu", H5P_DEFAULT); }),
               HasSubstr("variable 'tvu' is missing"));
 }
 
-TEST(WrongSchema, IsFoundWhenAGroupStandsForADataset) {
+TEST(WrongSchema, IsFoundIfADatasetIsAGroup) {
   EXPECT_EQ(ProblemAfter([](hid_t file) {
               H5Ldelete(file, "thu", H5P_DEFAULT);
               const Handle group(H5Gcreate2(file, "thu", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -106,7 +105,7 @@ TEST(WrongSchema, IsFoundInTheType) {
             "variable 'thu' is of another type: it should be float32");
 }
 
-TEST(WrongSchema, IsFoundInSizesBeyondReason) {
+TEST(WrongSchema, IsFoundInHugeSizes) {
   EXPECT_EQ(ProblemAfter([](hid_t file) { Replace(file, "depth", H5T_IEEE_F32LE, {hsize_t{1} << 40}, "m"); }),
             "axis 'depth' has 1099511627776 nodes: it may have 65536 at most");
   EXPECT_THAT(ProblemAfter([](hid_t file) {
@@ -184,7 +183,7 @@ TEST(WrongSchema, IsFoundInGlobalAttributes) {
               HasSubstr("attribute 'id' is 'A Name'"));
 }
 
-TEST(WrongSchema, IsFoundInAnAttributeOfAnotherKind) {
+TEST(WrongSchema, IsFoundInAnAttributeOfAnUnsupportedType) {
   EXPECT_THAT(ProblemAfter([](hid_t file) {
                 const hsize_t shape[] = {2, 2};
                 const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);

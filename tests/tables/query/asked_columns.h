@@ -1,4 +1,4 @@
-// Columns of pulses to ask tables for, and all that can be answered.
+// Columns of pulses to query tables with, and columns for all answers.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@ using Columns = std::array<std::vector<float>, kAxisCount>;
 
 PulseColumns Pulses(const Columns& columns, std::size_t size);
 
-// Uniform between a little outside the axes; an eighth on nodes; few are not numbers.
+// Uniform in the domain and a little beyond; one in eight on a node; a few NaN or infinite.
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed);
 
-// A flight line, which stays in cells of the table.
+// A flight line, whose pulses often share a cell of the table.
 Columns LineColumns(std::size_t size);
 
-// All that can be answered, of one query.
+// All answers to a query.
 struct Answers {
   explicit Answers(std::size_t size);
 
   AnswerColumns columns();
-  // All of one pulse.
+  // The answers for one pulse.
   std::vector<std::uint32_t> BitsAt(std::size_t i) const;
 
   std::vector<std::uint8_t> outcomes, axes, best;
@@ -34,10 +34,10 @@ struct Answers {
 
 Answers Ask(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses);
 
-// The synthetic table, its uncertainties on a logarithmic scale.
+// The synthetic table with its uncertainties on a logarithmic scale.
 UncertaintyTable LogTable();
 
-// Synthetic ones: with all variables, without errors and biases, with logarithms, and tiny ones.
+// Synthetic tables: with all variables, without standard errors and biases, on a logarithmic scale, and tiny ones.
 std::vector<UncertaintyTable> TablesOfEachKind();
 
 }  // namespace albtpu::testing

@@ -28,14 +28,14 @@ std::vector<std::int32_t> LowerNodes(const Axis& axis, const std::vector<float>&
   return rows;
 }
 
-// What both make of each coordinate, at two pulses a node.
+// Expects the same positions from both, with a step of two rows from node to node.
 void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
   coordinates.resize((coordinates.size() + AxisLookup::kPadding - 1) / AxisLookup::kPadding *
                      AxisLookup::kPadding);
   std::vector<std::int32_t> rows(coordinates.size(), 7), codes(coordinates.size(), outcome_code::kInside);
   std::vector<float> fractions(coordinates.size(), -1);
-  AxisLookup(axis, Index(axis.id())).Locate(coordinates.data(), coordinates.size(), 2, rows.data(), fractions.data(),
-                          codes.data());
+  AxisLookup(axis, Index(axis.id()))
+      .Locate(coordinates.data(), coordinates.size(), 2, rows.data(), fractions.data(), codes.data());
   const std::vector<std::int32_t> lower_nodes = LowerNodes(axis, coordinates);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     SCOPED_TRACE(coordinates[i]);
@@ -52,7 +52,7 @@ void ExpectEqual(const Axis& axis, std::vector<float> coordinates) {
   }
 }
 
-// Nodes, their neighbours in single precision, and much between and beyond.
+// Nodes, their neighbours in single precision, and coordinates between and beyond them.
 std::vector<float> CoordinatesOf(const Axis& axis, std::mt19937& random) {
   std::vector<float> coordinates = {-1, -0.0f, 0, 1e6f, -1e6f};
   for (double node : axis.nodes()) {
@@ -109,7 +109,7 @@ TEST_P(AxisLookupTest, FoldsAzimuthsExactly) {
   ExpectEqual(MakeAxis(AxisId::kAzimuth, {10, 80}), azimuths);
 }
 
-TEST_P(AxisLookupTest, FindsANodeBelowWhateverIsAsked) {
+TEST_P(AxisLookupTest, FindsANodeBelowAnyCoordinate) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kMost = std::numeric_limits<float>::max();
   const std::vector<float> odd = {kNaN, -kNaN, kInfinity, -kInfinity, kMost, -kMost,
                                   1e7f, -1e7f, 4e9f,      -0.0f,      1e-40f};
@@ -127,7 +127,7 @@ TEST_P(AxisLookupTest, FindsANodeBelowWhateverIsAsked) {
   }
 }
 
-TEST_P(AxisLookupTest, KeepsTheLeastCode) {
+TEST_P(AxisLookupTest, KeepsTheLowestCode) {
   const Axis axis = MakeAxis(AxisId::kDepth, {0, 10});
   const auto depth = static_cast<std::int32_t>(Index(AxisId::kDepth));
   std::vector<float> coordinates(AxisLookup::kPadding, 5), fractions(AxisLookup::kPadding);
@@ -135,8 +135,8 @@ TEST_P(AxisLookupTest, KeepsTheLeastCode) {
   coordinates[3] = coordinates[4] = std::nanf("");
   std::vector<std::int32_t> rows(AxisLookup::kPadding),
       codes = {0, outcome_code::kInside, 3, outcome_code::kOutside, 3, outcome_code::kInside, 9, 4};
-  AxisLookup(axis, Index(axis.id())).Locate(coordinates.data(), coordinates.size(), 1, rows.data(), fractions.data(),
-                          codes.data());
+  AxisLookup(axis, Index(axis.id()))
+      .Locate(coordinates.data(), coordinates.size(), 1, rows.data(), fractions.data(), codes.data());
   EXPECT_EQ(codes, (std::vector<std::int32_t>{0, outcome_code::kOutside + depth, 3, depth, 3,
                                               outcome_code::kInside, 9, 4}));
 }

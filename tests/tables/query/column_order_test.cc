@@ -1,4 +1,5 @@
-// Answers depend on the pulse alone: not on how many are asked for, in which order or by how many cores.
+// The answer for a pulse depends on this pulse alone, not on the number of pulses, their order or the number of
+// cores.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ using ::albtpu::testing::RandomColumns;
 using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TablesOfEachKind;
 
-// 81 920 nodes: pulses in no order are sorted.
+// 81 920 nodes, so that pulses in random order are sorted.
 UncertaintyTable LargeTable(Scale scale, bool errors) {
   std::vector<double> depths;
   for (int i = 0; i < 16; ++i) depths.push_back(2 * i);
@@ -53,7 +54,7 @@ UncertaintyTable LargeTable(Scale scale, bool errors) {
 class ColumnOrder : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(ColumnOrder);
 
-TEST_P(ColumnOrder, AnswersAPulseAloneAsAmongOthersBitByBit) {
+TEST_P(ColumnOrder, AnswersAPulseTheSameAloneAndAmongOthersBitByBit) {
   const Query query{.coverage = Coverage::kP95, .s44_order = S44Order::kSpecial};
   for (const UncertaintyTable& table : TablesOfEachKind()) {
     const ColumnInterpolator interpolator(table);
@@ -75,7 +76,7 @@ TEST_P(ColumnOrder, AnswersAPulseAloneAsAmongOthersBitByBit) {
   }
 }
 
-TEST_P(ColumnOrder, AnswersInAnyOrderAndInPiecesBitByBit) {
+TEST_P(ColumnOrder, AnswersTheSameInAnyOrderAndInPiecesBitByBit) {
   const UncertaintyTable table = SyntheticTable();
   const ColumnInterpolator interpolator(table);
   Columns columns = LineColumns(2000);
@@ -86,7 +87,7 @@ TEST_P(ColumnOrder, AnswersInAnyOrderAndInPiecesBitByBit) {
     interpolator.Interpolate({}, Pulses(columns, 2000), cuts[i], cuts[i + 1], pieces.columns());
   }
   for (std::vector<float>& column : columns) {
-    column.resize(2000, column.front());  // Also those of one number.
+    column.resize(2000, column.front());  // Also columns of one number.
     std::reverse(column.begin(), column.end());
   }
   const Answers backward = Ask(interpolator, {}, Pulses(columns, 2000));
@@ -96,10 +97,10 @@ TEST_P(ColumnOrder, AnswersInAnyOrderAndInPiecesBitByBit) {
   }
 }
 
-// More than are sorted at a time.
+// More pulses than are sorted at a time.
 constexpr std::size_t kSize = 70'011, kBegin = 5, kEnd = kSize - 2;
 
-// A block at a time, too few to be sorted.
+// One block at a time, which is too few pulses to be sorted.
 Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses) {
   Answers answers(kSize);
   for (std::size_t first = kBegin; first < kEnd; first += kBlock) {
@@ -108,7 +109,7 @@ Answers AskInBlocks(const ColumnInterpolator& interpolator, const Query& query, 
   return answers;
 }
 
-TEST_P(ColumnOrder, AnswersManyInNoOrderAsFewBitByBit) {
+TEST_P(ColumnOrder, AnswersManyPulsesInRandomOrderLikeFewBitByBit) {
   ASSERT_LT(SortedPulses::Fewest(81'920), SortedPulses::kMost);
   const Query query{.coverage = Coverage::kP95, .s44_order = S44Order::kSpecial};
   Columns columns = RandomColumns(LargeTable(Scale::kLinear, false), kSize, 8);
@@ -137,8 +138,8 @@ TEST_P(ColumnOrder, AnswersManyInNoOrderAsFewBitByBit) {
   }
 }
 
-// Enough for several pieces, those in no order long enough to be sorted.
-TEST_P(ColumnOrder, OnAllCoresAnswersBitByBitAsOnOne) {
+// Enough pulses for several pieces, each of which is large enough to be sorted in random order.
+TEST_P(ColumnOrder, AnswersTheSameOnAllCoresAsOnOneBitByBit) {
   const UncertaintyTable table = LargeTable(Scale::kLinear, true);
   const ColumnInterpolator interpolator(table);
   for (const Columns& columns : {LineColumns(kSize), RandomColumns(table, kSize, 4)}) {

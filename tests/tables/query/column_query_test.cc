@@ -38,7 +38,8 @@ double Largest(const std::vector<float>& numbers) {
   return largest;
 }
 
-// Where corners of both signs cancel, or the one of 0 has almost all the weight, what counts is the largest.
+// If corners of both signs cancel, or a corner of 0 has nearly all of the weight, the error is relative to the
+// largest value.
 void ExpectNear(float ours, double exact, double largest, const std::string& what) {
   if (std::isnan(exact)) {
     ASSERT_TRUE(std::isnan(ours)) << what << " is " << ours;
@@ -47,14 +48,14 @@ void ExpectNear(float ours, double exact, double largest, const std::string& wha
   }
 }
 
-// Where little is left of a limit, it is the difference of larger numbers.
+// If little remains of a limit, it is the difference of larger numbers.
 void ExpectRemaining(float ours, std::optional<double> exact, double limit) {
   ASSERT_EQ(std::isnan(ours), !exact.has_value());
   if (!exact.has_value()) return;
   ASSERT_NEAR(ours * ours, *exact * *exact, kTolerance * limit * limit);
 }
 
-// As the slow twin answers, a pulse at a time.
+// Expects the answers of the slow twin, pulse by pulse.
 void ExpectTwin(const UncertaintyTable& table, const Query& query, const PulseColumns& pulses,
                 const Answers& answers) {
   std::array<double, kQuantityCount> largest{};
@@ -97,7 +98,7 @@ const std::vector<Query> kQueries = {{},
 class ColumnQuery : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(ColumnQuery);
 
-TEST_P(ColumnQuery, AnswersAsTheSlowTwin) {
+TEST_P(ColumnQuery, AgreesWithTheSlowTwin) {
   for (const UncertaintyTable& table : TablesOfEachKind()) {
     const ColumnInterpolator interpolator(table);
     Columns columns = RandomColumns(table, 3001, 1);
@@ -109,7 +110,7 @@ TEST_P(ColumnQuery, AnswersAsTheSlowTwin) {
   }
 }
 
-TEST_P(ColumnQuery, AnswersAFlightLineAsTheSlowTwin) {
+TEST_P(ColumnQuery, AgreesWithTheSlowTwinOnAFlightLine) {
   for (const UncertaintyTable& table : {SyntheticTable(), LogTable()}) {
     const ColumnInterpolator interpolator(table);
     Columns columns = LineColumns(5000);
@@ -145,7 +146,7 @@ TEST_P(ColumnQuery, IsExactAtEveryNode) {
   }
 }
 
-TEST_P(ColumnQuery, GivesEveryCoordinateTheOutcomeOfTheSlowTwin) {
+TEST_P(ColumnQuery, HasTheOutcomesOfTheSlowTwinAtEveryCoordinate) {
   for (const UncertaintyTable& table : {SyntheticTable(), TinyTable()}) {
     const ColumnInterpolator interpolator(table);
     Columns columns;
@@ -175,7 +176,7 @@ TEST_P(ColumnQuery, GivesEveryCoordinateTheOutcomeOfTheSlowTwin) {
   }
 }
 
-TEST_P(ColumnQuery, WritesWhatIsWantedAndNothingElse) {
+TEST_P(ColumnQuery, WritesOnlyTheWantedColumns) {
   const UncertaintyTable table = SyntheticTable();
   const ColumnInterpolator interpolator(table);
   const Columns columns = RandomColumns(table, 600, 3);

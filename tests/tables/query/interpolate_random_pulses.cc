@@ -1,8 +1,7 @@
 // interpolate_random_pulses TABLE.h5 COUNT
 //
-// Prints COUNT pulses from the domain of the table and what Interpolate() makes of them, as CSV with 9
-// significant digits: the six coordinates, the six quantities, their six standard errors. For another program
-// to check.
+// Prints COUNT random pulses from the domain of the table and the answers of Interpolate() as CSV with 9 significant
+// digits: the six coordinates, the six quantities and their six standard errors. Another program checks them.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +13,7 @@
 namespace albtpu {
 namespace {
 
-// Even on the scale of the axis, so that every cell of the table is visited.
+// Uniform on the scale of the axis, so that every cell of the table is visited.
 float RandomCoordinate(const Axis& axis, std::mt19937& random) {
   std::uniform_real_distribution<double> fraction(0, 1);
   const double first = axis.nodes().front(), last = axis.nodes().back(), f = fraction(random);

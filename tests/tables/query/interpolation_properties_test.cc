@@ -1,4 +1,4 @@
-// What must hold of every answer, whatever the table: on tables of random values, and on a smooth one.
+// Properties of every answer, whatever the table: checked on tables of random values and on a smooth one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<UncertaintyTable> RoughTables() {
   return tables;
 }
 
-// A table, its interpolator, and pulses at random in its domain.
+// A table, its interpolator, and random pulses in its domain.
 class Asked {
  public:
   explicit Asked(const UncertaintyTable& table, std::uint32_t seed = 1)
@@ -59,7 +59,7 @@ class Asked {
     return std::clamp(static_cast<float>(x), static_cast<float>(first), static_cast<float>(last));
   }
 
-  // All numbers of each pulse, which must be in the domain.
+  // All numbers for each pulse. The pulses must be in the domain.
   std::vector<Numbers> Answer(const std::vector<Coordinates>& pulses) const {
     PulseColumns columns{.size = pulses.size(), .axis = {}};
     std::array<std::vector<float>, kAxisCount> axis_columns;
@@ -86,7 +86,7 @@ class Asked {
   }
   Numbers Answer(const Coordinates& at) const { return Answer(std::vector<Coordinates>{at})[0]; }
 
-  // What arithmetic may add to a number between these corners.
+  // The rounding error that a number between these corners may have.
   float Tolerance(Quantity quantity, const std::vector<float>& corners) const {
     float largest = 0;
     for (const float corner : corners) largest = std::max(largest, std::abs(corner));
@@ -126,8 +126,8 @@ TEST_P(EveryAnswer, IsBoundedByTheNodesAroundIt) {
   }
 }
 
-// Just before a node, on it and just behind, a number changes by no more than the step takes it along the
-// cells, whose slope is at most the difference of its corners over the width of the narrower.
+// From just before a node to just after it, a number changes by no more than the step times the slope in the two
+// cells, which is at most the difference of their corners over the width of the narrower cell.
 TEST_P(EveryAnswer, IsContinuousAcrossCells) {
   for (const UncertaintyTable& table : RoughTables()) {
     Asked asked(table);
@@ -149,7 +149,7 @@ TEST_P(EveryAnswer, IsContinuousAcrossCells) {
             for (const float corner : CornersAround(table, quantity, behind).values)
               corners.push_back(corner);
             const auto [least, greatest] = std::minmax_element(corners.begin(), corners.end());
-            // Of a logarithm, the slope is at most the ratio of the corners times the greater.
+            // On a log scale, the slope is at most the greatest corner times the log of the ratio of the corners.
             const bool is_log = table.variable(quantity)->scale == Scale::kLog;
             const double slope = is_log ? *greatest * std::log(*greatest / *least) : *greatest - *least;
             const double most = slope * step + 2 * asked.Tolerance(quantity, corners);
@@ -162,7 +162,7 @@ TEST_P(EveryAnswer, IsContinuousAcrossCells) {
   }
 }
 
-// Azimuths are whole eighths of a degree, so that no turn or mirror rounds.
+// Azimuths are multiples of an eighth of a degree, so that turning and mirroring do not round.
 TEST_P(EveryAnswer, IsSymmetricInAzimuthBitByBit) {
   for (const UncertaintyTable& table : RoughTables()) {
     if (table.axis(AxisId::kAzimuth).size() == 1) continue;
@@ -182,8 +182,7 @@ TEST_P(EveryAnswer, IsSymmetricInAzimuthBitByBit) {
   }
 }
 
-// Where all nodes around two depths grow with it, so do the answers; of the sea's THU and TVU they do
-// everywhere.
+// If all nodes around two depths grow with depth, so do the answers. THU and TVU of the smooth table grow everywhere.
 void ExpectMonotone(const UncertaintyTable& table, bool everywhere) {
   Asked asked(table);
   const Axis& depths = table.axis(AxisId::kDepth);
@@ -220,7 +219,7 @@ TEST_P(EveryAnswer, GrowsWithDepthWhereTheNodesDo) {
   for (const UncertaintyTable& table : RoughTables()) ExpectMonotone(table, false);
 }
 
-TEST_P(EveryAnswer, IsThePulsesOwnWhateverTheBatch) {
+TEST_P(EveryAnswer, DependsOnThePulseAloneWhateverTheBatch) {
   for (const UncertaintyTable& table : RoughTables()) {
     Asked asked(table);
     std::vector<Coordinates> pulses;

@@ -19,8 +19,8 @@ using ::albtpu::testing::TinyTable;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-// A result is rounded to single precision once, half an ulp; twice that allows for the double arithmetic
-// before it.
+// A result is rounded to single precision once, by at most half an ulp. Twice that allows for the errors of the
+// double arithmetic before.
 constexpr float kRounding = std::numeric_limits<float>::epsilon();
 
 Pulse Typical() {
@@ -50,7 +50,7 @@ void ExpectNoNumbers(const PulseUncertainty& uncertainty) {
   for (float value : uncertainty.standard_errors) EXPECT_TRUE(std::isnan(value));
 }
 
-// The slow, obvious twin: one axis after the other, by recursion.
+// A slow, obvious twin: recursion over one axis after the other.
 double Oracle(const UncertaintyTable& table, const std::vector<float>& values, Scale scale, Pulse pulse,
               std::size_t dimensions, std::size_t dimension = 0, std::size_t index = 0) {
   if (dimension == dimensions) return scale == Scale::kLog ? std::log(values[index]) : values[index];
@@ -133,7 +133,7 @@ TEST(Interpolation, OfALogVariableIsTheGeometricMeanHalfway) {
   EXPECT_FLOAT_EQ(Interpolate(TinyTable(), pulse)[Quantity::kThu], 6);
 }
 
-TEST(Interpolation, TakesTheSinglePrecisionNodeThatIsAskedFor) {
+TEST(Interpolation, FindsANodeGivenInSinglePrecision) {
   const UncertaintyTable tiny = TinyTable();
   UncertaintyTable::Axes axes = tiny.axes();
   axes[Index(AxisId::kFootprint)] = MakeAxis(AxisId::kFootprint, {0.1});
@@ -144,7 +144,7 @@ TEST(Interpolation, TakesTheSinglePrecisionNodeThatIsAskedFor) {
   EXPECT_EQ(Interpolate(*table, pulse).outcome, Outcome::kInterpolated);
 }
 
-TEST(Interpolation, NamesTheAxisThatDoesNotReach) {
+TEST(Interpolation, NamesTheAxisThatThePulseIsOutsideOf) {
   const UncertaintyTable table = SyntheticTable();
   const auto outcome = [&](AxisId axis, float coordinate) {
     Pulse pulse = Typical();
@@ -165,7 +165,7 @@ TEST(Interpolation, NamesTheAxisThatDoesNotReach) {
   EXPECT_EQ(outcome(AxisId::kDepth, -0.01f), "OUT_OF_DOMAIN:depth");
 }
 
-TEST(Interpolation, CallsWhatIsNotFiniteInvalid) {
+TEST(Interpolation, IsInvalidWhereACoordinateIsNotFinite) {
   const UncertaintyTable table = SyntheticTable();
   for (AxisId axis : kAxes) {
     for (float coordinate : {kNaN, -kInfinity, kInfinity}) {
@@ -180,7 +180,7 @@ TEST(Interpolation, CallsWhatIsNotFiniteInvalid) {
   }
 }
 
-TEST(Interpolation, PrefersInvalidAndThenTheFirstAxis) {
+TEST(Interpolation, ReportsInvalidBeforeOutOfDomainAndThenTheFirstAxis) {
   const UncertaintyTable table = SyntheticTable();
   Pulse pulse = Typical();
   pulse.incidence = 80;
@@ -193,7 +193,7 @@ TEST(Interpolation, PrefersInvalidAndThenTheFirstAxis) {
   EXPECT_EQ(Interpolate(table, pulse).axis, AxisId::kWindSpeed);
 }
 
-TEST(Interpolation, TakesNoFetchForFullyDeveloped) {
+TEST(Interpolation, TakesAFetchBeyondTheLastNodeAsFullyDeveloped) {
   const UncertaintyTable table = SyntheticTable();
   Pulse last = Typical(), beyond = Typical(), infinite = Typical();
   last.fetch = 1e5f;
@@ -239,7 +239,7 @@ TEST(Interpolation, WithoutAzimuthGivesTheLargerOfDownwindAndCrosswind) {
     EXPECT_EQ(result.values[i], (crosswind_larger ? at_90 : at_0).values[i]);
     EXPECT_EQ(result.standard_errors[i], (crosswind_larger ? at_90 : at_0).standard_errors[i]);
   }
-  // Both happen, and the negative bias along the beam counts by its magnitude.
+  // Both cases occur, and the negative bias along the beam is compared by its magnitude.
   EXPECT_EQ(result[Quantity::kRefractionAlongWind], at_0[Quantity::kRefractionAlongWind]);
   EXPECT_EQ(result[Quantity::kRefractionCrossWind], at_90[Quantity::kRefractionCrossWind]);
   EXPECT_LT(result[Quantity::kBiasAlongBeam], 0);
@@ -263,7 +263,7 @@ TEST(Interpolation, WithoutAzimuthNeedsBothEndsOfTheAxis) {
   EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:wind_speed");
 }
 
-TEST(Interpolation, LacksWhatTheTableLacks) {
+TEST(Interpolation, HasNoNumbersForQuantitiesThatTheTableLacks) {
   const UncertaintyTable table = SyntheticTable({.published = true});
   for (const std::optional<float> azimuth : {std::optional<float>(40.0f), std::optional<float>()}) {
     Pulse pulse = Typical();

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 const std::vector<float> kOne = {5}, kThree = {1, 2, 3};
 
-TEST(PulseColumns, HaveALengthOrOneNumberOrNone) {
+TEST(PulseColumns, HaveOneNumberForEachPulseOrOneForAllOrNone) {
   const PulseColumns pulses{.size = 3, .axis = {kOne, {}, kThree, {}, kOne, kThree}};
   EXPECT_TRUE(CheckLengths(pulses).ok());
   const Pulse second = PulseAt(pulses, 1);
@@ -27,7 +27,7 @@ TEST(PulseColumns, HaveALengthOrOneNumberOrNone) {
   EXPECT_EQ(PulseAt({.size = 3, .axis = {kOne, kOne, kOne, kThree, kOne, kOne}}, 2).azimuth, 3);
 }
 
-TEST(PulseColumns, OfOtherLengthsAreNamed) {
+TEST(PulseColumns, OfWrongLengthAreNamed) {
   for (const std::size_t size : {2, 4}) {
     const absl::Status status = CheckLengths({.size = size, .axis = {kOne, {}, kThree, {}, kOne, kThree}});
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
@@ -35,9 +35,9 @@ TEST(PulseColumns, OfOtherLengthsAreNamed) {
   }
 }
 
-TEST(PulseColumns, MayAllBeEmptyWhereThereAreNoPulses) { EXPECT_TRUE(CheckLengths({}).ok()); }
+TEST(PulseColumns, MayAllBeEmptyIfThereAreNoPulses) { EXPECT_TRUE(CheckLengths({}).ok()); }
 
-TEST(PulseColumns, MayLackTheFetchAndTheAzimuthOnly) {
+TEST(PulseColumns, MayLackOnlyFetchAndAzimuth) {
   for (AxisId absent : kAxes) {
     PulseColumns pulses{.size = 3, .axis = {kOne, kOne, kThree, kThree, kOne, kThree}};
     pulses.axis[Index(absent)] = {};

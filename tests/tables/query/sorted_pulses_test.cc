@@ -21,7 +21,7 @@ constexpr std::size_t kSize = 4096;
 
 class SortedPulsesTest : public testing::OnInstructionSet {
  protected:
-  // Anywhere in the table, incidence and depth by pulse, the others constant.
+  // Incidence and depth are random in the domain of the table, the other coordinates constant.
   SortedPulsesTest()
       : table_(SyntheticTable()), grid_(table_.table()), incidence_(kSize), depth_(kSize), thu_(kSize) {
     std::mt19937 random(1);
@@ -46,27 +46,27 @@ class SortedPulsesTest : public testing::OnInstructionSet {
 };
 ALBTPU_ON_EACH_INSTRUCTION_SET(SortedPulsesTest);
 
-// InterpolateOnAllCores cuts a message of 65 536 pulses into pieces of 8192, of which a block comes first.
-TEST(FewestPulsesToSort, AreFewerThanAPieceInTheTablesThatWeShip) {
+// InterpolateOnAllCores cuts 65 536 pulses into pieces of 8192, and interpolates a block of each piece first.
+TEST(FewestPulsesToSort, AreFewerThanAPieceForTheShippedTables) {
   constexpr std::size_t kSurvey = 721'280, kPiece = 8192 - kBlock;
   EXPECT_LE(SortedPulses::Fewest(kSurvey), kPiece);
   EXPECT_GT(SortedPulses::Fewest(kSurvey), kBlock);
 }
 
-TEST(FewestPulsesToSort, AreMoreThanThereAreInTablesThatStayInTheCacheOrAreTooLarge) {
+TEST(FewestPulsesToSort, AreNeverReachedForTablesThatFitIntoTheCacheOrAreTooLarge) {
   EXPECT_EQ(SortedPulses::Fewest(0), SortedPulses::kNever);
   EXPECT_EQ(SortedPulses::Fewest(50'000), SortedPulses::kNever);
   EXPECT_EQ(SortedPulses::Fewest(20'000'000), SortedPulses::kNever);
 }
 
-TEST_P(SortedPulsesTest, NeighboursShareACell) {
+TEST_P(SortedPulsesTest, PutsPulsesOfACellNextToEachOther) {
   EXPECT_TRUE(IsScattered(pulses_));
   const SortedPulses sorted(grid_, pulses_, 0, kSize);
   ASSERT_EQ(sorted.pulses().size, kSize);
   EXPECT_FALSE(IsScattered(sorted.pulses()));
 }
 
-TEST_P(SortedPulsesTest, PulsesStayWholeAndConstantColumnsWhereTheyAre) {
+TEST_P(SortedPulsesTest, KeepsPulsesTogetherAndConstantColumnsInPlace) {
   const SortedPulses sorted(grid_, pulses_, 8, kSize - 8);
   using Pair = std::pair<float, float>;
   std::vector<Pair> before, after;
@@ -94,7 +94,7 @@ void ForEachColumn(const TwoColumns& wanted, TwoColumns& other, const Visit& vis
   if (wanted.unwanted != nullptr) visit(wanted.unwanted, other.unwanted);
 }
 
-TEST_P(SortedPulsesTest, CopyAnswersBackIntoTheOrderOfThePulses) {
+TEST_P(SortedPulsesTest, CopiesAnswersBackInTheOrderOfThePulses) {
   constexpr std::size_t kBegin = 16, kCount = 4000;
   std::vector<std::uint8_t> outcomes(kSize, 9);
   std::fill(thu_.begin(), thu_.end(), -1.0f);

@@ -1,4 +1,4 @@
-// Tables of other kinds than the sea surface: the fast path gives what the slow twin gives, by the schema alone.
+// Tables of other kinds than the sea surface: the fast path agrees with its slow twin, both by the schema alone.
 #include "tables/query/table_interpolation.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using ::albtpu::testing::RandomTable;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-// The error of single precision: relative, and where corners cancel, of the largest value, which is 1.
+// The error of single precision: relative, and where corners cancel, relative to the largest value, which is 1.
 constexpr double kTolerance = 1e-5, kCancelled = 4e-7;
 
 using Columns = std::array<std::vector<float>, kMaxAxes>;
@@ -34,7 +34,7 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
-// From a little outside the axes; an eighth on nodes; few that are not finite.
+// Uniform in the domain and a little beyond; one in eight on a node; a few NaN or infinite.
 Columns RandomColumns(const Table& table, std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
   Columns columns;
@@ -135,7 +135,7 @@ TEST_P(TableInterpolation, TakesAbsentColumnsAsTheSchemaSays) {
   for (const Table& table : TablesOfOtherKinds()) {
     SCOPED_TRACE(table.schema().name);
     if (table.axes().size() > 1 && table.axes().front().size() == 1)
-      continue;  // Has one heading, which is no end.
+      continue;  // Its only heading is not at an end.
     Columns columns = RandomColumns(table, 3001, 2);
     for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
       if (table.schema().axes[axis].if_absent == IfAbsent::kRefuse) continue;

@@ -26,7 +26,6 @@ constexpr std::array<QuantitySchema, 2> kTwoQuantities = {
     {{"spread", "m", "2 sigma", true, false}, {"shift", "degree", "mean error", false, true}}};
 constexpr std::array<std::size_t, 3> kThreeOrder = {1, 0, 2};
 
-// Only three axes may have rules other than the default ones here: the last must not have two ends.
 constexpr AxisSchema Plain(const char* name, Scale scale) {
   return {.name = name, .units = "1", .long_name = name, .scale = scale};
 }

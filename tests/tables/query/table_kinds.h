@@ -8,8 +8,8 @@
 
 namespace albtpu::testing {
 
-// Three axes, one with each rule for absent columns, and two quantities, of which the bias does not depend on the last
-// axis.
+// Three axes, one with each rule for absent columns, and two quantities, of which the bias does not depend on the
+// last axis.
 extern const TableSchema kThreeAxes;
 // As kThreeAxes, under another name.
 extern const TableSchema kThreeAxesRenamed;
