@@ -55,7 +55,11 @@ class BlockValues {
   const NodeRecords& records_;
   const Needs needs_;
   BlockOf<float> blended_[kRecordSize];  // as consecutive records
-  Columns low_, high_;
+  Columns low_;
+  // Unused. Without it, `low_` and `high_` would be a multiple of 4096 bytes apart, and processors delay a load after a
+  // store to an address with the same last 12 bits.
+  [[maybe_unused]] BlockOf<float> gap_[2];
+  Columns high_;
 };
 
 }  // namespace albtpu
