@@ -1,0 +1,31 @@
+#include "command_line/checks.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "command_line/near_match.h"
+
+namespace albtpu {
+
+CLI::Validator NotEmpty(const std::string& what) {
+  return CLI::Validator(
+      [what](const std::string& text) { return text.empty() ? "is empty; name a " + what : std::string(); },
+      "");
+}
+
+CLI::Validator OneOf(const std::vector<std::string>& words) {
+  return CLI::Validator(
+      [words](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+        const std::string choices = absl::StrJoin(words, ", ");
+        const std::optional<std::string> near = NearMatch(text, words);
+        return near ? absl::StrCat("'", text, "' is unknown (there are ", choices, "); did you mean ", *near,
+                                   "?")
+                    : absl::StrCat("'", text, "' is unknown; give one of ", choices);
+      },
+      "");
+}
+
+}  // namespace albtpu

@@ -1,0 +1,16 @@
+// What several programs check alike about the value of an option. Each answers with what is wrong, as CLI11 asks for.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace albtpu {
+
+// A text that is not empty, such as the name of a `what`.
+CLI::Validator NotEmpty(const std::string& what);
+
+// One of `words`; a near match is named.
+CLI::Validator OneOf(const std::vector<std::string>& words);
+
+}  // namespace albtpu
