@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
+#include "generator/campaign/campaign_keys.h"
 #include "generator/campaign/toml_reader.h"
 #include "sea/angle.h"
-#include "sea/response/refraction.h"
 #include "tables/format.h"
 #include "tables/provenance.h"
 
@@ -20,11 +19,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A campaign of hundreds of nodes has a tenth of it. Longer texts could hold keys that nest so deep ("a.a.a
-// ...") that the reader of TOML, which calls itself for each level, would run out of stack.
+// A campaign of hundreds of nodes has a tenth of this. A longer text could nest keys so deeply ("a.a.a ...") that the
+// TOML parser, which recurses into each level, would overflow the stack.
 constexpr std::size_t kMostBytes = 32768;
 
-// Nodes are kept in single precision, as tables are: 0.1 in the file is the float nearest to it.
+// Nodes are kept in single precision, as in tables: 0.1 in the file becomes the float nearest to it.
 std::vector<double> InSinglePrecision(std::vector<double> nodes) {
   for (double& node : nodes) node = static_cast<float>(node);
   return nodes;
@@ -58,78 +57,53 @@ absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch
 
 using Nodes = std::array<std::vector<double>, kAxisCount>;
 
-Nodes ReadNodes(TomlReader& toml) {
+// In the order of AxisId.
+constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindSpeed, campaign_keys::kFetch,
+                                                           campaign_keys::kIncidence, campaign_keys::kAzimuth,
+                                                           campaign_keys::kFootprint, campaign_keys::kDepth};
+
+Nodes ReadAllNodes(TomlReader& toml) {
   Nodes nodes;
   for (const AxisId axis : kAxes) {
-    nodes[Index(axis)] = InSinglePrecision(toml.Numbers("axes", Describe(axis).name));
+    nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, kAxisKeys[Index(axis)]));
   }
   return nodes;
 }
 
-// "apel" or "elfouhaily", for messages.
-std::string SpectrumKeys() {
-  return absl::StrJoin(kSpectrumModels, " or ", [](std::string* keys, const SpectrumModel* model) {
-    absl::StrAppend(keys, "\"", std::string(model->key), "\"");
-  });
-}
-
 WindSea ReadWindSea(TomlReader& toml) {
   WindSea sea;
-  const std::string key = toml.Text("sea", "spectrum", sea.model->key);
-  if (const SpectrumModel* model = FindSpectrumModel(key)) {
-    sea.model = model;
-  } else {
-    toml.Fail(absl::StrCat("'sea.spectrum' must be ", SpectrumKeys()));
-  }
-  constexpr double kNotGiven = 0;
-  const double spreading = toml.Number("sea", "spreading", 0.5, 30, kNotGiven);
-  if (spreading != kNotGiven) sea.spreading = spreading;
-  if (spreading != kNotGiven && !sea.model->takes_spreading) {
-    toml.Fail(absl::StrCat("'sea.spreading' is not taken by \"", key,
+  const std::string spectrum = ReadText(toml, campaign_keys::kSpectrum);
+  if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
+  const std::optional<double> spreading = ReadNumber(toml, campaign_keys::kSpreading);
+  if (spreading && !sea.model->takes_spreading) {
+    toml.Fail(absl::StrCat("'sea.spreading' is not taken by \"", spectrum,
                            "\", which has a spreading of its own: leave it out"));
   }
+  sea.spreading = spreading.value_or(sea.spreading);
   return sea;
 }
 
 Effort ReadEffort(TomlReader& toml) {
-  constexpr int kMost = 10'000'000;
-  constexpr int kMostUnlessSaid = 40'000;
+  using namespace campaign_keys;
   Effort effort;
-  effort.realizations = static_cast<int>(toml.Integer("effort", "realizations", 2, kMost).value_or(1000));
-  effort.relative_error = toml.Number("effort", "relative_error", 1e-4, 0.5, 0);
-  const std::string estimator = toml.Text("effort", "estimator", Name(effort.estimator));
-  if (const std::optional<Estimator> found = FindEstimator(estimator)) {
-    effort.estimator = *found;
-  } else {
-    toml.Fail("'effort.estimator' must be \"control_variate\" or \"plain\"");
-  }
-  const int most =
-      effort.relative_error > 0 ? std::max(effort.realizations, kMostUnlessSaid) : effort.realizations;
-  effort.most_realizations = static_cast<int>(
-      toml.Integer("effort", "most_realizations", effort.realizations, kMost).value_or(most));
+  effort.realizations = static_cast<int>(*ReadWhole(toml, kRealizations));
+  effort.relative_error = ReadNumber(toml, kRelativeError).value_or(0);
+  effort.estimator = FindEstimator(ReadText(toml, kEstimator)).value_or(effort.estimator);
+  const int most = effort.relative_error > 0 ? std::max(effort.realizations, kMostRealizationsUnlessGiven)
+                                             : effort.realizations;
+  const auto& range = std::get<WholeRange>(kMostRealizationsOfBeam.values);
+  effort.most_realizations =
+      static_cast<int>(toml.Integer(kMostRealizationsOfBeam.table, kMostRealizationsOfBeam.name,
+                                    std::max<std::int64_t>(effort.realizations, range.least), range.most)
+                           .value_or(most));
   return effort;
 }
 
-// Beyond the rules of all axes, those of a sea that can be simulated.
+// Checks the rules for a sea that can be simulated, and then those of all axes.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
   for (const AxisId axis : kAxes) {
-    if (nodes[Index(axis)].empty()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("'axes.", std::string(Describe(axis).name), "' has no node: give at least one"));
-    }
-  }
-  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch, AxisId::kFootprint}) {
-    if (nodes[Index(axis)].front() <= 0) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("node 0 of 'axes.", std::string(Describe(axis).name), "' must be above 0"));
-    }
-  }
-  constexpr double kGreatestIncidence = 60;  // degree; beyond it waves hide behind each other
-  if (nodes[Index(AxisId::kIncidence)].back() > kGreatestIncidence) {
-    return absl::InvalidArgumentError(
-        "the last node of 'axes.incidence' is above 60 degrees: waves would hide behind each other, which is "
-        "not "
-        "modelled");
+    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
+    if (!problem.empty()) return absl::InvalidArgumentError(problem);
   }
   const absl::Status fetch =
       ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
@@ -144,9 +118,9 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Node
   return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
 }
 
-// What the table would refuse after the work is refused before it.
+// Refuses before the computation what the table would refuse after it.
 absl::Status CheckTable(const Campaign& campaign) {
-  std::size_t most_nodes = format::kMaxValueCount;  // Of all axes together: their product could overflow.
+  std::size_t most_nodes = format::kMaxValueCount;  // divided, since the product of all axes could overflow
   for (const Axis& axis : campaign.axes) most_nodes /= axis.size();
   if (most_nodes == 0) {
     return absl::InvalidArgumentError(absl::StrCat("the axes make more cells than a table holds (",
@@ -171,27 +145,20 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   if (!parsed.ok()) return parsed.status();
   TomlReader& toml = *parsed;
 
-  const std::string id = toml.Text("", "id");
-  const std::string version = toml.Text("", "version");
-  const std::string title = toml.Text("", "title");
-  const auto seed = toml.Integer("", "seed", 0, std::numeric_limits<std::int64_t>::max());
-  const Nodes nodes = ReadNodes(toml);
-  const std::optional<BeamProfile> profile =
-      FindBeamProfile(toml.Text("beam", "profile", Name(BeamProfile::kUniform)));
-  if (!profile) toml.Fail("'beam.profile' must be \"uniform\" or \"gaussian\"");
-  const double source_height = toml.Number("beam", "source_height", 0.1, kInfinity, kInfinity);
-  const double refractive_index = toml.Number("water", "refractive_index", 1.01, 2, kRefractiveIndex);
-  constexpr double kShortestCorrected = 0.1;  // m
+  const std::string id = ReadText(toml, campaign_keys::kId);
+  const std::string version = ReadText(toml, campaign_keys::kVersion);
+  const std::string title = ReadText(toml, campaign_keys::kTitle);
+  const std::optional<std::int64_t> seed = ReadWhole(toml, campaign_keys::kSeed);
+  const Nodes nodes = ReadAllNodes(toml);
+  const std::string profile = ReadText(toml, campaign_keys::kProfile);
+  const std::optional<double> source_height = ReadNumber(toml, campaign_keys::kSourceHeight);
+  const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
   const WindSea wind_sea = ReadWindSea(toml);
-  const double corrected_above =
-      toml.Number("sea", "corrected_above", kShortestCorrected, kInfinity, kInfinity);
+  const std::optional<double> corrected_above = ReadNumber(toml, campaign_keys::kCorrectedAbove);
   const Effort effort = ReadEffort(toml);
-  const auto rays = toml.Integer("effort", "rays", 100, kMostRays);
-  const std::string node_values = toml.Text("interpolation", "nodes", "exact");
-  if (node_values != "exact" && node_values != "balanced") {
-    toml.Fail("'interpolation.nodes' must be \"exact\" or \"balanced\"");
-  }
-  const auto checked_pulses = toml.Integer("interpolation", "checked_pulses", 1, 10'000);
+  const std::optional<std::int64_t> rays = ReadWhole(toml, campaign_keys::kRays);
+  const std::string node_values = ReadText(toml, campaign_keys::kNodes);
+  const std::optional<std::int64_t> checked_pulses = ReadWhole(toml, campaign_keys::kCheckedPulses);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(*wind_sea.model, nodes);
@@ -200,17 +167,17 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .id = id,
                     .version = version,
                     .title = title,
-                    .seed = static_cast<std::uint64_t>(seed.value_or(1)),
+                    .seed = static_cast<std::uint64_t>(*seed),
                     .axes = *std::move(axes),
-                    .profile = *profile,
-                    .source_height = source_height,
-                    .refractive_index = refractive_index,
+                    .profile = *FindBeamProfile(profile),
+                    .source_height = *source_height,
+                    .refractive_index = *refractive_index,
                     .wind_sea = wind_sea,
-                    .corrected_above = corrected_above,
+                    .corrected_above = *corrected_above,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
   campaign.balanced_nodes = node_values == "balanced";
-  if (checked_pulses) campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
+  campaign.checked_pulses = static_cast<std::size_t>(*checked_pulses);
   if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
   return campaign;
 }
@@ -218,11 +185,11 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
 absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is a folder: name a campaign file"));
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is a folder; name a campaign file"));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such campaign file, or not readable"));
+    return absl::NotFoundError(absl::StrCat(path.string(), ": no such campaign file, or it cannot be read"));
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   absl::StatusOr<Campaign> campaign = ParseCampaign(text);
   if (!campaign.ok()) {

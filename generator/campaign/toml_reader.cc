@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "command_line/near_match.h"
 
 namespace albtpu {
 namespace {
@@ -83,6 +84,7 @@ const toml::node* TomlReader::Find(std::string_view table, std::string_view key)
 
 template <typename T>
 T TomlReader::Missing(std::string_view table, std::string_view key, std::string_view right) {
+  something_is_missing_ = something_is_missing_ || error_.ok();
   Fail(absl::StrCat("'", FullName(table, key), "' is missing: give ", std::string(right)));
   return {};
 }
@@ -101,10 +103,25 @@ void TomlReader::CheckForUnknownKeys(const toml::table& table, const std::string
     if (prefix.empty() && node.is_table()) {
       CheckForUnknownKeys(*node.as_table(), name + ".");
     } else if (!known_.contains(name)) {
-      Fail(absl::StrCat("'", name, "' in line ", node.source().begin.line,
-                        " is not a key of a campaign; there are ", absl::StrJoin(known_, ", ")));
+      const std::optional<std::string> near = NearestKnown(name);
+      if (near && something_is_missing_) {
+        error_ = absl::OkStatus();
+        something_is_missing_ = false;
+      }
+      Fail(absl::StrCat("'", name, "' in line ", node.source().begin.line, " is not a key of a campaign; ",
+                        near ? absl::StrCat("did you mean '", *near, "'?")
+                             : absl::StrCat("there are ", absl::StrJoin(known_, ", "))));
     }
   }
+}
+
+// A key of the same name in another table, otherwise a near match.
+std::optional<std::string> TomlReader::NearestKnown(const std::string& name) const {
+  const auto own_name = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  for (const std::string& known : known_) {
+    if (own_name(known) == own_name(name)) return known;
+  }
+  return NearMatch(name, std::vector<std::string>(known_.begin(), known_.end()));
 }
 
 }  // namespace albtpu

@@ -1,5 +1,5 @@
-// Reads the keys of a TOML file one by one and remembers the first thing that is wrong, so that a reader of
-// many keys stays a list of keys.
+// Reads the keys of a TOML file one by one and remembers the first problem, so that code that reads many keys needs to
+// check for errors only once.
 #pragma once
 
 #include <toml++/toml.h>
@@ -16,32 +16,32 @@
 
 namespace albtpu {
 
-// Keys are named by the table they stand in ("" for the root) and their own name. A key that is missing, of
-// another type or out of its range yields an empty value; `Finish` then says which, in which line, and what
-// would be right.
+// Keys are named by their table ("" for the root) and their own name. A key that is missing, of another type or out of
+// range yields an empty value; `Finish` then returns an error with the key, its line and the values that it takes.
 class TomlReader {
  public:
-  // InvalidArgument with the line when `text` is not TOML.
+  // InvalidArgument with the line if `text` is not TOML.
   static absl::StatusOr<TomlReader> Parse(std::string_view text);
 
-  // A text; `absent` where the key is missing, which is wrong if there is no `absent`.
+  // A text; `absent` if the key is missing, which is a problem without an `absent`.
   std::string Text(std::string_view table, std::string_view key,
                    std::optional<std::string_view> absent = std::nullopt);
 
-  // A number in [least, most]; `absent` where the key is missing.
+  // A number in [least, most]; `absent` if the key is missing.
   double Number(std::string_view table, std::string_view key, double least, double most, double absent);
 
-  // A whole number in [least, most]; nothing where the key is missing.
+  // A whole number in [least, most]; nothing if the key is missing.
   std::optional<std::int64_t> Integer(std::string_view table, std::string_view key, std::int64_t least,
                                       std::int64_t most);
 
-  // A list of numbers, which must not be missing.
+  // A list of numbers; it is a problem if the key is missing.
   std::vector<double> Numbers(std::string_view table, std::string_view key);
 
-  // Remembers a problem that the caller saw.
+  // Remembers a problem that the caller found.
   void Fail(std::string_view problem);
 
-  // The first problem, or else a key that nobody asked for.
+  // The first problem, otherwise a key that was not asked for. Such a key comes first if something is missing and it
+  // may be that, misspelt.
   absl::Status Finish();
 
  private:
@@ -53,10 +53,12 @@ class TomlReader {
   template <typename T>
   T Wrong(const toml::node& node, std::string_view table, std::string_view key, std::string_view right);
   void CheckForUnknownKeys(const toml::table& table, const std::string& prefix);
+  std::optional<std::string> NearestKnown(const std::string& name) const;
 
   toml::table root_;
-  std::set<std::string> known_;
-  absl::Status error_;
+  std::set<std::string> known_;        // the keys that were asked for
+  absl::Status error_;                 // the first problem
+  bool something_is_missing_ = false;  // that is the first problem
 };
 
 }  // namespace albtpu

@@ -50,7 +50,7 @@ WindSea WindSeaOf(const Campaign& campaign, std::size_t sea_case) {
   return std::get<WindSea>(SeaCaseOf(campaign, sea_case).sea.waves);
 }
 
-TEST(Campaign, KeepsWhatItsFileSays) {
+TEST(Campaign, HasTheValuesOfItsFile) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(kSmall);
   ASSERT_TRUE(campaign.ok()) << campaign.status();
   EXPECT_EQ(campaign->text, kSmall);
@@ -71,7 +71,7 @@ TEST(Campaign, ResolvesInfiniteFetchToFullDevelopmentOfTheStrongestWind) {
   for (const double wind : {3.0, 6.0}) EXPECT_EQ(ApelSpectrum::InverseWaveAge(wind, last), 0.84);
 }
 
-TEST(Campaign, TakesTheSeaThatItsFileNames) {
+TEST(Campaign, UsesTheSpectrumOfItsFile) {
   const absl::StatusOr<Campaign> apel = ParseCampaign(kSmall);
   ASSERT_TRUE(apel.ok()) << apel.status();
   EXPECT_EQ(WindSeaOf(*apel, 0).model, &kApelModel);
@@ -82,12 +82,12 @@ TEST(Campaign, TakesTheSeaThatItsFileNames) {
   ASSERT_TRUE(other.ok()) << other.status();
   EXPECT_EQ(WindSeaOf(*other, 0).model, &kElfouhailyModel);
   EXPECT_EQ(SeaCaseOf(*other, 0).sea.corrected_above, 30);
-  // Its sea develops over a longer fetch; the last node is the sea that has.
+  // Elfouhaily's sea needs a longer fetch for full development; the last node is at that fetch.
   EXPECT_NEAR(other->nodes(AxisId::kFetch).back() / ElfouhailySpectrum::FullyDevelopedFetch(6), 1, 1e-6);
   EXPECT_TRUE(std::isinf(WindSeaOf(*other, 7).fetch));
 }
 
-TEST(Campaign, MayAskForTracingAlone) {
+TEST(Campaign, CanAskForRayTracingAlone) {
   const absl::StatusOr<Campaign> campaign = ParseCampaign(std::string(kSmall) + "estimator = \"plain\"\n");
   ASSERT_TRUE(campaign.ok()) << campaign.status();
   EXPECT_EQ(campaign->effort.estimator, Estimator::kPlain);
@@ -96,7 +96,7 @@ TEST(Campaign, MayAskForTracingAlone) {
               HasSubstr("'effort.estimator' must be \"control_variate\" or \"plain\""));
 }
 
-TEST(Campaign, NamesWhatIsWrongWithItsSea) {
+TEST(Campaign, RefusesWrongKeysOfTheSea) {
   const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
   EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),
               HasSubstr("'sea.spectrum' must be \"apel\" or \"elfouhaily\""));
@@ -120,7 +120,7 @@ TEST(Campaign, OrdersSeaCasesByWindFetchAndFootprint) {
   EXPECT_EQ(sea_case.beams[3].azimuth, RadiansOfDegrees(90));
 }
 
-TEST(Campaign, NamesTheLineThatIsNotToml) {
+TEST(Campaign, StatesTheLineThatIsNotToml) {
   EXPECT_THAT(ErrorOf("id = \"x\"\nversion = = 2\n"), StartsWith("line 2 is not TOML"));
 }
 
@@ -129,12 +129,23 @@ TEST(Campaign, NamesAMissingKey) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]\n", "")), HasSubstr("'axes.depth' is missing"));
 }
 
-TEST(Campaign, NamesAKeyThatItDoesNotKnow) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations", "realisations")),
-              HasSubstr("'effort.realisations' in line 13 is not a key of a campaign"));
+TEST(Campaign, NamesAnUnknownKeyAndItsNearMatch) {
+  EXPECT_EQ(
+      ErrorOf(Replaced(kSmall, "realizations", "realisations")),
+      "'effort.realisations' in line 13 is not a key of a campaign; did you mean 'effort.realizations'?");
+  EXPECT_EQ(ErrorOf(std::string(kSmall) + "seed = 2\n"),  // in [effort]
+            "'effort.seed' in line 14 is not a key of a campaign; did you mean 'seed'?");
+  EXPECT_THAT(ErrorOf(std::string(kSmall) + "color = 2\n"),
+              HasSubstr("'effort.color' in line 14 is not a key of a campaign; there are axes.azimuth, "));
 }
 
-TEST(Campaign, NamesAValueOfTheWrongKind) {
+TEST(Campaign, NamesAMisspeltKeyRatherThanTheOneThatIsMissing) {
+  EXPECT_EQ(ErrorOf(Replaced(kSmall, "depth", "deph")),
+            "'axes.deph' in line 11 is not a key of a campaign; did you mean 'axes.depth'?");
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth", "colors")), HasSubstr("'axes.depth' is missing"));
+}
+
+TEST(Campaign, RefusesAValueOfTheWrongType) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "\"strong\"")),
               HasSubstr("'axes.wind_speed' in line 6 must be a list of numbers"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations = 50", "realizations = 1")),
@@ -145,18 +156,18 @@ TEST(Campaign, RefusesNodesOutOfOrder) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0, 20]", "[20, 0]")), HasSubstr("nodes must increase"));
 }
 
-TEST(Campaign, RefusesNodesThatAreNoNumbers) {
+TEST(Campaign, RefusesNodesThatAreNotFiniteOrNegative) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[3, nan]")), HasSubstr("wind_speed"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = [-1, 10]")), HasSubstr("depth"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth = [0, 10]", "depth = []")), HasSubstr("depth"));
 }
 
-TEST(Campaign, RefusesStillAirAndABeamWithoutWidth) {
+TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[0, 6]")), HasSubstr("'axes.wind_speed' must be above 0"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
 }
 
-TEST(Campaign, AsksForTheFullyDevelopedSeaAsTheLastFetch) {
+TEST(Campaign, RequiresTheFullyDevelopedSeaAsTheLastFetch) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1000, 5000]")), HasSubstr("must be inf"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[1000, inf]", "[1e7, inf]")), HasSubstr("beyond full development"));
 }
@@ -170,7 +181,7 @@ TEST(Campaign, RefusesMoreCellsThanATableHolds) {
   EXPECT_THAT(ErrorOf(text), HasSubstr("more cells than a table holds"));
 }
 
-TEST(Campaign, RefusesATextThatNestsAsDeepAsItIsLong) {
+TEST(Campaign, RefusesATextThatCouldNestTooDeeply) {
   std::string key = "a";
   while (key.size() < 32000) key += ".a";
   EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("'id' is missing"));
@@ -178,7 +189,7 @@ TEST(Campaign, RefusesATextThatNestsAsDeepAsItIsLong) {
   EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("a campaign has 32768 at most"));
 }
 
-TEST(Campaign, BeginsMessagesOfAFileWithItsPath) {
+TEST(Campaign, BeginsErrorsOfAFileWithItsPath) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "bad.toml";
   std::ofstream(path) << "id = 3\n";

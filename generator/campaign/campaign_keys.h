@@ -1,0 +1,202 @@
+// The keys of a campaign file: the list by which they are read and checked, and of which docs/campaign.md is made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "generator/campaign/toml_reader.h"
+#include "generator/surface/discretization.h"
+#include "sea/response/refraction.h"
+#include "sea/wave_state.h"
+
+namespace albtpu {
+
+// The values that a key takes.
+struct AnyText {
+  std::string_view rule;  // what it must be, for people; checked elsewhere
+};
+struct Choice {
+  std::span<const std::string_view> words;
+};
+struct NumberRange {
+  double least, most;  // both included
+};
+struct WholeRange {
+  std::int64_t least, most;  // both included
+};
+struct NodeRange {
+  double least;  // of the first node
+  bool includes_least;
+  double most;  // of the last node, included
+  std::string_view why_most = {};
+};
+using KeyValues = std::variant<AnyText, Choice, NumberRange, WholeRange, NodeRange>;
+
+// What is taken where the key is missing.
+struct Required {};
+struct Derived {
+  std::string_view rule;  // for people; whoever reads the key follows it
+};
+using KeyDefault = std::variant<Required, Derived, std::string_view, double, std::int64_t>;
+
+struct CampaignKey {
+  std::string_view table;  // empty for keys before the first table of the file
+  std::string_view name;
+  KeyValues values;
+  std::string_view unit;  // empty if there is none
+  KeyDefault absent;
+  std::string_view meaning;
+};
+
+namespace campaign_keys {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr std::int64_t kMostRealizations = 10'000'000;
+inline constexpr int kMostRealizationsUnlessGiven = 40'000;
+
+inline constexpr std::string_view kProfiles[] = {"uniform", "gaussian"};
+inline constexpr std::string_view kEstimators[] = {"control_variate", "plain"};
+inline constexpr std::string_view kNodeValues[] = {"exact", "balanced"};
+
+// clang-format off
+inline constexpr CampaignKey kId = {
+    "", "id", AnyText{"lowercase letters, digits, `-` and `_`, beginning with a letter or a digit"}, "", Required{},
+    "Name of the table."};
+inline constexpr CampaignKey kVersion = {
+    "", "version", AnyText{"not empty"}, "", Required{},
+    "Distinguishes tables of the same name."};
+inline constexpr CampaignKey kTitle = {
+    "", "title", AnyText{"one line"}, "", Required{},
+    "What the table is for, in words."};
+inline constexpr CampaignKey kSeed = {
+    "", "seed", WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", std::int64_t{1},
+    "Seed of all random numbers. The same seed gives the same table."};
+
+inline constexpr CampaignKey kWindSpeed = {
+    "axes", "wind_speed", NodeRange{0, false, kInfinity}, "m/s", Required{},
+    "Wind speed at 10 m above the sea."};
+inline constexpr CampaignKey kFetch = {
+    "axes", "fetch", NodeRange{0, false, kInfinity}, "m", Required{},
+    "Fetch. The last node must be `inf`, the fully developed sea; all others must be below the fetch of full "
+    "development of the strongest wind. Interpolated on a log scale."};
+inline constexpr CampaignKey kIncidence = {
+    "axes", "incidence", NodeRange{0, true, 60, "waves would hide behind each other, which is not modelled"}, "degree",
+    Required{},
+    "Angle of the beam from the vertical, in air."};
+inline constexpr CampaignKey kAzimuth = {
+    "axes", "azimuth", NodeRange{0, true, 90, "azimuths are folded into 0 to 90 degrees by symmetry"}, "degree",
+    Required{},
+    "Horizontal direction of the beam from downwind."};
+inline constexpr CampaignKey kFootprint = {
+    "axes", "footprint", NodeRange{0, false, kInfinity}, "m", Required{},
+    "Diameter of the beam at the mean surface, across its axis. Interpolated on a log scale."};
+inline constexpr CampaignKey kDepth = {
+    "axes", "depth", NodeRange{0, true, kInfinity}, "m", Required{},
+    "Depth of the bottom below the located surface."};
+
+inline constexpr CampaignKey kProfile = {
+    "beam", "profile", Choice{kProfiles}, "", std::string_view("uniform"),
+    "Intensity across the beam. `footprint` is the diameter of a uniform beam, and of a gaussian one where its "
+    "intensity is 1/e^2 of that on the axis."};
+inline constexpr CampaignKey kSourceHeight = {
+    "beam", "source_height", NumberRange{0.1, kInfinity}, "m", kInfinity,
+    "Height of the point source that the beam diverges from. `inf` is a collimated beam."};
+
+inline constexpr CampaignKey kRefractiveIndexOfWater = {
+    "water", "refractive_index", NumberRange{1.01, 2}, "", kRefractiveIndex,
+    "Index of refraction of the water relative to air."};
+
+inline constexpr CampaignKey kSpectrum = {
+    "sea", "spectrum", Choice{kSpectrumKeys}, "", std::string_view("apel"),
+    "Spectrum of the waves."};
+inline constexpr CampaignKey kSpreading = {
+    "sea", "spreading", NumberRange{0.5, 30}, "", Derived{"2 for `apel`"},
+    "Exponent s of the cosine-2S spreading of `apel`. Not allowed with `elfouhaily`, which has its own spreading."};
+inline constexpr CampaignKey kCorrectedAbove = {
+    "sea", "corrected_above", NumberRange{0.1, kInfinity}, "m", kInfinity,
+    "Waves longer than this are left out: the local slope of the surface was measured and refraction corrected for "
+    "it."};
+
+inline constexpr CampaignKey kRealizations = {
+    "effort", "realizations", WholeRange{2, kMostRealizations}, "", std::int64_t{1000},
+    "Random surfaces for each beam, at least."};
+inline constexpr CampaignKey kRelativeError = {
+    "effort", "relative_error", NumberRange{1e-4, 0.5}, "", Derived{"none: exactly `realizations`"},
+    "Add realizations until refraction, THU and TVU have this relative standard error where they are at least 0.01 "
+    "degrees or 1 mm."};
+inline constexpr CampaignKey kMostRealizationsOfBeam = {
+    "effort", "most_realizations", WholeRange{2, kMostRealizations}, "",
+    Derived{"40000, or `realizations` if that is more"},
+    "Stop at this number even if `relative_error` is not reached. At least `realizations`; used only with "
+    "`relative_error`."};
+inline constexpr CampaignKey kEstimator = {
+    "effort", "estimator", Choice{kEstimators}, "", std::string_view("control_variate"),
+    "`control_variate` computes from the slopes of each surface what is known in closed form and traces the "
+    "difference; `plain` is ray tracing alone, slower for the same error."};
+inline constexpr CampaignKey kRays = {
+    "effort", "rays", WholeRange{100, kMostRays}, "", Derived{"chosen from spectrum and footprint"},
+    "Rays of each beam."};
+
+inline constexpr CampaignKey kNodes = {
+    "interpolation", "nodes", Choice{kNodeValues}, "", std::string_view("exact"),
+    "`balanced` shifts node values by a twelfth of their second difference along each axis but depth, which nearly "
+    "halves the rms error of interpolation; `exact` keeps them as computed."};
+inline constexpr CampaignKey kCheckedPulses = {
+    "interpolation", "checked_pulses", WholeRange{1, 10'000}, "", std::int64_t{40},
+    "Random pulses between the nodes at which the table is compared with direct computation, which gives its "
+    "interpolation error."};
+// clang-format on
+
+}  // namespace campaign_keys
+
+// All of them, in the order of the reference.
+inline constexpr std::array kCampaignKeys = {
+    campaign_keys::kId,
+    campaign_keys::kVersion,
+    campaign_keys::kTitle,
+    campaign_keys::kSeed,
+    campaign_keys::kWindSpeed,
+    campaign_keys::kFetch,
+    campaign_keys::kIncidence,
+    campaign_keys::kAzimuth,
+    campaign_keys::kFootprint,
+    campaign_keys::kDepth,
+    campaign_keys::kProfile,
+    campaign_keys::kSourceHeight,
+    campaign_keys::kRefractiveIndexOfWater,
+    campaign_keys::kSpectrum,
+    campaign_keys::kSpreading,
+    campaign_keys::kCorrectedAbove,
+    campaign_keys::kRealizations,
+    campaign_keys::kRelativeError,
+    campaign_keys::kMostRealizationsOfBeam,
+    campaign_keys::kEstimator,
+    campaign_keys::kRays,
+    campaign_keys::kNodes,
+    campaign_keys::kCheckedPulses,
+};
+
+// Each reads a key of one kind of values, checks its range, and returns its default where it is missing, or nothing if
+// the default is Derived. TomlReader::Finish returns the problem, if there is one.
+std::string ReadText(TomlReader& toml, const CampaignKey& key);  // AnyText or Choice
+std::optional<double> ReadNumber(TomlReader& toml, const CampaignKey& key);
+std::optional<std::int64_t> ReadWhole(TomlReader& toml, const CampaignKey& key);
+std::vector<double> ReadNodes(TomlReader& toml, const CampaignKey& key);  // see NodesProblem
+
+// What is wrong with nodes that ReadNodes gave; empty if nothing is. Their order is checked by Axis::Create.
+std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);
+
+// "effort.rays".
+std::string FullName(const CampaignKey& key);
+
+// The reference of all keys, docs/campaign.md.
+std::string CampaignReference();
+
+}  // namespace albtpu
