@@ -1,4 +1,4 @@
-// The commands of albtpu-generate: options, already checked as flags, and running them.
+// The commands of albtpu-generate: their options, which are checked already, and running them.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ struct Shard {
 
 struct TableOptions {
   std::filesystem::path campaign;
-  std::filesystem::path output;  // empty with `shard`, which makes no table
+  std::filesystem::path output;  // empty with `shard`, which writes no table
   bool overwrite = false;
-  std::filesystem::path work;  // a folder; empty: nothing is kept but the table
+  std::filesystem::path work;  // a folder; empty to keep only the table
   bool resume = false;
   std::optional<Shard> shard;
 };
@@ -36,9 +36,11 @@ absl::Status RunMerge(const MergeOptions& options);
 
 struct PlanOptions {
   std::filesystem::path campaign;
-  int cores = 0;  // to say the time of, beside this machine's; 0: none
+  int cores = 0;  // to print the time on, besides this machine; 0 for none
 };
 absl::Status RunPlan(const PlanOptions& options);
+
+absl::Status RunKeys();
 
 struct PointOptions {
   double wind_speed = 0;                                             // m/s
@@ -46,10 +48,10 @@ struct PointOptions {
   std::string spectrum{WindSea().model->key};                        // of kSpectrumModels
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   double incidence = 0;                                              // degree
-  std::optional<double> azimuth;                                     // degree; absent: the worse of 0 and 90
-  double footprint = 0;                                              // m
-  std::vector<double> depth;                                         // m
-  std::string profile = "uniform";                                   // or "gaussian"
+  std::optional<double> azimuth;    // degree; without it, the worse of 0 and 90
+  double footprint = 0;             // m
+  std::vector<double> depth;        // m
+  std::string profile = "uniform";  // or "gaussian"
   double refractive_index = 1.33;
   double relative_error = 0.01;
   std::string estimator = "control_variate";  // or "plain"

@@ -1,4 +1,4 @@
-// albtpu-generate: flags -> options -> run.
+// albtpu-generate: parses the arguments into the options of a command, and runs it.
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -8,19 +8,26 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "command_line/checks.h"
+#include "command_line/exit_codes.h"
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
+#include "command_line/usage_error.h"
 #include "generator/commands/commands.h"
 #include "sea/wave_state.h"
 #include "tables/version.h"
 
 namespace {
 
+using albtpu::EndHelp;
+using albtpu::Group;
 using albtpu::MergeOptions;
 using albtpu::PlanOptions;
 using albtpu::PointOptions;
@@ -28,18 +35,23 @@ using albtpu::Shard;
 using albtpu::TableOptions;
 using albtpu::ValidateOptions;
 
-constexpr int kFailure = 1, kBadUsage = 2;
+// The headings under which --help lists options.
+constexpr char kFiles[] = "Files", kWork[] = "The computation";
 
-// A finite number in a range, both ends included unless `open_below`; "nan" and "inf" are numbers to CLI11.
+constexpr char kSeeKeys[] = "`albtpu-generate keys` describes the keys of a campaign file.";
+
+// A finite number in a range that includes both ends, or not `least` if `open_below`. CLI11 parses "nan" and "inf" as
+// numbers.
 CLI::Validator NumberIn(double least, double most, bool open_below = false) {
-  const std::string right = std::string("a number ") + (open_below ? "above " : "from ") +
-                            CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
+  const std::string remedy = std::string("give a number ") + (open_below ? "above " : "from ") +
+                             CLI::detail::to_string(least) + (open_below ? " and up to " : " to ") +
+                             CLI::detail::to_string(most);
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double x = 0;
         const bool number = CLI::detail::lexical_cast(text, x);
         if (number && std::isfinite(x) && x <= most && (open_below ? x > least : x >= least)) return {};
-        return "'" + text + "' is not " + right;
+        return "'" + text + "' is not a finite number in the range; " + remedy;
       },
       "", "number");
 }
@@ -49,7 +61,7 @@ CLI::Validator Fetch() {
       [](std::string& text) -> std::string {
         double x = 0;
         if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
-        return "'" + text + "' is not a fetch: give metres above 0, or inf for the fully developed sea";
+        return "'" + text + "' is not a fetch; give metres above 0, or inf for a fully developed sea";
       },
       "", "fetch");
 }
@@ -60,7 +72,7 @@ CLI::Validator Seed() {
         std::int64_t seed = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
         if (error == std::errc() && end == text.data() + text.size() && seed >= 0) return {};
-        return "'" + text + "' is not a whole number from 0 to 9223372036854775807";
+        return "'" + text + "' is not a seed; give a whole number from 0 to 9223372036854775807";
       },
       "", "seed");
 }
@@ -77,24 +89,32 @@ std::optional<Shard> ParseShard(const std::string& text) {
   return shard;
 }
 
-void AddTable(CLI::App& table, TableOptions& options) {
-  table.footer(
-      "Under mpirun the ranks share the work and rank 0 alone writes, if this program was built with MPI.\n"
-      "With --work a killed run loses no finished unit: the same command with --resume goes on.");
-  table.add_option("--campaign", options.campaign, "TOML file")->required();
-  CLI::Option* output = table.add_option("--output", options.output, "HDF5 file to write");
-  table.add_flag("--overwrite", options.overwrite, "replace an existing file")->needs(output);
+void AddThreads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Number of threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096).description(""));
+}
+
+void AddTable(CLI::App& table, TableOptions& options, int& threads) {
+  table.add_option("--campaign", options.campaign, "Campaign file")->required()->type_name("FILE.toml");
+  CLI::Option* output =
+      table.add_option("--output", options.output, "Table file to write (HDF5); required without --shard")
+          ->type_name("FILE.h5");
+  table.add_flag("--overwrite", options.overwrite, "Replace an existing table file")->needs(output);
   CLI::Option* work =
-      table.add_option("--work", options.work, "folder to keep each finished unit in, made if need be");
-  table.add_flag("--resume", options.resume, "take the units that are in the work folder")->needs(work);
+      table.add_option("--work", options.work, "Folder that keeps each finished unit; created if absent")
+          ->type_name("DIR");
+  table.add_flag("--resume", options.resume, "Use the units that are in the work folder already")
+      ->needs(work);
   table
       .add_option_function<std::string>(
           "--shard", [&options](const std::string& text) { options.shard = ParseShard(text); },
-          "i/N, i from 0: compute this one of N parts of the units into the work folder, no table")
+          "Compute only part i of N of the units (i from 0 to N - 1) into the work folder, and no table")
+      ->type_name("i/N")
       ->check(CLI::Validator(
           [](std::string& text) -> std::string {
             if (ParseShard(text)) return {};
-            return "'" + text + "' is not a shard: give i/N, i from 0 to N - 1, as 0/4";
+            return "'" + text + "' is not a shard; give i/N with i from 0 to N - 1, such as 0/4";
           },
           "", "shard"))
       ->needs(work)
@@ -102,122 +122,174 @@ void AddTable(CLI::App& table, TableOptions& options) {
   table.callback([&options] {
     if (options.output.empty() && !options.shard) throw CLI::RequiredError("--output");
   });
+  AddThreads(table, threads);
+  Group(table, kFiles, {"--campaign", "--output", "--overwrite"});
+  Group(table, kWork, {"--work", "--resume", "--shard", "--threads"});
+  EndHelp(table,
+          absl::StrCat(
+              kSeeKeys,
+              "\nWith --work, the same command with --resume continues an interrupted run without losing a "
+              "finished unit.\nUnder mpirun the ranks share the units and rank 0 writes the table, if this "
+              "program was built with MPI."),
+          "--campaign survey.toml --output survey.h5",
+          "--campaign survey.toml --output survey.h5 --work units --resume");
 }
 
 void AddMerge(CLI::App& merge, MergeOptions& options) {
-  merge.add_option("--work", options.work, "folder that `table --work` or its shards filled")->required();
-  merge.add_option("--output", options.output, "HDF5 file to write")->required();
-  merge.add_flag("--overwrite", options.overwrite, "replace an existing file");
+  merge.add_option("--work", options.work, "Work folder of `table --work` or of all its shards")
+      ->required()
+      ->type_name("DIR");
+  merge.add_option("--output", options.output, "Table file to write (HDF5)")
+      ->required()
+      ->type_name("FILE.h5");
+  merge.add_flag("--overwrite", options.overwrite, "Replace an existing table file");
+  Group(merge, kFiles, {"--work", "--output", "--overwrite"});
+  EndHelp(merge, "", "--work units --output survey.h5", "--work units --output survey.h5 --overwrite");
 }
 
-void AddPoint(CLI::App& point, PointOptions& options) {
-  point.add_option("--wind-speed", options.wind_speed, "wind at 10 m height, m/s")
+void AddPlan(CLI::App& plan, PlanOptions& options, int& threads) {
+  plan.add_option("--campaign", options.campaign, "Campaign file")->required()->type_name("FILE.toml");
+  plan.add_option("--cores", options.cores, "Print the time on this many cores, too")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000).description(""));
+  AddThreads(plan, threads);
+  Group(plan, kFiles, {"--campaign"});
+  Group(plan, kWork, {"--cores", "--threads"});
+  EndHelp(plan, kSeeKeys, "--campaign survey.toml", "--campaign survey.toml --cores 64");
+}
+
+void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
+  point.add_option("--wind-speed", options.wind_speed, "Wind speed at 10 m above the sea [m/s]")
       ->required()
       ->check(NumberIn(0, 50, true));
-  point.add_option("--fetch", options.fetch, "m, or inf: fully developed (default)")->check(Fetch());
+  point.add_option("--fetch", options.fetch, "Fetch [m], or inf for a fully developed sea (default)")
+      ->check(Fetch());
   const std::vector<std::string> spectra(albtpu::kSpectrumKeys.begin(), albtpu::kSpectrumKeys.end());
   std::string described;  // "apel (default) or elfouhaily"
   for (const std::string& key : spectra) {
     described += (described.empty() ? "" : " or ") + key + (key == options.spectrum ? " (default)" : "");
   }
-  point.add_option("--spectrum", options.spectrum, "of the waves: " + described)
-      ->check(CLI::IsMember(spectra));
+  point.add_option("--spectrum", options.spectrum, "Spectrum of the waves: " + described)
+      ->check(albtpu::OneOf(spectra));
   point
       .add_option("--corrected-above", options.corrected_above,
-                  "m; longer waves are corrected for by the local slope and left out")
+                  "Leave out waves longer than this [m]: the local slope corrects for them")
       ->check(NumberIn(0.1, 1e6));
-  point.add_option("--incidence", options.incidence, "from the vertical, in air, degree")
+  point.add_option("--incidence", options.incidence, "Angle of the beam from the vertical, in air [degree]")
       ->required()
       ->check(NumberIn(0, 60));
   point
       .add_option("--azimuth", options.azimuth,
-                  "of the beam from downwind, degree; absent: the worse of 0 and 90")
+                  "Horizontal direction of the beam from downwind [degree] (default: the worse of 0 and 90)")
       ->check(NumberIn(-1e6, 1e6));
-  point.add_option("--footprint", options.footprint, "diameter at the surface, across the beam, m")
+  point
+      .add_option("--footprint", options.footprint,
+                  "Diameter of the beam at the mean surface, across its axis [m]")
       ->required()
       ->check(NumberIn(0, 1000, true));
-  point.add_option("--depth", options.depth, "m, several with commas")
+  point.add_option("--depth", options.depth, "Depths below the surface, separated by commas [m]")
+      ->type_name("M,M")
       ->required()
       ->delimiter(',')
       ->check(NumberIn(0, 1e4));
-  point.add_option("--profile", options.profile, "uniform (default) or gaussian")
-      ->check(CLI::IsMember({"uniform", "gaussian"}));
-  point.add_option("--refractive-index", options.refractive_index, "of the water (default 1.33)")
+  point.add_option("--profile", options.profile, "Intensity across the beam: uniform (default) or gaussian")
+      ->check(albtpu::OneOf({"uniform", "gaussian"}));
+  point
+      .add_option("--refractive-index", options.refractive_index,
+                  "Refractive index of the water (default: 1.33)")
       ->check(NumberIn(1.01, 2));
   point
       .add_option("--relative-error", options.relative_error,
-                  "to go on to, of refraction, THU and TVU (default 0.01)")
+                  "Relative standard error of refraction, THU and TVU to reach (default: 0.01)")
       ->check(NumberIn(1e-4, 0.5));
-  point.add_option("--estimator", options.estimator, "control_variate (default) or plain: tracing alone")
-      ->check(CLI::IsMember({"control_variate", "plain"}));
-  point.add_option("--seed", options.seed, "of the random numbers, a whole number (default 1)")
+  point
+      .add_option("--estimator", options.estimator,
+                  "control_variate (default), or plain for ray tracing alone")
+      ->check(albtpu::OneOf({"control_variate", "plain"}));
+  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
       ->check(Seed());
-  point.add_flag("--json", options.json, "print one JSON object");
+  point.add_flag("--json", options.json, "Print one JSON object");
+  AddThreads(point, threads);
+  Group(point, "The sea",
+        {"--wind-speed", "--fetch", "--spectrum", "--corrected-above", "--refractive-index"});
+  Group(point, "The pulse", {"--incidence", "--azimuth", "--footprint", "--depth", "--profile"});
+  Group(point, kWork, {"--relative-error", "--estimator", "--seed", "--threads"});
+  Group(point, "Output", {"--json"});
+  EndHelp(point, "", "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20",
+          "--wind-speed 7 --fetch 20000 --incidence 12 --azimuth 45 --footprint 0.6 --depth 10 --json");
 }
 
-// Prints what went wrong, if anything, and makes sure that what was printed got through.
+void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
+  validate.add_option("--output", options.output, "Folder for report.html, CSV files and figures")
+      ->required()
+      ->type_name("DIR");
+  validate.add_flag("--overwrite", options.overwrite, "Replace the files of an earlier report");
+  validate.add_flag("--quick", options.quick, "Use fewer surfaces: two minutes on two cores instead of ten");
+  validate.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
+      ->check(Seed());
+  AddThreads(validate, threads);
+  Group(validate, kFiles, {"--output", "--overwrite"});
+  Group(validate, kWork, {"--quick", "--seed", "--threads"});
+  EndHelp(validate, "", "--output report", "--output report --quick --seed 2");
+}
+
+// Prints what went wrong, if anything, and makes sure that standard output was written.
 int ExitCode(absl::Status status) {
-  if (status.ok() && (std::fflush(stdout) != 0 || !std::cout.flush())) {
-    status = absl::DataLossError("standard output: cannot be written: send it where there is room");
-  }
+  if (status.ok()) status = albtpu::FlushStandardOutput();
   if (status.ok()) return 0;
   std::cerr << "albtpu-generate: " << std::string(status.message()) << '\n';
-  return kFailure;
+  return albtpu::kExitFailure;
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app("Makes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry",
+  CLI::App app("Computes lookup tables of the uncertainty that the sea surface adds to lidar bathymetry",
                "albtpu-generate");
-  app.set_version_flag("--version", "albtpu-generate " + std::string(albtpu::Version()) + " (" +
-                                        std::string(albtpu::Commit()) + ")");
+  albtpu::SetUpProgram(app, albtpu::Version(), albtpu::Commit());
+  albtpu::EndHelp(app, "albtpu-generate COMMAND --help lists the options of a command.",
+                  "table --campaign survey.toml --output survey.h5",
+                  "point --wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20");
   app.require_subcommand(1);
   int threads = 0;
 
   TableOptions table_options;
-  CLI::App* table = app.add_subcommand("table", "make a table by Monte Carlo");
-  AddTable(*table, table_options);
+  CLI::App* table = app.add_subcommand("table", "Compute a table by Monte Carlo");
+  AddTable(*table, table_options, threads);
 
   MergeOptions merge_options;
-  CLI::App* merge = app.add_subcommand("merge", "make the table of the units in a work folder");
+  CLI::App* merge = app.add_subcommand("merge", "Write the table from the units in a work folder");
   AddMerge(*merge, merge_options);
 
   PlanOptions plan_options;
-  CLI::App* plan = app.add_subcommand("plan", "say what a campaign will take, before the work");
-  plan->add_option("--campaign", plan_options.campaign, "TOML file")->required();
-  plan->add_option("--cores", plan_options.cores, "say also how long so many cores would take")
-      ->check(CLI::Range(1, 1'000'000));
+  CLI::App* plan = app.add_subcommand("plan", "Estimate cells, memory and time of a campaign");
+  AddPlan(*plan, plan_options, threads);
+
+  CLI::App* keys =
+      app.add_subcommand("keys", "Print the reference of the keys of a campaign file (Markdown)");
+  albtpu::EndHelp(*keys, "", "", "> campaign.md");
 
   PointOptions point_options;
-  CLI::App* point = app.add_subcommand("point", "the uncertainty of one beam over one sea");
-  AddPoint(*point, point_options);
+  CLI::App* point = app.add_subcommand("point", "Compute the uncertainty of one beam over one sea");
+  AddPoint(*point, point_options, threads);
 
   ValidateOptions validate_options;
   CLI::App* validate =
-      app.add_subcommand("validate", "the paper's tables and figures, ours beside them, as a report");
-  validate->add_option("--output", validate_options.output, "folder for report.html, CSV files and figures")
-      ->required();
-  validate->add_flag("--quick", validate_options.quick, "fewer surfaces: minutes on two cores");
-  validate->add_option("--seed", validate_options.seed, "of the random numbers, a whole number (default 1)")
-      ->check(Seed());
-  validate->add_flag("--overwrite", validate_options.overwrite, "replace the files of an earlier report");
-
-  for (CLI::App* command : {table, merge, plan, point, validate}) {
-    command->add_option("--threads", threads, "all cores unless given")->check(CLI::Range(1, 4096));
-  }
+      app.add_subcommand("validate", "Report the tables and figures of the paper beside ours");
+  AddValidate(*validate, validate_options, threads);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "albtpu-generate: " << error.what() << "; see --help\n";
-    return kBadUsage;
+    std::cerr << "albtpu-generate: " << albtpu::UsageMessage(app, error) << '\n';
+    return albtpu::kExitUsage;
   }
 
   std::optional<tbb::global_control> limit;
   if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
   if (*table) return ExitCode(RunTable(table_options));
   if (*merge) return ExitCode(RunMerge(merge_options));
+  if (*keys) return ExitCode(albtpu::RunKeys());
   if (*plan) return ExitCode(RunPlan(plan_options));
   if (*validate) return ExitCode(RunValidate(validate_options));
   return ExitCode(RunPoint(point_options));
@@ -226,11 +298,11 @@ int Run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // A file grown past its limit is an error of write(), not the end.
+  std::signal(SIGXFSZ, SIG_IGN);  // A file at the size limit of the process makes write() fail.
   try {
     return Run(argc, argv);
-  } catch (const std::exception& error) {  // no memory, no threads
+  } catch (const std::exception& error) {  // out of memory or threads
     std::cerr << "albtpu-generate: " << error.what() << '\n';
-    return kFailure;
+    return albtpu::kExitFailure;
   }
 }

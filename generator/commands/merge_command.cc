@@ -23,8 +23,7 @@ absl::Status RunMerge(const MergeOptions& options) {
     const auto missing = std::mismatch(units.begin(), units.end(), finished->begin(), finished->end()).first;
     return absl::FailedPreconditionError(absl::StrCat(
         options.work.string(), ": has ", finished->size(), " of ", units.size(), " units, ", Name(*missing),
-        " is the first that is missing: `table --work --resume`, or its shard, "
-        "computes it"));
+        " is the first that is missing; compute it with `table --work --resume`, or with its shard"));
   }
   TableBuilder builder(*campaign);
   {

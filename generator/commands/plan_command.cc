@@ -15,7 +15,7 @@
 namespace albtpu {
 namespace {
 
-// Of `work` on one thread.
+// The time that `work` takes on one thread.
 template <typename Work>
 double SecondsOf(const Work& work) {
   tbb::task_arena one_thread(1);
@@ -30,13 +30,13 @@ double SecondsOf(const SeaCase& sea_case, int realizations, Estimator estimator)
   return SecondsOf([&] { Simulate(sea_case, effort, 1, 0); });
 }
 
-// Processor time of a campaign, s: what is prepared, and what each realization of all sea cases takes more.
+// Processor time of a campaign [s]: of all preparations, and of one realization of all sea cases.
 struct Cost {
   double preparation = 0, realization = 0;
   double Of(int realizations) const { return preparation + realizations * realization; }
 };
 
-// From a few realizations of a few sea cases spread over the campaign.
+// Measured with a few realizations of a few sea cases that are spread over the campaign.
 Cost Measure(const Campaign& campaign) {
   constexpr std::size_t kProbes = 24;
   constexpr int kFew = 4, kMore = 24;
@@ -60,7 +60,7 @@ std::string Clock(double seconds) {
 
 }  // namespace
 
-// Cells and bytes are counted; time is measured, on one thread, and shared out.
+// Counts cells and bytes. Measures time on one thread and divides it by the number of cores.
 absl::Status RunPlan(const PlanOptions& options) {
   const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
   if (!campaign.ok()) return campaign.status();

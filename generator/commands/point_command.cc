@@ -13,7 +13,8 @@
 namespace albtpu {
 namespace {
 
-// The least the variance of a variance is trusted with, and where a point ends that does not meet its error.
+// At least so many realizations make the standard error of a variance reliable; at most so many are computed even if
+// the relative error is not reached.
 constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
 SeaCase SeaCaseAt(const PointOptions& options) {
@@ -35,7 +36,7 @@ SeaCase SeaCaseAt(const PointOptions& options) {
   return sea_case;
 }
 
-// Each value the larger in magnitude of two beams, as tables answer where the azimuth is not known.
+// Each value is the larger in magnitude of two beams, as tables answer for an unknown azimuth.
 BeamUncertainty WorseOf(BeamUncertainty a, const BeamUncertainty& b) {
   const auto take = [](Estimate& ours, const Estimate& other) {
     if (std::abs(other.value) > std::abs(ours.value)) ours = other;
@@ -117,8 +118,8 @@ absl::Status RunPoint(const PointOptions& options) {
   if (!result.converged) {
     std::fprintf(
         stderr,
-        "albtpu-generate: not all values met a relative error of %g within %d realizations: their standard "
-        "errors stand beside them\n",
+        "albtpu-generate: not all values reached a relative error of %g (after %d realizations); their "
+        "standard errors are printed beside them\n",
         options.relative_error, result.realizations);
   }
   if (options.json) {

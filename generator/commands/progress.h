@@ -1,4 +1,4 @@
-// How far a long work is and how long it will still take, for people, on standard error.
+// The progress of a long computation and the time left, on standard error.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace albtpu {
 
-// On a terminal a bar, redrawn in place and wiped at the end; elsewhere a plain line every ten seconds.
+// On a terminal a bar, which is redrawn in place and erased at the end; elsewhere a line every ten seconds.
 class Progress {
  public:
   Progress(std::string label, std::size_t total);

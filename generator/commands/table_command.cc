@@ -16,7 +16,7 @@
 namespace albtpu {
 namespace {
 
-// Those of all units that this command is for.
+// The units that this shard computes; all without a shard.
 std::vector<UnitId> Share(const std::vector<UnitId>& units, const std::optional<Shard>& shard) {
   if (!shard) return units;
   std::vector<UnitId> share;
@@ -26,16 +26,15 @@ std::vector<UnitId> Share(const std::vector<UnitId>& units, const std::optional<
   return share;
 }
 
-// Takes what the folder has of `units`, which only --resume asks for, and leaves in `units` what is to be
-// done.
-absl::Status TakeFinished(const WorkFolder& work, bool resume, std::vector<UnitId>& units,
-                          TableBuilder& builder) {
+// Adds the units that the folder has to `builder`, which needs --resume, and removes them from `units`.
+absl::Status AddFinished(const WorkFolder& work, bool resume, std::vector<UnitId>& units,
+                         TableBuilder& builder) {
   const absl::StatusOr<std::vector<UnitId>> finished = work.Finished(units);
   if (!finished.ok()) return finished.status();
   if (!finished->empty() && !resume) {
     return absl::AlreadyExistsError(absl::StrCat(
         work.PathOf(finished->front()).parent_path().string(), ": has ", finished->size(), " of these ",
-        units.size(), " units already: --resume takes them, another folder begins anew"));
+        units.size(), " units already; give --resume to use them, or another folder to start anew"));
   }
   std::erase_if(units,
                 [&](UnitId unit) { return std::binary_search(finished->begin(), finished->end(), unit); });
@@ -46,11 +45,11 @@ absl::Status TakeFinished(const WorkFolder& work, bool resume, std::vector<UnitI
 std::string Label(const Campaign& campaign, const std::optional<Shard>& shard, std::size_t taken) {
   std::string label = absl::StrCat("albtpu-generate: units of '", campaign.id, "'");
   if (shard) absl::StrAppend(&label, ", shard ", shard->index, "/", shard->count);
-  if (taken > 0) absl::StrAppend(&label, ", ", taken, " more taken as they were");
+  if (taken > 0) absl::StrAppend(&label, ", ", taken, " more were finished before");
   return label;
 }
 
-// What rank 0 does, or the only one.
+// The work of rank 0, which may be the only one.
 absl::Status Lead(const TableOptions& options, Ranks& ranks) {
   const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
   if (!campaign.ok()) return campaign.status();
@@ -66,20 +65,20 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
     absl::StatusOr<WorkFolder> opened = WorkFolder::Open(options.work, *campaign);
     if (!opened.ok()) return opened.status();
     work = *std::move(opened);
-    if (const absl::Status status = TakeFinished(*work, options.resume, units, builder); !status.ok()) {
+    if (const absl::Status status = AddFinished(*work, options.resume, units, builder); !status.ok()) {
       return status;
     }
-    // Other shards may be writing.
+    // With shards, other processes may be writing temporary files.
     if (!options.shard) {
       if (const absl::Status status = work->RemoveTemporaries(); !status.ok()) return status;
     }
   }
 
-  absl::Status worked_off;
+  absl::Status computed;
   {
     Progress progress(Label(*campaign, options.shard, share.size() - units.size()), units.size());
     std::size_t done = 0;
-    worked_off = ComputeUnits(
+    computed = ComputeUnits(
         *campaign, units, ranks, [&](UnitId unit, const std::string& bytes, const std::string& from) {
           const absl::Status added = builder.Add(unit, bytes);
           if (!added.ok()) {
@@ -91,7 +90,7 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
           return stored;
         });
   }
-  if (!worked_off.ok()) return worked_off;
+  if (!computed.ok()) return computed;
   if (options.shard) {
     std::cout << "units " << share.size() << '\n';
     return absl::OkStatus();
@@ -107,8 +106,8 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
 }  // namespace
 
 absl::Status RunTable(const TableOptions& options) {
-  if (options.shard)
-    return Lead(options, *OneRank());  // however it was started: it says itself what it is for
+  // A shard is a process of its own, even if it was started by an MPI launcher.
+  if (options.shard) return Lead(options, *OneRank());
   absl::StatusOr<std::unique_ptr<Ranks>> joined = Ranks::Join();
   if (!joined.ok()) return joined.status();
   Ranks& ranks = **joined;
@@ -117,7 +116,7 @@ absl::Status RunTable(const TableOptions& options) {
   absl::Status status;
   try {
     status = ranks.rank() == 0 ? Lead(options, ranks) : FollowRankZero(ranks);
-  } catch (const std::exception& error) {  // no memory, no threads
+  } catch (const std::exception& error) {  // out of memory or threads
     status = absl::InternalError(error.what());
   }
   if (!status.ok()) {

@@ -8,24 +8,57 @@
 #include <iostream>
 
 #include "absl/strings/str_cat.h"
+#include "command_line/percent_text.h"
+#include "generator/campaign/interpolation_check.h"
 #include "tables/file/table_io.h"
 
 namespace albtpu {
+namespace {
+
+// A table whose interpolation errs by more (rms, relative) is coarse beside the approximations of the model.
+constexpr double kCoarse = 0.02;
+
+// The attribute interpolation_error_NAME: rms, 99th percentile, greatest, noise, number of pulses.
+void PrintInterpolationErrors(const Provenance& provenance) {
+  std::string coarse;
+  for (const Quantity quantity : kChecked) {
+    const std::string quantity_name(Describe(quantity).name);
+    const auto attribute = provenance.attributes.find("interpolation_error_" + quantity_name);
+    if (attribute == provenance.attributes.end()) continue;
+    const auto& numbers = std::get<std::vector<double>>(attribute->second);
+    const double rms = numbers[0], percentile_99 = numbers[1], pulses = numbers[4];
+    std::cout << attribute->first << ' ';
+    if (pulses == 0) {
+      std::cout << "not known (no checked pulse has at least 0.01 degrees or 5 mm)\n";
+      continue;
+    }
+    std::cout << PercentText(rms) << " rms, " << PercentText(percentile_99) << " at the 99th percentile of "
+              << pulses << " pulses\n";
+    if (rms > kCoarse)
+      absl::StrAppend(&coarse, coarse.empty() ? "" : ", ", quantity_name, " ", PercentText(rms));
+  }
+  if (coarse.empty()) return;
+  std::cerr << "albtpu-generate: warning: the table is coarse (its values between nodes are off by more than "
+            << PercentText(kCoarse) << " rms: " << coarse << "); give its axes more nodes\n";
+}
+
+}  // namespace
 
 absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite) {
   const std::string name = output.string();
   std::error_code error;
   const std::filesystem::file_status there = std::filesystem::status(output, error);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-    return absl::InvalidArgumentError(absl::StrCat(name, ": is not a regular file: name one to write"));
+    return absl::InvalidArgumentError(absl::StrCat(name, ": is not a regular file; name a file to write"));
   }
   if (std::filesystem::exists(there) && !overwrite) {
-    return absl::AlreadyExistsError(absl::StrCat(name, ": is there already; --overwrite replaces it"));
+    return absl::AlreadyExistsError(absl::StrCat(name, ": exists already; --overwrite replaces it"));
   }
   const std::filesystem::path folder =
       output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, error)) {
-    return absl::NotFoundError(absl::StrCat(name, ": there is no folder ", folder.string()));
+    return absl::NotFoundError(
+        absl::StrCat(name, ": there is no folder ", folder.string(), "; create it, or name another file"));
   }
   std::string probe = (folder / ".albtpu-probe-XXXXXX").string();
   const int file = mkstemp(probe.data());
@@ -43,6 +76,7 @@ absl::Status Publish(const UncertaintyTable& table, const std::filesystem::path&
   if (!written.ok()) return written;
   std::cout << "id " << table.provenance().id << "\nversion " << table.provenance().version << "\ndigest "
             << table.digest() << '\n';
+  PrintInterpolationErrors(table.provenance());
   return absl::OkStatus();
 }
 

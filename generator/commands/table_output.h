@@ -1,4 +1,4 @@
-// The file that a command makes a table in.
+// The table file that a command writes.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,11 @@
 
 namespace albtpu {
 
-// What would keep the table from being written is looked for before the work.
+// Checks, before the computation, that the table can be written.
 absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite);
 
-// Writes the table, and says on standard output what it is.
+// Writes the table. Prints its id, version, digest and interpolation errors on standard output, and a warning on
+// standard error if they are large.
 absl::Status Publish(const UncertaintyTable& table, const std::filesystem::path& output, bool overwrite);
 
 }  // namespace albtpu

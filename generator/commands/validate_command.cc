@@ -18,7 +18,7 @@ struct NamedStudy {
   StudyFunction run;
 };
 
-// In the order of the paper; what goes beyond it comes last.
+// In the order of the paper, followed by studies of our own.
 constexpr NamedStudy kStudies[] = {
     {"Figures 2 and 3, the spectrum", SpectrumStudy},
     {"Table 2, the wave staff", WaveStaffStudy},
@@ -30,7 +30,7 @@ constexpr NamedStudy kStudies[] = {
     {"waves that are corrected away", CorrectedWavesStudy},
 };
 
-// The studies read them only when their turn comes.
+// Checks the published tables before the studies start, which read them one by one.
 absl::Status CheckPublished(const std::filesystem::path& folder) {
   for (const char* table : {"table2_wave_staff", "table3_simulated", "table4_empirical", "table5_thu_tvu"}) {
     const auto read = PublishedTable::Read(folder / (std::string(table) + ".csv"));
@@ -39,10 +39,11 @@ absl::Status CheckPublished(const std::filesystem::path& folder) {
   return absl::OkStatus();
 }
 
-std::string Advice(const std::string& why_figures_are_missing) {
+// What to do about missing figures; empty if that is not known.
+std::string Remedy(const std::string& why_figures_are_missing) {
   const bool no_library = why_figures_are_missing.find("ModuleNotFoundError") != std::string::npos ||
                           why_figures_are_missing.find("No such file or directory") == 0;
-  return no_library ? ": install python3-matplotlib to have them" : "";
+  return no_library ? "; install python3-matplotlib for them" : "";
 }
 
 std::string MadeBy(const ValidateOptions& options) {
@@ -69,8 +70,8 @@ absl::Status RunValidate(const ValidateOptions& options) {
   const absl::StatusOr<std::string> why_figures_are_missing = WriteReport(studies, report);
   if (!why_figures_are_missing.ok()) return why_figures_are_missing.status();
   if (!why_figures_are_missing->empty()) {
-    std::cerr << "albtpu-generate: figures are missing: " << *why_figures_are_missing
-              << Advice(*why_figures_are_missing) << '\n';
+    std::cerr << "albtpu-generate: figures are missing (" << *why_figures_are_missing << ")"
+              << Remedy(*why_figures_are_missing) << '\n';
   }
 
   for (const Verdict verdict : {Verdict::kAgrees, Verdict::kDiffers, Verdict::kReported}) {

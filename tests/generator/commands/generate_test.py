@@ -1,8 +1,9 @@
-"""albtpu-generate from outside: equal bytes, foreign readers, and what it says to bad input."""
+"""albtpu-generate as a program: equal bytes, other readers of its tables, and messages for bad input."""
 
 import json
 import math
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -95,7 +96,7 @@ class Table(unittest.TestCase):
             self.assertGreater(low, 0.99)
             self.assertLess(high, 1.01)
 
-    def test_says_which_sea_it_is_of(self):
+    def test_states_the_spectrum_in_the_table(self):
         self.campaign = self.path("other.toml", CAMPAIGN +
                                   '[sea]\nspectrum = "elfouhaily"\ncorrected_above = 30\n')
         with netCDF4.Dataset(self.make("other.h5")) as data:
@@ -109,7 +110,7 @@ class Table(unittest.TestCase):
         self.assertEqual(first.stdout, second.stdout)
         self.assertRegex(first.stdout, r"digest [0-9a-f]{64}")
 
-    def test_keeps_an_existing_table_unless_told(self):
+    def test_keeps_an_existing_table_without_overwrite(self):
         path = self.path("there.h5", "precious")
         error = self.refused(1, "table", "--campaign", self.campaign, "--output", path)
         self.assertIn("--overwrite", error)
@@ -117,16 +118,16 @@ class Table(unittest.TestCase):
             self.assertEqual(file.read(), "precious")
         self.make("there.h5", "--overwrite")
 
-    def test_says_before_the_work_that_the_output_has_no_folder(self):
+    def test_refuses_an_output_in_an_absent_folder_before_computing(self):
         self.assertIn("no folder", self.refused(1, "table", "--campaign", self.campaign, "--output",
                                                 self.path("absent/table.h5")))
         self.assertEqual(os.listdir(self.folder), ["small.toml"])
 
-    def test_says_before_the_work_that_the_output_folder_is_not_writable(self):
+    def test_refuses_an_output_folder_that_is_not_writable_before_computing(self):
         self.assertIn("not writable", self.refused(1, "table", "--campaign", self.campaign, "--output",
                                                    "/proc/self/table.h5"))
 
-    def test_refuses_a_folder_as_output_even_to_replace_it(self):
+    def test_refuses_a_folder_as_output_even_with_overwrite(self):
         self.assertIn("not a regular file", self.refused(1, "table", "--campaign", self.campaign, "--output",
                                                          self.folder, "--overwrite"))
 
@@ -142,14 +143,45 @@ class Table(unittest.TestCase):
                                               self.path("x.h5")))
         self.assertNotIn("x.h5", os.listdir(self.folder))
 
-    def test_plans_before_the_work(self):
+    def test_suggests_a_near_key(self):
+        path = self.path("bad.toml", CAMPAIGN.replace("realizations", "realisations"))
+        self.assertIn("did you mean 'effort.realizations'?", self.refused(1, "plan", "--campaign", path))
+
+    def test_prints_the_reference_of_keys_that_the_documents_have(self):
+        printed = generate("keys")
+        self.assertEqual((printed.returncode, printed.stderr), (0, ""))
+        page = pathlib.Path(__file__).resolve().parents[3] / "docs/campaign.md"
+        self.assertEqual(printed.stdout, page.read_text(), "docs/campaign.md is the output of `albtpu-generate keys`")
+
+    def test_prints_the_interpolation_error_and_warns_of_a_large_one(self):
+        result = generate("table", "--campaign", self.campaign, "--output", self.path("coarse.h5"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(self.path("coarse.h5")) as data:
+            for name in ("refraction_along_wind", "refraction_cross_wind", "thu", "tvu"):
+                rms, _, _, _, pulses = data.attrs[f"interpolation_error_{name}"]
+                self.assertRegex(result.stdout, rf"(?m)^interpolation_error_{name} [\d.]+ % rms, [\d.]+ % at the 99th "
+                                                rf"percentile of {pulses:.0f} pulses$")
+                self.assertEqual(rms > 0.02, name in result.stderr.partition("the table is coarse")[2])
+            self.assertGreater(data.attrs["interpolation_error_thu"][0], 0.02)
+        self.assertIn("give its axes more nodes", result.stderr)
+
+    def test_does_not_warn_of_a_fine_table(self):
+        text = CAMPAIGN
+        for coarse, one in (("[3, 6]", "[5]"), ("[5000, inf]", "[inf]"), ("[0, 20]", "[10]"), ("[0, 90]", "[0]"),
+                            ("[0.25, 1]", "[0.5]")):
+            text = text.replace(coarse, one)
+        result = generate("table", "--campaign", self.path("fine.toml", text), "--output", self.path("fine.h5"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("coarse", result.stderr)
+
+    def test_plans_a_campaign(self):
         result = generate("plan", "--campaign", self.campaign)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"cells +64\n")
         self.assertRegex(result.stdout, r"time of one core +\d+ s")
         self.assertNotIn("so many cores", result.stdout)
 
-    def test_plans_for_other_machines(self):
+    def test_plans_for_a_given_number_of_cores(self):
         result = generate("plan", "--campaign", self.campaign, "--cores", "1000")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"on so many cores +1000: 0 s")
@@ -177,14 +209,14 @@ class Point(unittest.TestCase):
         self.assertEqual(absent.stdout, infinite.stdout)
         self.assertEqual(absent.returncode, 0)
 
-    def test_takes_another_spectrum_and_leaves_out_what_is_corrected(self):
+    def test_takes_another_spectrum_and_leaves_out_corrected_waves(self):
         def thu(*flags):
             return json.loads(generate(*POINT, "--json", *flags).stdout)["thu"][0]
         self.assertNotEqual(thu(), thu("--spectrum", "elfouhaily"))
         self.assertEqual(thu(), thu("--spectrum", "apel"))
         self.assertLess(thu("--corrected-above", "1"), 0.5 * thu())
 
-    def test_refuses_bad_flags_as_usage(self):
+    def test_bad_flags_are_bad_usage(self):
         for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"), ("--wind-speed", "0"),
                             ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
                             ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
@@ -201,16 +233,30 @@ class Point(unittest.TestCase):
             self.assertEqual(result.stdout, "")
             self.assertRegex(result.stderr, r"^albtpu-generate: ")
 
-    def test_fails_when_its_answer_does_not_get_through(self):
+    def test_fails_if_standard_output_cannot_be_written(self):
         with open("/dev/full", "w") as full:
             result = subprocess.run([GENERATE, *POINT, "--json"], stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
-    def test_asks_for_what_is_missing(self):
+    def test_names_what_is_missing(self):
         result = generate("point", "--wind-speed", "5")
         self.assertEqual(result.returncode, 2)
         self.assertIn("required", result.stderr)
+
+    def test_suggests_near_commands_options_and_values(self):
+        for arguments, expected in ((["tabel"], "'tabel' is not a command (commands: table, merge, plan, keys, point, "
+                                                "validate); did you mean table?"),
+                                    ([*POINT, "--wind-sped", "3"], "did you mean --wind-speed?"),
+                                    (["point", "--wind-sped", "3"], "did you mean --wind-speed?"),
+                                    ([*POINT, "--profile", "unifrom"], "did you mean uniform?"),
+                                    (["--campaign", "a.toml", "plan"], "put it after the command"),
+                                    (["merge", "--work", "a", "--output", "b", "--threads", "2"],
+                                     "--threads is not an option of albtpu-generate merge")):
+            result = generate(*arguments)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertRegex(result.stderr, r"\Aalbtpu-generate: [^\n]+\n\Z")
+            self.assertIn(expected, result.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""Many ways to one table: threads, ranks, shards, and runs that were killed and went on; and what stops them.
+"""One table made by threads, ranks, shards, and runs that were killed and resumed; and what these refuse.
 
-Usage: scale_out_test.py ALBTPU_GENERATE [MPIRUN], without the latter for a build without MPI
+Usage: scale_out_test.py ALBTPU_GENERATE [MPIRUN], without MPIRUN for a build without MPI
 """
 
 import hashlib
@@ -22,7 +22,7 @@ MPIRUN = shutil.which(sys.argv[2]) if sys.argv[2:] else None
 
 CAMPAIGN = (pathlib.Path(__file__).resolve().parents[1] / "six_seas.toml").read_text()
 UNITS = 12 + 4  # encounters and pulses
-PATIENCE = 300  # Seconds that a loaded machine may need for what takes few.
+PATIENCE = 300  # seconds; a loaded machine may need many for what usually takes few
 
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMI", "SLURM_"))}
 ENVIRONMENT |= {"SOURCE_DATE_EPOCH": "1700000000", "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -34,7 +34,7 @@ def run(*command, **options):
                           stdin=subprocess.DEVNULL, timeout=PATIENCE, **options)
 
 
-# Before commands that start MPI: Open MPI loses memory, in parts that it has unloaded when AddressSanitizer looks.
+# Prefix of commands that start MPI: Open MPI leaks memory in libraries that it unloads before AddressSanitizer checks.
 LEAKING = "env", f"ASAN_OPTIONS={os.environ.get('ASAN_OPTIONS', '')}:detect_leaks=0"
 
 
@@ -46,12 +46,12 @@ def wait_until(condition):
     end = time.monotonic() + PATIENCE
     while not condition():
         if time.monotonic() > end:
-            raise TimeoutError("what was waited for did not happen")
+            raise TimeoutError("the condition was not met in time")
         time.sleep(0.002)
 
 
 def texts_of(unit):
-    """The texts in the head of a unit (campaign, program, instruction set, kind), and the offset behind them."""
+    """The texts in the head of a unit (campaign, program, instruction set, kind), and the offset after them."""
     texts, at = [], 16
     for _ in range(4):
         count, = struct.unpack_from("<Q", unit, at)
@@ -61,7 +61,7 @@ def texts_of(unit):
 
 
 def with_text(unit, position, text):
-    """A unit that says something else in its head, sealed anew."""
+    """The unit with another text in its head, sealed again."""
     texts, end = texts_of(unit)
     texts[position] = text
     body = unit[:16] + b"".join(struct.pack("<Q", len(t)) + t for t in texts) + unit[end:-32]
@@ -71,11 +71,11 @@ def with_text(unit, position, text):
 SHARED = tempfile.TemporaryDirectory()
 SMALL = pathlib.Path(SHARED.name, "small.toml")
 WHOLE = pathlib.Path(SHARED.name, "whole")  # A work folder with all units; copied, not changed.
-TABLES, ANSWERS = [], []  # of one thread and of two
+TABLES, ANSWERS = [], []  # of one thread, and of two
 
 
 def setUpModule():
-    """The table of one thread, which all others are held to, and that of two with a work folder."""
+    """Makes the table of one thread, with which all others are compared, and that of two with a work folder."""
     unittest.addModuleCleanup(SHARED.cleanup)
     SMALL.write_text(CAMPAIGN)
     for threads, flags in ((1, ()), (2, ("--work", WHOLE))):
@@ -114,13 +114,13 @@ class ScaleOut(unittest.TestCase):
         result = run(*command, **options)
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertEqual(result.stdout, "")
-        # MPI's own, where there is no /sys; and where it is slow, how far it has come.
+        # Without what MPI prints where there is no /sys, and without the progress of a slow run.
         said = re.sub(r"^(\[hwloc/|albtpu-generate: units of ).*\n", "", result.stderr, flags=re.MULTILINE)
         self.assertRegex(said, r"^albtpu-generate: .+\n$")
         return result.stderr
 
     def assert_the_table(self):
-        self.assertTrue(self.output.read_bytes() == TABLES[0], "other bytes than from one thread")
+        self.assertTrue(self.output.read_bytes() == TABLES[0], "not the same bytes as from one thread")
 
     def start_and_wait_for_units(self, count, *command):
         process = subprocess.Popen([str(part) for part in command], env=ENVIRONMENT, stdin=subprocess.DEVNULL,
@@ -168,7 +168,7 @@ class SameBytes(ScaleOut):
         self.succeeds(*self.merge)
         self.assert_the_table()
 
-    def test_from_one_process_that_goes_on_with_shards(self):
+    def test_from_one_process_that_continues_after_a_shard(self):
         self.succeeds(*self.shard("3/8"))
         self.succeeds(*self.make, "--work", self.work, "--resume")
         self.assert_the_table()
@@ -185,10 +185,10 @@ class Ranks(ScaleOut):
         self.assert_the_table()
         self.assertEqual(len(self.units()), UNITS)
 
-    def test_go_on_with_what_a_killed_run_left(self):
+    def test_resume_a_killed_run(self):
         process = self.start_and_wait_for_units(2, *ranks(2), *self.make, "--threads", 1, "--work", self.work)
         started = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        victim = max(int(pid) for pid in started)  # rank 1, or 0: either ends all
+        victim = max(int(pid) for pid in started)  # rank 0 or 1; the end of either ends all
         os.kill(victim, signal.SIGKILL)
         process.communicate(timeout=PATIENCE)
         self.assertNotEqual(process.returncode, 0)
@@ -197,7 +197,7 @@ class Ranks(ScaleOut):
         self.succeeds(*ranks(2), *self.make, "--threads", 1, "--work", self.work, "--resume")
         self.assert_the_table()
 
-    def test_end_together_when_one_fails(self):
+    def test_end_together_if_one_fails(self):
         process = self.start_and_wait_for_units(1, *ranks(2), *self.make, "--threads", 1, "--work", self.work)
         self.work.rename(self.folder / "elsewhere")
         _, error = process.communicate(timeout=PATIENCE)
@@ -205,12 +205,12 @@ class Ranks(ScaleOut):
         self.assertIn("albtpu-generate: rank 0: cannot write", error)
         self.assertFalse(self.output.exists())
 
-    def test_end_together_when_there_is_no_campaign(self):
+    def test_end_together_without_a_campaign(self):
         result = run(*ranks(2), GENERATE, "table", "--campaign", self.folder / "absent.toml", "--output", self.output)
         self.assertNotEqual(result.returncode, 0)
         self.assertEqual(result.stderr.count("absent.toml"), 1)
 
-    def test_are_not_alone_under_the_launcher_of_another_mpi(self):
+    def test_refuse_the_launcher_of_another_mpi(self):
         self.assertIn("one of 2 ranks", self.refused(*LEAKING, "PMI_SIZE=2", *self.make))
 
 
@@ -247,7 +247,7 @@ class Refusals(ScaleOut):
         self.succeeds(*self.make, "--work", self.work, "--resume")
         self.assert_the_table()
 
-    def test_of_units_that_something_else_computed(self):
+    def test_of_units_of_another_program_or_campaign(self):
         self.copy()
         unit = self.work / "encounter-00007.unit"
         whole = unit.read_bytes()
@@ -257,7 +257,7 @@ class Refusals(ScaleOut):
             unit.write_bytes(with_text(whole, position, text))
             self.assert_refused_and_untouched("encounter-00007.unit: ", expected)
 
-    def test_of_a_unit_in_the_place_of_another(self):
+    def test_of_a_unit_under_the_name_of_another(self):
         self.copy()
         shutil.copy(self.work / "encounter-00008.unit", self.work / "encounter-00007.unit")
         self.assert_refused_and_untouched("encounter-00007.unit: holds the unit encounter 8")
@@ -270,7 +270,7 @@ class Refusals(ScaleOut):
                              "--resume")
         self.assertIn("campaign.toml: is another campaign", error)
 
-    def test_of_a_merge_before_all_is_there(self):
+    def test_of_a_merge_of_missing_units(self):
         self.copy()
         (self.work / "encounter-00003.unit").unlink()
         error = self.refused(*self.merge)
@@ -288,7 +288,7 @@ class Refusals(ScaleOut):
         self.assertIn("absent", self.refused(GENERATE, "merge", "--work", self.folder / "absent", "--output",
                                              self.output))
 
-    def test_of_flags_that_do_not_go_together(self):
+    def test_of_flags_that_contradict_each_other(self):
         table = (GENERATE, "table", "--campaign", SMALL)
         for flags, expected in ((("--work", self.work), "--output"), (("--shard", "0/2"), "--work"),
                                 (("--output", self.output, "--resume"), "--work"),
@@ -309,7 +309,7 @@ class FullDisk(ScaleOut):
         self.assertLess(len(self.units()), UNITS)
         self.assertFalse(list(self.work.glob(".*.tmp")))
 
-    def test_is_named_and_leaves_whole_units(self):
+    def test_is_reported_and_leaves_whole_units(self):
         self.work.mkdir()
         small = run("mount", "-t", "tmpfs", "-o", "size=32k", "none", self.work)
         if small.returncode != 0:
@@ -322,7 +322,7 @@ class FullDisk(ScaleOut):
         self.succeeds(*self.make, "--work", self.work, "--resume")
         self.assert_the_table()
 
-    def test_is_named_where_files_may_not_grow(self):
+    def test_is_reported_if_the_file_size_is_limited(self):
         error = self.refused(*self.make, "--work", self.work,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)))
         self.assert_goes_on_after(error)
