@@ -1,7 +1,6 @@
 #include "survey/exit_status.h"
 
 #include <cstdio>
-#include <iostream>
 #include <string>
 
 #include "absl/strings/cord.h"
@@ -47,11 +46,6 @@ int Report(const absl::Status& status) {
   if (status.ok()) return 0;
   Note(MessageWithDetails(status));
   return IsUsageError(status) ? kExitUsage : kExitFailure;
-}
-
-absl::Status FlushAnswers() {
-  if (std::cout.flush()) return absl::OkStatus();
-  return absl::DataLossError("standard output: cannot be written; redirect it to a disk with free space");
 }
 
 void Note(std::string_view message, const std::string& below) {

@@ -30,9 +30,6 @@ std::string MessageWithDetails(const absl::Status& status);
 // Prints the message of a failure to standard error and returns the exit code; an OK status prints nothing.
 int Report(const absl::Status& status);
 
-// Flushes standard output. Fails when the output could not be written, for example on a full disk.
-absl::Status FlushAnswers();
-
 // Prints `albtpu-query: MESSAGE` to standard error, followed by `below`. The message may quote a server or a file
 // name, so it is made printable and put on one line; `below` is our own text and is printed unchanged.
 void Note(std::string_view message, const std::string& below = "");

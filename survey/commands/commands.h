@@ -1,5 +1,4 @@
-// The commands of albtpu-query. Each adds its flags to the program and, when it is the one that was given,
-// sets `run`.
+// The commands of albtpu-query. Each adds its options to the program and sets `run` if it is the command given.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +7,11 @@
 #include "absl/status/status.h"
 
 namespace albtpu::client {
+
+inline constexpr char kWhereAnswersComeFrom[] =
+    "Without --server and --table, the default one of the installed tables answers, in this process. The\n"
+    "environment variable ALBTPU_TABLES names another folder of tables.\n"
+    "Exit code: 0 if every pulse got an outcome, 2 for bad usage, 1 for a failure.";
 
 using Run = std::function<absl::Status()>;
 

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "command_line/help.h"
 #include "survey/commands/commands.h"
+#include "survey/commands/interpolation_error.h"
 #include "survey/commands/options.h"
 #include "survey/csv/csv_annotation.h"
 #include "survey/exit_status.h"
@@ -16,11 +18,13 @@ namespace {
 
 struct CsvOptions {
   FileOptions files;
-  SharedOptions shared;
+  Existing existing = Existing::kKeep;
+  SourceOptions source;
+  AnswerStyle style;
   FixedCoordinates fixed;
 };
 
-// For a summary; null where a column of the file says it, or nothing does.
+// For a summary; null where a column of the file has it, or nothing does.
 nlohmann::ordered_json Parameters(const CsvOptions& options) {
   nlohmann::ordered_json json;
   for (const AxisId axis : kAxes) {
@@ -28,18 +32,19 @@ nlohmann::ordered_json Parameters(const CsvOptions& options) {
     json[std::string(Describe(axis).name)] =
         value.has_value() ? JsonNumber(*value) : nlohmann::ordered_json();
   }
-  json.update(Parameters(options.shared.style));
+  json.update(Parameters(options.style));
   return json;
 }
 
 absl::Status RunCsv(const CsvOptions& options) {
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", ".csv", options.files);
   if (!jobs.ok()) return jobs.status();
-  const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.shared.source);
+  const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
   if (!source.ok()) return source.status();
+  if (options.style.standard_errors) Note(InterpolationErrorNote((*source)->table()));
   const auto annotate = [&](const Job& job, FileProgress& progress) -> absl::StatusOr<AnnotatedFile> {
-    absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.shared.existing,
-                                                   options.fixed, options.shared.style, **source, progress);
+    absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.existing, options.fixed,
+                                                   options.style, **source, progress);
     if (!csv.ok()) return csv.status();
     return AnnotatedFile{std::move(csv->file),
                          Findings{.input_bytes = csv->input_bytes,
@@ -52,7 +57,7 @@ absl::Status RunCsv(const CsvOptions& options) {
                         .records = "pulses",
                         .parameters = Parameters(options),
                         .resume = options.files.resume,
-                        .existing = options.shared.existing,
+                        .existing = options.existing,
                         .annotate = annotate},
                        (*source)->table());
 }
@@ -61,13 +66,19 @@ absl::Status RunCsv(const CsvOptions& options) {
 
 void AddCsvCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<CsvOptions>();
-  CLI::App* command = program.add_subcommand(
-      "csv",
-      "Repeat CSV files of pulses (columns wind_speed, fetch, incidence, azimuth, footprint, depth, in any "
-      "order, among others) with the uncertainty of each");
-  AddFileOptions(*command, ".csv", options->files);
+  CLI::App* command = program.add_subcommand("csv",
+                                             "Copy CSV files of pulses and append the uncertainty of each; "
+                                             "columns are wind_speed, fetch, incidence, "
+                                             "azimuth, footprint, depth, in any order, among others");
+  AddFileOptions(*command, ".csv", options->files, options->existing);
   for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->fixed);
-  AddSharedOptions(*command, options->shared);
+  AddSourceOptions(*command, options->source);
+  AddStyleOptions(*command, options->style);
+  EndHelp(*command,
+          absl::StrCat("A column that is missing can be given once for all pulses by its option.\n",
+                       kWhereAnswersComeFrom),
+          "pulses.csv with_uncertainty.csv --wind-speed 5 --footprint 0.5",
+          "surveys --output-dir annotated --recursive --resume --server 127.0.0.1:50051");
   command->callback([options, &run] { run = [options] { return RunCsv(*options); }; });
 }
 

@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
 
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
 #include "service/client/server_health.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
@@ -13,17 +15,17 @@ absl::Status RunHealth(const SourceOptions& options) {
   const absl::Status status = CheckHealth(options.server, options.credentials);
   if (!status.ok()) return status;
   std::cout << "SERVING\n";
-  return FlushAnswers();
+  return FlushStandardOutput();
 }
 
 }  // namespace
 
 void AddHealthCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<SourceOptions>();
-  CLI::App* command =
-      program.add_subcommand("health", "Ask a service whether it serves: exit 0 if so, else 1");
+  CLI::App* command = program.add_subcommand("health", "Check whether a service is serving");
   AddServerOptions(*command, *options)->required();
-  command->footer("Exit: 0 when it serves, 2 for bad usage, 1 otherwise.");
+  EndHelp(*command, "Exit code: 0 if the service is serving, 2 for bad usage, 1 otherwise.",
+          "--server 127.0.0.1:50051", "--server lidar.example:50051 --tls-ca ca.pem --token-file token");
   command->callback([options, &run] { run = [options] { return RunHealth(*options); }; });
 }
 

@@ -1,4 +1,4 @@
-// The flags of `albtpu-query las`, and what they ask for.
+// The options of `albtpu-query las`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -22,17 +22,19 @@ struct LasOptions {
   std::set<int> classes = {kBathymetricPoint};
   std::optional<double> water_level, altitude, divergence, wind_from, flight_direction;
   std::optional<double> metres_per_unit;
-  FixedCoordinates fixed;  // Wind speed, fetch, footprint, azimuth.
-  SharedOptions shared;
+  FixedCoordinates fixed;  // wind speed, fetch, footprint, azimuth
+  Existing existing = Existing::kKeep;
+  SourceOptions source;
+  AnswerStyle style;
 };
 
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
 
-// IsUsageError when something needed is missing, or is said in two ways.
+// IsUsageError if something needed is missing, or is given in two ways.
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options);
 
-// The same for a summary.
+// The same as a summary states it.
 nlohmann::ordered_json Parameters(const LasAnnotation& annotation);
 
 }  // namespace albtpu::client

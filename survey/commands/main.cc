@@ -1,4 +1,4 @@
-// albtpu-query: asks for the uncertainty of pulses, of CSV files and of LAS files. Flags, then a command.
+// albtpu-query: the uncertainty of single pulses, of CSV files and of LAS files.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
@@ -8,6 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
+#include "command_line/usage_error.h"
 #include "survey/commands/commands.h"
 #include "survey/exit_status.h"
 #include "tables/version.h"
@@ -17,14 +20,15 @@ namespace {
 int Main(int argc, char** argv) {
   using namespace albtpu::client;
 
-  CLI::App program("Uncertainty of airborne lidar bathymetry by the sea surface, pulse by pulse");
+  CLI::App program("The uncertainty that the sea surface adds to pulses of airborne lidar bathymetry");
   program.name("albtpu-query");
   program.require_subcommand(1);
-  program.set_version_flag("--version", absl::StrCat("albtpu-query ", std::string(albtpu::Version()), " (",
-                                                     std::string(albtpu::Commit()), ")"));
-  program.footer(
-      "Neither --server nor --table: the installed tables answer, in this process; ALBTPU_TABLES names "
-      "another folder.\nExit: 0 when every pulse got an outcome, 2 for bad usage, 1 for failure.");
+  albtpu::SetUpProgram(program, albtpu::Version(), albtpu::Commit());
+  albtpu::EndHelp(
+      program,
+      absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
+      "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
+      "las line.las with_uncertainty.las --water-level 0 --wind-speed 5 --footprint 0.6");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
@@ -35,11 +39,9 @@ int Main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
     program.exit(help, std::cout, std::cerr);
-    return Report(FlushAnswers());
-  } catch (const CLI::ValidationError& error) {  // Ours: they say what would be right.
-    return Report(UsageError(error.what()));
+    return Report(albtpu::FlushStandardOutput());
   } catch (const CLI::ParseError& error) {
-    return Report(UsageError(absl::StrCat(error.what(), ": see albtpu-query --help, or COMMAND --help")));
+    return Report(UsageError(albtpu::UsageMessage(program, error)));
   }
   return Report(run());
 }
@@ -47,16 +49,17 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file grown past its limit is an error of write(), not the end of the program.
+  // A file that reaches the size limit of the process makes write() fail instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Debian's Abseil looks for cycles of locks at every lock that gRPC takes.
+  // Debian's Abseil searches for lock cycles at every lock that gRPC takes.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
-  // Work does not end because nobody reads its messages; answers that nobody reads are an error of writing.
+  // A closed standard error does not end the work; a closed standard output makes writing answers fail.
   std::signal(SIGPIPE, SIG_IGN);
-  setenv("GRPC_VERBOSITY", "NONE", 0);  // What gRPC logs is in its errors too; who wants both says so.
+  setenv("GRPC_VERBOSITY", "NONE",
+         0);  // gRPC's log repeats its errors; GRPC_VERBOSITY in the environment turns it on.
   try {
     return Main(argc, argv);
   } catch (const std::exception& error) {
-    return albtpu::client::Report(absl::InternalError(absl::StrCat(error.what(), ": please report this")));
+    return albtpu::client::Report(absl::InternalError(absl::StrCat(error.what(), "; please report this")));
   }
 }

@@ -1,5 +1,5 @@
-// The flags that the commands of albtpu-query share. A wrong value throws CLI::ValidationError while flags
-// are parsed: bad usage, exit 2.
+// The options that several commands of albtpu-query have. A value that an option does not take throws
+// CLI::ValidationError while arguments are parsed: bad usage, exit 2.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,22 +15,31 @@
 
 namespace albtpu::client {
 
-// What every command takes. Those that write no file ignore --overwrite; `tables` ignores how answers are
-// given.
-struct SharedOptions {
-  SourceOptions source;                 // --server, --table, --table-name, --tls-ca and the like
-  AnswerStyle style;                    // --coverage, --s44-order, --standard-errors
-  Existing existing = Existing::kKeep;  // --overwrite
-};
-void AddSharedOptions(CLI::App& command, SharedOptions& options);
+// The headings under which --help lists options.
+namespace group {
+inline constexpr char kPulse[] = "The pulse";
+inline constexpr char kSea[] = "The sea";
+inline constexpr char kPoints[] = "The points";
+inline constexpr char kFiles[] = "Files";
+inline constexpr char kOutput[] = "Output";
+inline constexpr char kSource[] = "Where answers come from";
+inline constexpr char kAccess[] = "Access to the server";
+}  // namespace group
 
-// --server, which is given back, --tls-ca and the like alone.
+// --server, which is returned, and --tls-ca and the like, which need it.
 CLI::Option* AddServerOptions(CLI::App& command, SourceOptions& options);
 
-// Input and output files of an `extension`, such as ".las".
-void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options);
+// The same, --table and --table-name.
+void AddSourceOptions(CLI::App& command, SourceOptions& options);
 
-// The style for a summary.
+// --coverage, --s44-order and --standard-errors.
+void AddStyleOptions(CLI::App& command, AnswerStyle& style);
+
+// Input and output files of an `extension`, such as ".las", --output-dir, --recursive, --resume and --overwrite.
+void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options,
+                    Existing& existing);
+
+// The style as a summary states it.
 nlohmann::ordered_json Parameters(const AnswerStyle& style);
 
 // `--wind-speed` and the like, one value for all pulses.
@@ -39,7 +48,7 @@ void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);
 // Whether numbers below zero make sense.
 enum class Sign { kAny, kNotNegative };
 
-// A finite number; `inf` counts as one only for --fetch, by AddCoordinate.
+// A finite number. Only AddCoordinate(--fetch) takes `inf` as well.
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,
                        std::optional<double>& value);
 

@@ -1,5 +1,6 @@
 #include "survey/commands/pulse_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "survey/answers/answer_cells.h"
 #include "survey/answers/uncertainty_summary.h"
+#include "survey/commands/interpolation_error.h"
 #include "survey/number_text.h"
 #include "tables/s44.h"
 
@@ -18,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 std::string CoordinateText(AxisId axis, std::optional<float> value) {
   if (axis == AxisId::kFetch && std::isinf(value.value_or(INFINITY))) return "fully developed sea";
-  if (!value.has_value()) return "not given: each value is the larger of those along and across the wind";
+  if (!value.has_value()) return "not given; each value is the larger of those along and across the wind";
   return absl::StrCat(FormatFloat(*value), " ", std::string(Describe(axis).units));
 }
 
@@ -41,9 +43,20 @@ std::string ValueText(Quantity quantity, const PulseAnswer& answer) {
   return absl::StrCat(text, ", ", CoverageText(style.coverage));
 }
 
-std::string Room(double limit, double ours) {
-  const std::optional<double> left = RemainingBudget(limit, ours);
+// What a limit leaves for all other sources of uncertainty.
+std::string RemainderText(double limit, double surface) {
+  const std::optional<double> left = RemainingBudget(limit, surface);
   return left.has_value() ? absl::StrFormat("%.3f m", *left) : "exceeded";
+}
+
+std::string InterpolationErrorText(const TableSummary& table) {
+  const std::vector<InterpolationError> errors = InterpolationErrors(table);
+  if (errors.empty()) return Line("interpolation error", "not known (the table does not state it)");
+  std::string text = Line("interpolation error", "relative, at random pulses all over the table:");
+  for (const InterpolationError& error : errors) {
+    text += Line(absl::StrCat("  ", std::string(Describe(error.quantity).name)), Text(error));
+  }
+  return text;
 }
 
 std::string S44Text(const PulseAnswer& answer) {
@@ -59,10 +72,25 @@ std::string S44Text(const PulseAnswer& answer) {
   for (const S44Order order : kS44Orders) {
     if (answer.style.s44_order.value_or(order) != order) continue;
     const double thu_limit = ThuLimit(order, depth), tvu_limit = TvuLimit(order, depth);
-    absl::StrAppend(&text, absl::StrFormat("%-12s %10.3f m %10.3f m %13s %13s\n", std::string(Name(order)),
-                                           thu_limit, tvu_limit, Room(thu_limit, thu), Room(tvu_limit, tvu)));
+    absl::StrAppend(
+        &text, absl::StrFormat("%-12s %10.3f m %10.3f m %13s %13s\n", std::string(Name(order)), thu_limit,
+                               tvu_limit, RemainderText(thu_limit, thu), RemainderText(tvu_limit, tvu)));
   }
   return text;
+}
+
+// Null where the table does not state it.
+void AddInterpolationErrors(const TableSummary& table, Json& object) {
+  const std::vector<InterpolationError> errors = InterpolationErrors(table);
+  for (const Quantity quantity : kQuantities) {
+    if (Describe(quantity).is_bias) continue;  // They pass through zero: a relative error has no meaning.
+    const auto error = std::find_if(errors.begin(), errors.end(), [quantity](const InterpolationError& e) {
+      return e.quantity == quantity;
+    });
+    const std::string name = absl::StrCat(std::string(Describe(quantity).name), "_interpolation_error_");
+    object[name + "rms"] = error == errors.end() ? Json() : Json(error->rms);
+    object[name + "percentile_99"] = error == errors.end() ? Json() : Json(error->percentile_99);
+  }
 }
 
 std::string WhyNoNumber(const AnswerBatch& answer, const TableSummary& table) {
@@ -70,8 +98,8 @@ std::string WhyNoNumber(const AnswerBatch& answer, const TableSummary& table) {
   if (number == 0) return "no number";
   const AxisSchema& axis = Describe(kAxes[number - 1]);
   const AxisRange& range = table.axes[number - 1];
-  return absl::StrFormat("no number is invented: the table reaches %s from %g to %g %s",
-                         std::string(axis.name), range.first, range.last, std::string(axis.units));
+  return absl::StrFormat("no number (the table covers %s from %g to %g %s)", std::string(axis.name),
+                         range.first, range.last, std::string(axis.units));
 }
 
 }  // namespace
@@ -103,7 +131,7 @@ std::string PulseText(const PulseAnswer& answer, const TableSummary& table) {
   for (const Quantity quantity : kQuantities) {
     text += Line(Describe(quantity).name, ValueText(quantity, answer));
   }
-  return text + S44Text(answer);
+  return text + InterpolationErrorText(table) + S44Text(answer);
 }
 
 std::string PulseJson(const PulseAnswer& answer, const TableSummary& table) {
@@ -122,6 +150,7 @@ std::string PulseJson(const PulseAnswer& answer, const TableSummary& table) {
   object["version"] = table.version;
   object["digest"] = table.digest;
   object["coverage"] = answer.style.coverage == Coverage::kTwoSigma ? "2sigma" : "p95";
+  AddInterpolationErrors(table, object);
   return object.dump(2) + "\n";
 }
 

@@ -21,13 +21,14 @@ struct PulseAnswer {
 absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle style,
                                      UncertaintySource& source);
 
-// Lines with units, coverage, the table and every order of S-44; for a pulse out of domain, the range that
-// there is.
+// Lines with units, coverage, the table, its interpolation error and every order of S-44; for a pulse out of domain,
+// the range that the table covers.
 std::string PulseText(const PulseAnswer& answer, const TableSummary& table);
 
 // One flat object and a newline: the coordinates by the names of the axes, the columns of AnswerCells, then
-// `azimuth_absent`, `table`, `version`, `digest` and `coverage` (2sigma or p95). Null where there is no
-// number; so is the fetch of a fully developed sea.
+// `azimuth_absent`, `table`, `version`, `digest`, `coverage` (2sigma or p95), and of each quantity but the biases
+// `*_interpolation_error_rms` and `*_interpolation_error_percentile_99` (fractions). Null where there is no number; so
+// is the fetch of a fully developed sea.
 std::string PulseJson(const PulseAnswer& answer, const TableSummary& table);
 
 }  // namespace albtpu::client

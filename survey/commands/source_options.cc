@@ -15,7 +15,7 @@ namespace {
 
 absl::Status CheckName(const SourceOptions& options) {
   if (options.file.empty() || options.name.empty()) return absl::OkStatus();
-  return UsageError("--table-name: chooses among several tables: leave it out where --table names a file");
+  return UsageError("--table-name cannot be used with --table (a file holds one table); leave it out");
 }
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenFile(std::string name,
@@ -25,12 +25,13 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenFile(std::string name,
   return std::unique_ptr<UncertaintySource>(new LocalSource(std::move(name), *table));
 }
 
-// What else can be done where no installed table answers.
+// Adds the other ways to choose a table, for when no installed table answers.
 absl::Status Advised(const absl::Status& status) {
-  return absl::Status(status.code(),
-                      absl::StrCat(status.message(),
-                                   " (--table-name chooses, --table names a file, --server a service, "
-                                   "ALBTPU_TABLES a folder of tables)"));
+  return absl::Status(
+      status.code(),
+      absl::StrCat(status.message(),
+                   "; choose one with --table-name, a file with --table, a service with --server, or "
+                   "a folder of tables with $ALBTPU_TABLES"));
 }
 
 absl::StatusOr<std::vector<TableFile>> InstalledTables() {
@@ -39,7 +40,7 @@ absl::StatusOr<std::vector<TableFile>> InstalledTables() {
   return tables;
 }
 
-// Where no name decides, what the files hold may.
+// Without a name, the only table that is not a published one is chosen; this takes reading them.
 absl::StatusOr<std::size_t> ChooseTable(std::vector<TableFile> tables, const std::string& name) {
   absl::StatusOr<std::size_t> chosen = FindTable(tables, name);
   if (chosen.ok() || !name.empty()) return chosen;
@@ -103,7 +104,7 @@ absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& option
   std::erase_if(tables, [&](const TableSummary& table) { return !HasName(table, options.name); });
   if (tables.empty()) {
     return absl::NotFoundError(
-        absl::StrCat("no table '", options.name, "': `albtpu-query tables` without --table-name lists them"));
+        absl::StrCat("there is no table '", options.name, "'; `albtpu-query tables` lists all"));
   }
   return tables;
 }

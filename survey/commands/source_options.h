@@ -1,4 +1,4 @@
-// Which table answers: a file, a server, or the tables that are installed beside the program.
+// Which table answers: a file, one of a server, or one of those that are installed beside the program.
 #pragma once
 
 #include <memory>
@@ -11,17 +11,17 @@
 
 namespace albtpu::client {
 
-// At most one of `server` and `file` is set. Neither: the installed tables, in this process.
+// At most one of `server` and `file` is set; without them an installed table answers in this process.
 struct SourceOptions {
   std::string server = {};       // HOST:PORT
-  Credentials credentials = {};  // For it.
+  Credentials credentials = {};  // for the server
   std::string file = {};         // FILE.h5
-  std::string name = {};         // NAME or NAME/VERSION among several; empty: the default.
+  std::string name = {};         // NAME or NAME/VERSION; empty for the default table
 };
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options);
 
-// All tables that could be asked for there, or the one that is named.
+// All tables of the source, or those that `options.name` names.
 absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& options);
 
 }  // namespace albtpu::client

@@ -5,6 +5,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
 #include "service/printable_text.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
@@ -33,21 +35,26 @@ std::string Text(const TableSummary& table) {
   return text;
 }
 
-absl::Status RunTables(const SharedOptions& options) {
-  const absl::StatusOr<std::vector<TableSummary>> tables = ListTables(options.source);
+absl::Status RunTables(const SourceOptions& options) {
+  const absl::StatusOr<std::vector<TableSummary>> tables = ListTables(options);
   if (!tables.ok()) return tables.status();
   for (std::size_t i = 0; i < tables->size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text((*tables)[i]);
-  if (tables->empty()) Note("no tables: make one by albtpu-generate, or name a file by --table");
-  return FlushAnswers();
+  if (tables->empty())
+    Note("there are no tables; make one with albtpu-generate, or name a file with --table");
+  return FlushStandardOutput();
 }
 
 }  // namespace
 
 void AddTablesCommand(CLI::App& program, Run& run) {
-  const auto options = std::make_shared<SharedOptions>();
+  const auto options = std::make_shared<SourceOptions>();
   CLI::App* command =
-      program.add_subcommand("tables", "Print which tables there are: names, ranges, digests, provenance");
-  AddSharedOptions(*command, *options);
+      program.add_subcommand("tables", "List the tables with their names, ranges, digests and provenance");
+  AddSourceOptions(*command, *options);
+  EndHelp(*command,
+          "Without --server and --table, lists the installed tables, or those in the folder that the\n"
+          "environment variable ALBTPU_TABLES names.",
+          "--table-name survey", "--server 127.0.0.1:50051");
   command->callback([options, &run] { run = [options] { return RunTables(*options); }; });
 }
 

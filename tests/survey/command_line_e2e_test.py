@@ -1,4 +1,4 @@
-"""What a shell sees of albtpu-query: exit codes, messages, outputs, and nothing lost or half written."""
+"""albtpu-query as a program: exit codes, messages and outputs, and no output lost or half written."""
 
 import contextlib
 import json
@@ -75,18 +75,66 @@ class CommandLineTest(programs.Test):
         self.assert_fails(query("no-such-command"), 2)
         self.assertEqual(self.pulse(*PULSE, "--fetch", "inf", "--azimuth", "-30").returncode, 0)
 
-    def test_every_command_takes_the_shared_flags(self):
-        shared = ("--table", self.table, "--coverage", "p95", "--s44-order", "1a", "--standard-errors",
-                  "--overwrite")
+    def test_each_command_takes_the_flags_that_mean_something_for_it(self):
+        style = ("--coverage", "p95", "--s44-order", "1a", "--standard-errors")
+        table = ("--table", self.table)
         source = self.folder / "in.csv"
         source.write_text("depth\n1\n")
-        query("pulse", *PULSE, *shared, check=0)
-        query("tables", *shared, check=0)
-        query("csv", source, self.folder / "out.csv", *PULSE[:-2], *shared, check=0)
+        query("pulse", *PULSE, *table, *style, check=0)
+        query("tables", *table, check=0)
+        query("csv", source, self.folder / "out.csv", *PULSE[:-2], *table, *style, "--overwrite", check=0)
         query("las", make_flight(self.folder / "in.las"), self.folder / "out.las", "--water-level", 0,
-              "--wind-speed", 5, "--footprint", 1, *shared, check=0)
+              "--wind-speed", 5, "--footprint", 1, *table, *style, "--overwrite", check=0)
 
-    def test_las_flags_that_do_not_fit(self):
+    def test_flags_without_effect_are_bad_usage(self):
+        files = ("in.csv", "out.csv", "--table", self.table)
+        for command, flags in ((("tables",), ("--overwrite",)), (("tables",), ("--standard-errors",)),
+                               (("tables",), ("--coverage", "p95")), (("tables",), ("--s44-order", "1b")),
+                               (("tables",), ("--depth", 3)), (("pulse", *PULSE), ("--overwrite",)),
+                               (("pulse", *PULSE), ("--resume",)), (("csv", *files), ("--json",)),
+                               (("csv", *files), ("--recursive",)), (("csv", *files), ("--classes", 40)),
+                               (("csv", *files), ("--token-file", "token")), (("las", *files), ("--depth", 3)),
+                               (("las", *files), ("--incidence", 3)), (("health",), ("--table", self.table)),
+                               (("health", "--server", "localhost:1"), ("--coverage", "p95"))):
+            with self.subTest(command=command[0], flags=flags):
+                self.assert_fails(query(*command, *flags), 2, flags[0])
+
+    def test_misspelt_words_get_a_suggestion(self):
+        for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, tables, health"),
+                                     (["plus"], "'plus' is not a command", "did you mean pulse?"),
+                                     (["pulse", "--wind-sped", 5], "did you mean --wind-speed?"),
+                                     (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),
+                                     (["csv", "a.csv", "b.csv", "--overwrit"], "did you mean --overwrite?"),
+                                     (["pulse", *PULSE, "--coverage", "2sigm"], "did you mean 2sigma?"),
+                                     (["--depth", 3, "pulse"], "put it after the command"),
+                                     (["pulse", "words"], "'words'"), ([], "no command is given")):
+            with self.subTest(arguments=arguments):
+                self.assert_fails(query(*arguments), 2, *expected)
+
+    def test_the_interpolation_error_stands_beside_the_standard_error(self):
+        tables = pathlib.Path(__file__).resolve().parents[2] / "tables/shipped"
+        survey = ("--table", tables / "survey.h5")
+        thu = "thu                    0.28 % rms, 1.1 % at the 99th percentile"
+        for flags in ((), ("--standard-errors",)):
+            text = query("pulse", *PULSE, *survey, *flags, check=0).stdout
+            self.assertIn(thu, text)
+            with programs.server(tables) as address:
+                self.assertEqual(query("pulse", *PULSE, "--server", address, *flags, check=0).stdout, text)
+        answer = json.loads(query("pulse", *PULSE, *survey, "--json", check=0).stdout)
+        self.assertAlmostEqual(answer["thu_interpolation_error_rms"], 0.002761)
+        self.assertAlmostEqual(answer["thu_interpolation_error_percentile_99"], 0.0105002)
+        published = query("pulse", "--table", tables / "birkebak2018_model.h5", "--wind-speed", 3, "--incidence", 10,
+                          "--azimuth", 0, "--footprint", 0.25, "--depth", 1, check=0).stdout
+        self.assertIn("INTERPOLATED", published)
+        self.assertIn("interpolation error      not known", published)
+        source = self.folder / "in.csv"
+        source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
+        noted = query("csv", source, self.folder / "out.csv", *survey, "--standard-errors", check=0).stderr
+        self.assertIn("albtpu-query: interpolation error, relative, at random pulses all over the table: "
+                      "refraction_along_wind 0.35 % rms", noted)
+        self.assertNotIn("interpolation error", query("csv", source, self.folder / "two.csv", *survey, check=0).stderr)
+
+    def test_las_flags_that_contradict_each_other_are_bad_usage(self):
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
         need = {"--water-level": 0, "--wind-speed": 5, "--footprint": 1}
 
@@ -108,7 +156,7 @@ class CommandLineTest(programs.Test):
         need["--water-level"] = "-0.5"
         self.assertEqual(las(source, target, more=("--overwrite",)).returncode, 0)
 
-    def test_failures_say_what_is_wrong_and_leave_nothing(self):
+    def test_failures_state_the_problem_and_leave_no_files(self):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
         source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n5,12,0.5,deep\n")
         os.mkfifo(self.folder / "pipe")
@@ -127,7 +175,7 @@ class CommandLineTest(programs.Test):
         self.assert_fails(query("las", self.folder / "pipe", target, *table, *las), 1, "pipe: is not a regular file")
         self.assertEqual(self.names(), before)
 
-    def test_existing_output_is_kept_unless_told(self):
+    def test_existing_output_is_kept_without_overwrite(self):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
         source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
         target.write_text("precious")
@@ -157,7 +205,7 @@ class CommandLineTest(programs.Test):
         with programs.server(tables) as address:
             self.assertEqual(query("tables", "--server", address, check=0).stdout, listed)
 
-    def test_full_disk_leaves_nothing(self):
+    def test_a_full_disk_leaves_no_files(self):
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
         limit = source.stat().st_size // 2
         before = self.names()
@@ -174,7 +222,7 @@ class CommandLineTest(programs.Test):
         self.assertEqual(result.returncode, 1)
         self.assertIn("standard output", result.stderr)
 
-    def test_work_goes_on_when_nobody_reads_its_messages(self):
+    def test_a_closed_standard_error_does_not_stop_the_work(self):
         reader, writer = os.pipe()
         os.close(reader)
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
@@ -185,17 +233,17 @@ class CommandLineTest(programs.Test):
         self.assertTrue(target.exists())
 
     def writes(self, process):
-        """Whether it has begun an output in the folder, with a name or without."""
+        """Whether the process has an output file open in the folder, with or without a name."""
         links = pathlib.Path(f"/proc/{process.pid}/fd").iterdir()
         folder = os.path.realpath(self.folder)
         for link in links:
-            with contextlib.suppress(FileNotFoundError):  # It closes files meanwhile.
+            with contextlib.suppress(FileNotFoundError):  # The process closes files in the meantime.
                 if os.readlink(link).startswith((f"{folder}/#", f"{folder}/.albtpu-")):
                     return True
         return False
 
-    def test_signal_leaves_nothing(self):
-        # The input is a pipe that never ends, so the program is surely at work when the signal comes.
+    def test_a_signal_leaves_no_files(self):
+        # The input is a pipe that stays open, so the program is still working when the signal arrives.
         source, target = self.folder / "in.csv", self.folder / "out.csv"
         os.mkfifo(source)
         before = self.names()

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/client/local_source.h"
+#include "survey/commands/interpolation_error.h"
 #include "survey/number_text.h"
 #include "tests/survey/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"
@@ -34,7 +35,7 @@ class PulseTextTest : public ::testing::Test {
   AnswerStyle style_;
 };
 
-TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
+TEST_F(PulseTextTest, HasTheColumnNamesOfCsvAndTheTable) {
   const Json json = JsonOf(kPulse);
   const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
   for (const Quantity quantity : kQuantities) {
@@ -50,7 +51,7 @@ TEST_F(PulseTextTest, HoldsTheCsvsNamesAndTheTable) {
   EXPECT_FALSE(json.contains("thu_standard_error"));
 }
 
-TEST_F(PulseTextTest, PrintsNumbersWithTheDigitsOfTheCsv) {
+TEST_F(PulseTextTest, PrintsNumbersWithTheDigitsOfCsv) {
   const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
   EXPECT_THAT(PulseJson(Ask(kPulse), source_.table()),
               HasSubstr("\"thu\": " + FormatFloat(answer[Quantity::kThu]) + ",\n"));
@@ -70,7 +71,7 @@ TEST_F(PulseTextTest, IsNullWhereThereIsNoNumber) {
   EXPECT_EQ(json.at("coverage"), "p95");
 }
 
-TEST_F(PulseTextTest, TellsPeopleTheCoverageTheTableAndEveryOrder) {
+TEST_F(PulseTextTest, StatesTheCoverageTheTableAndEveryOrder) {
   const std::string text = TextOf(kPulse);
   for (const char* part : {"synthetic 1", "m, 2 sigma", "degree, 2 sigma", "fully developed sea", "exclusive",
                            "special", "1a", "1b", "IHO S-44 edition", "all at 95 %"}) {
@@ -83,17 +84,64 @@ TEST_F(PulseTextTest, TellsPeopleTheCoverageTheTableAndEveryOrder) {
   EXPECT_THAT(TextOf(kPulse), Not(HasSubstr("special")));
 }
 
-TEST_F(PulseTextTest, TellsPeopleTheRangeThatThereIs) {
+TEST_F(PulseTextTest, StatesTheRangeThatTheTableCovers) {
   Pulse pulse = kPulse;
   pulse.depth = 99;
   EXPECT_THAT(TextOf(pulse),
-              HasSubstr("OUT_OF_DOMAIN:depth\nno number is invented: the table reaches depth from 0 to "
-                        "20 m\n"));
+              HasSubstr("OUT_OF_DOMAIN:depth\nno number (the table covers depth from 0 to 20 m)\n"));
 }
 
-TEST_F(PulseTextTest, TellsPeopleWhatTheTableDoesNotHold) {
+TEST_F(PulseTextTest, StatesWhatTheTableDoesNotHold) {
   source_ = LocalSource("", SyntheticTable({.published = true}));
   EXPECT_THAT(TextOf(kPulse), HasSubstr("bias_vertical            not in this table"));
+}
+
+// A table that knows what it errs by between its nodes.
+TableSummary Checked() {
+  TableSummary table = LocalSource("", SyntheticTable()).table();
+  table.attributes["interpolation_error_thu"] = "0.002761, 0.0112, 0.0181217, 0.00155256, 299";
+  table.attributes["interpolation_error_tvu"] = "0.56, 0.9, 1, 0.001, 40";
+  return table;
+}
+
+TEST_F(PulseTextTest, StatesTheInterpolationErrorBesideTheStandardErrors) {
+  for (const bool standard_errors : {false, true}) {
+    style_.standard_errors = standard_errors;
+    const std::string text = PulseText(Ask(kPulse), Checked());
+    EXPECT_THAT(text, HasSubstr("\n  thu                    0.28 % rms, 1.1 % at the 99th percentile\n"));
+    EXPECT_THAT(text, HasSubstr("\n  tvu                    56 % rms, 90 % at the 99th percentile\n"));
+  }
+}
+
+TEST_F(PulseTextTest, AddsTheInterpolationErrorToJsonAsFractions) {
+  const Json json = Json::parse(PulseJson(Ask(kPulse), Checked()));
+  EXPECT_EQ(json.at("thu_interpolation_error_rms"), 0.002761);
+  EXPECT_EQ(json.at("thu_interpolation_error_percentile_99"), 0.0112);
+  EXPECT_TRUE(json.at("refraction_along_wind_interpolation_error_rms").is_null());
+  EXPECT_FALSE(json.contains("bias_vertical_interpolation_error_rms"));
+}
+
+TEST_F(PulseTextTest, SaysThatTheInterpolationErrorIsNotKnown) {
+  EXPECT_THAT(TextOf(kPulse),
+              HasSubstr("interpolation error      not known (the table does not state it)\n"));
+  EXPECT_TRUE(JsonOf(kPulse).at("thu_interpolation_error_rms").is_null());
+}
+
+TEST(InterpolationErrors, AreNotReadFromAnythingElse) {
+  TableSummary table;
+  for (const char* text : {"", "1", "0.1, 0.2, 0.3, 0.4", "0.1, 0.2, 0.3, 0.4, 5, 6", "nan, 0.2, 0.3, 0.4, 5",
+                           "0, 0, 0, 0, 0", "far"}) {
+    table.attributes["interpolation_error_thu"] = text;
+    EXPECT_TRUE(InterpolationErrors(table).empty()) << text;
+  }
+}
+
+TEST(InterpolationErrors, FitIntoOneLine) {
+  EXPECT_EQ(
+      InterpolationErrorNote(Checked()),
+      "interpolation error, relative, at random pulses all over the table: thu 0.28 % rms, 1.1 % at the 99th "
+      "percentile; tvu 56 % rms, 90 % at the 99th percentile");
+  EXPECT_EQ(InterpolationErrorNote({}), "interpolation error: not known (the table does not state it)");
 }
 
 }  // namespace

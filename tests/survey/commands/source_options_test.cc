@@ -77,7 +77,7 @@ TEST_F(SourceOptionsTest, ListsTheNamesWhereNoneIsTheDefault) {
 
 TEST_F(SourceOptionsTest, SaysHowElseToFindATable) {
   setenv("ALBTPU_TABLES", (folder_ / "no").c_str(), 1);
-  EXPECT_THAT(std::string(OpenSource({}).status().message()), HasSubstr("--server a service"));
+  EXPECT_THAT(std::string(OpenSource({}).status().message()), HasSubstr("a service with --server"));
 }
 
 TEST_F(SourceOptionsTest, TakesNoNameBesideAFile) {
