@@ -15,6 +15,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "command_line/exit_codes.h"
+#include "command_line/help.h"
+#include "command_line/usage_error.h"
 #include "service/server/access/credential_flags.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listen_address.h"
@@ -32,9 +35,6 @@
 namespace albtpu::server {
 namespace {
 
-constexpr int kExitFailure = 1;
-constexpr int kExitUsage = 2;
-
 struct Options {
   std::optional<std::filesystem::path> tables;
   std::string default_table;
@@ -45,8 +45,7 @@ struct Options {
 };
 
 void AddFlags(CLI::App& app, Options& options) {
-  app.set_version_flag(
-      "--version", absl::StrCat("albtpu-serve ", std::string(Version()), " (", std::string(Commit()), ")"));
+  SetUpProgram(app, Version(), Commit());
   app.add_option(
          "--tables", options.tables,
          "Folder of tables, NAME.h5 and NAME/VERSION.h5 (default: $ALBTPU_TABLES, else the installed tables)")
@@ -62,6 +61,15 @@ void AddFlags(CLI::App& app, Options& options) {
       ->type_name("HOST:PORT");
   app.add_flag("--log-json", options.log_json, "Log one JSON object per line");
   AddCredentialFlags(app, options.credentials);
+  Group(app, "Tables", {"--tables", "--default-table"});
+  Group(app, "Addresses", {"--listen", "--metrics"});
+  Group(app, "Log", {"--log-json"});
+  EndHelp(app,
+          "SIGHUP reloads the tables; SIGTERM and SIGINT finish the calls under way and stop.\n"
+          "Exit code: 0 after a signal to stop, 2 for bad usage, 1 for a failure.",
+          "--tables tables --metrics 127.0.0.1:9464",
+          "--tables tables --listen 0.0.0.0:50051 --tls-cert server.pem --tls-key server.key --token-file "
+          "tokens");
 }
 
 // Blocks the signals of the server in all threads started from here on; WaitForStop() receives them.
@@ -187,7 +195,7 @@ int ParseAndRun(int argc, char** argv) {
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    spdlog::error("{}; --help lists the flags", error.what());
+    spdlog::error("{}", UsageMessage(app, error));
     return kExitUsage;
   }
   if (options.log_json) spdlog::set_formatter(MakeLogFormatter(LogStyle::kJson));

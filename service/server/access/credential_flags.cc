@@ -1,6 +1,8 @@
 #include "service/server/access/credential_flags.h"
 
 #include "absl/strings/str_cat.h"
+#include "command_line/checks.h"
+#include "command_line/help.h"
 
 namespace albtpu::server {
 namespace {
@@ -18,9 +20,7 @@ absl::Status CheckPlainText(const char* flag, const ListenAddress& address, cons
 void AddCredentialFlags(CLI::App& app, CredentialFlags& flags) {
   CertificateFiles& certificates = flags.files.certificates;
   const auto add_file = [&app](const char* flag, std::filesystem::path& path, const char* description) {
-    return app.add_option(flag, path, description)->type_name("FILE")->check([](const std::string& text) {
-      return text.empty() ? std::string("is empty: expected the path of a file") : std::string();
-    });
+    return app.add_option(flag, path, description)->type_name("FILE")->check(NotEmpty("file"));
   };
   CLI::Option* certificate = add_file(
       "--tls-cert", certificates.certificate,
@@ -35,6 +35,8 @@ void AddCredentialFlags(CLI::App& app, CredentialFlags& flags) {
       ->needs(certificate);
   app.add_flag("--insecure", flags.insecure,
                "Allow plain text beyond this machine, for the service without TLS and for --metrics");
+  Group(app, "Access to the server",
+        {"--tls-cert", "--tls-key", "--tls-client-ca", "--token-file", "--insecure"});
 }
 
 absl::Status CheckServiceAddress(const ListenAddress& address, const CredentialFlags& flags) {
