@@ -1,7 +1,9 @@
 #include "command_line/checks.h"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
+#include <system_error>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -12,6 +14,19 @@ namespace albtpu {
 CLI::Validator NotEmpty(const std::string& what) {
   return CLI::Validator(
       [what](const std::string& text) { return text.empty() ? "is empty; name a " + what : std::string(); },
+      "");
+}
+
+CLI::Validator WholeIn(long long least, long long most) {
+  return CLI::Validator(
+      [least, most](const std::string& text) -> std::string {
+        long long number = 0;
+        const char* last = text.data() + text.size();
+        const auto [end, error] = std::from_chars(text.data(), last, number);
+        if (error == std::errc() && end == last && number >= least && number <= most) return {};
+        return absl::StrCat("'", text, "' is not a number in the range; give a whole number from ", least,
+                            " to ", most);
+      },
       "");
 }
 

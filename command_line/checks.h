@@ -10,6 +10,9 @@ namespace albtpu {
 // A text that is not empty, such as the name of a `what`.
 CLI::Validator NotEmpty(const std::string& what);
 
+// A whole number from `least` to `most`.
+CLI::Validator WholeIn(long long least, long long most);
+
 // One of `words`; a near match is named.
 CLI::Validator OneOf(const std::vector<std::string>& words);
 

@@ -8,7 +8,7 @@ namespace albtpu {
 namespace {
 
 constexpr std::size_t kMostEdits = 3;
-constexpr std::size_t kEdits = 2, kCharacters = 5;  // at most so many edits for so many characters
+constexpr std::size_t kEditsPer = 2, kCharactersPer = 5;  // at most so many edits for so many characters
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::optional<std::string> NearMatch(std::string_view word, const std::vector<st
     const std::size_t shorter = std::min(word.size(), candidate.size());
     if (longer - shorter > kMostEdits) continue;  // Each further character takes an edit.
     const std::size_t edits = EditDistance(word, candidate);
-    if (edits >= least || edits * kCharacters > longer * kEdits) continue;
+    if (edits >= least || edits * kCharactersPer > longer * kEditsPer) continue;
     least = edits;
     nearest = candidate;
   }

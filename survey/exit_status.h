@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "absl/status/status.h"
+#include "command_line/exit_codes.h"
 
 namespace albtpu::client {
 
@@ -15,9 +16,6 @@ namespace albtpu::client {
 // parentheses the detail that explains it; after the semicolon what to do about it. Leave out what would say
 // nothing. The file or flag comes first, before a colon:
 //     in.csv line 4, column 'depth': 'deep' is not a number; write a number in m, such as 12.5
-
-inline constexpr int kExitFailure = 1;
-inline constexpr int kExitUsage = 2;
 
 // An InvalidArgument whose cause is the command line, rather than a file or a server.
 absl::Status UsageError(std::string_view message);

@@ -58,8 +58,4 @@ std::string NodesProblem(const CampaignKey& key, const std::vector<double>& node
   return {};
 }
 
-std::string FullName(const CampaignKey& key) {
-  return absl::StrCat(std::string(key.table), key.table.empty() ? "" : ".", std::string(key.name));
-}
-
 }  // namespace albtpu

@@ -77,7 +77,7 @@ inline constexpr CampaignKey kTitle = {
     "What the table is for, in words."};
 inline constexpr CampaignKey kSeed = {
     "", "seed", WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", std::int64_t{1},
-    "Seed of all random numbers. The same seed gives the same table."};
+    "Seed of all random numbers. The same program on the same kind of processor makes the same table from the same seed."};
 
 inline constexpr CampaignKey kWindSpeed = {
     "axes", "wind_speed", NodeRange{0, false, kInfinity}, "m/s", Required{},
@@ -103,8 +103,8 @@ inline constexpr CampaignKey kDepth = {
 
 inline constexpr CampaignKey kProfile = {
     "beam", "profile", Choice{kProfiles}, "", std::string_view("uniform"),
-    "Intensity across the beam. `footprint` is the diameter of a uniform beam, and of a gaussian one where its "
-    "intensity is 1/e^2 of that on the axis."};
+    "Irradiance across the beam. `footprint` is the diameter of a uniform beam, and of a gaussian one where its "
+    "irradiance is 1/e^2 of that on the axis."};
 inline constexpr CampaignKey kSourceHeight = {
     "beam", "source_height", NumberRange{0.1, kInfinity}, "m", kInfinity,
     "Height of the point source that the beam diverges from. `inf` is a collimated beam."};
@@ -194,7 +194,7 @@ std::vector<double> ReadNodes(TomlReader& toml, const CampaignKey& key);  // see
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);
 
 // "effort.rays".
-std::string FullName(const CampaignKey& key);
+inline std::string FullName(const CampaignKey& key) { return FullName(key.table, key.name); }
 
 // The reference of all keys, docs/campaign.md.
 std::string CampaignReference();

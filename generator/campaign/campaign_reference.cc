@@ -122,7 +122,7 @@ std::string CampaignReference() {
     std::vector<Row> rows = {{"key", "type", "unit", "range", "default", "meaning"}};
     for (; key != kCampaignKeys.end() && key->table == table; ++key) rows.push_back(RowOf(*key));
     absl::StrAppend(&page, "\n## ",
-                    table.empty() ? "Before all tables" : absl::StrCat("[", std::string(table), "]"), "\n\n",
+                    table.empty() ? "Top-level keys" : absl::StrCat("[", std::string(table), "]"), "\n\n",
                     MarkdownTable(rows));
   }
   return page;

@@ -77,6 +77,7 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
              "which nearly halves the error of interpolation in the root mean square"
            : "as computed at the nodes"},
       {"realizations", Range(results, &SeaCaseResult::realizations)},
+      // "Encounters" are sea cases: attributes keep the names of format 1.
       {"encounters_above_relative_error",
        std::int64_t{std::count_if(results.begin(), results.end(),
                                   [](const SeaCaseResult& result) { return !result.converged; })}},

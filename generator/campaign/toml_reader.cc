@@ -7,13 +7,10 @@
 #include "command_line/near_match.h"
 
 namespace albtpu {
-namespace {
 
 std::string FullName(std::string_view table, std::string_view key) {
   return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key);
 }
-
-}  // namespace
 
 absl::StatusOr<TomlReader> TomlReader::Parse(std::string_view text) {
   try {

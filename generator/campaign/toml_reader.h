@@ -16,6 +16,9 @@
 
 namespace albtpu {
 
+// "axes.depth": the name of a key in messages; the table is empty for keys at the top level.
+std::string FullName(std::string_view table, std::string_view key);
+
 // Keys are named by their table ("" for the root) and their own name. A key that is missing, of another type or out of
 // range yields an empty value; `Finish` then returns an error with the key, its line and the values that it takes.
 class TomlReader {

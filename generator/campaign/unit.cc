@@ -51,7 +51,7 @@ constexpr std::size_t kDigestSize = std::tuple_size_v<Sha256Digest>;
 std::string KindName(UnitKind kind) {
   switch (kind) {
     case UnitKind::kSeaCase:
-      return "encounter";
+      return "encounter";  // The name in files, which outlives the one in the code.
     case UnitKind::kPulse:
       return "pulse";
   }

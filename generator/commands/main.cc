@@ -92,7 +92,7 @@ std::optional<Shard> ParseShard(const std::string& text) {
 void AddThreads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Number of threads (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4096).description(""));
+      ->check(WholeIn(1, 4096));
 }
 
 void AddTable(CLI::App& table, TableOptions& options, int& threads) {
@@ -151,7 +151,7 @@ void AddPlan(CLI::App& plan, PlanOptions& options, int& threads) {
   plan.add_option("--campaign", options.campaign, "Campaign file")->required()->type_name("FILE.toml");
   plan.add_option("--cores", options.cores, "Print the time on this many cores, too")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000).description(""));
+      ->check(WholeIn(1, 1'000'000));
   AddThreads(plan, threads);
   Group(plan, kFiles, {"--campaign"});
   Group(plan, kWork, {"--cores", "--threads"});

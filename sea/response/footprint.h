@@ -38,8 +38,9 @@ double RadiusOfPower(BeamProfile profile, double power);
 // uniform beam, 0 from a = 1 on; exp(-4 a^2) for a gaussian one.
 double FootprintOverlap(BeamProfile profile, double apart);
 
-// The length [m] of the footprint on the water along its longer axis, 1 / cos(incidence) times its width: one
-// diameter for a uniform beam, two diameters for a gaussian one, which hold all but exp(-8) = 3e-4 of its power.
+// The length [m] of the footprint on the water along its longer axis. Across the beam a uniform beam is one diameter
+// wide, a gaussian one two, which hold all but exp(-8) = 3e-4 of its power; on the water both are longer by
+// 1 / cos(incidence).
 double WidthOnWater(const BeamOptions& beam);
 
 // The factor W by which averaging over the footprint reduces a wave of wavenumber `k` [rad/m] that travels towards
