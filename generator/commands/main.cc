@@ -34,6 +34,7 @@ using albtpu::PointOptions;
 using albtpu::Shard;
 using albtpu::TableOptions;
 using albtpu::ValidateOptions;
+using albtpu::WholeIn;
 
 // The headings under which --help lists options.
 constexpr char kFiles[] = "Files", kWork[] = "The computation";
