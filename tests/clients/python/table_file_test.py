@@ -205,7 +205,12 @@ class TableFile(unittest.TestCase):
                                 (too_great, "above 1e"),
                                 (attribute("tvu", "units", "feet"), "'tvu' is in 'feet'"),
                                 (attribute("fetch", "interpolation", "cubic"), "'cubic'"),
-                                (attribute("/", "coverage", "1 sigma"), "'1 sigma'")):
+                                (attribute("/", "coverage", "1 sigma"), "'1 sigma'"),
+                                (attribute("/", "table_kind", "lake"),
+                                 "changed.h5: is a table of kind 'lake': expected kind 'sea_surface'$"),
+                                (attribute("/", "table_kind", "sea_surface"),
+                                 "attribute 'table_kind' is 'sea_surface': files of that kind do not have it$"),
+                                (attribute("/", "table_kind", 1), "attribute 'table_kind' of '/' is a number")):
             path = self.folder / "changed.h5"
             shutil.copy(self.path, path)
             with h5py.File(path, "r+") as file:

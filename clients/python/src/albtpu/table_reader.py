@@ -6,7 +6,9 @@ them. The seal excludes accidental changes to either.
 
 from __future__ import annotations
 
+import contextlib
 import io
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import h5py
@@ -22,6 +24,7 @@ Floats = NDArray[np.float32]
 # Limits of tables/FORMAT.md.
 _MOST_VALUES, _MOST_NODES, _LEAST_DISTANCE, _GREATEST_NODE, _GREATEST_VALUE = 2**28, 65536, 1e-6, 1e9, 1e6
 _FILTERS = {h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_FLETCHER32}
+_KIND, _SEA_SURFACE = "table_kind", "sea_surface"
 _RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_digest", "campaign")
 
 
@@ -35,15 +38,24 @@ class TableContent(NamedTuple):
 
 def read_table(name: str, file: bytes) -> TableContent:
     """Reads the table in `file`. Raises TableFileError, whose text is to follow the name of the file."""
+    with open_sealed(file) as opened:
+        return read_content(name, opened)
+
+
+@contextlib.contextmanager
+def open_sealed(file: bytes) -> Iterator[h5py.File]:
+    """Opens `file` after checking its seal. Errors of HDF5 inside the `with` statement become TableFileErrors."""
     check_seal(file)
     try:
         with h5py.File(io.BytesIO(file)) as opened:  # The same bytes whose seal was checked.
-            return _read_content(name, opened)
+            yield opened
     except (OSError, KeyError) as error:
         raise TableFileError(f"is sealed, but cannot be read as HDF5: {error}") from error
 
 
-def _read_content(name: str, file: h5py.File) -> TableContent:
+def read_content(name: str, file: h5py.File) -> TableContent:
+    """Reads a table from an open file. Raises TableFileError."""
+    _check_kind(file)
     if (coverage := _text(file, "coverage")) != "2 sigma":
         raise TableFileError(f"attribute 'coverage' is '{coverage}': it should be '2 sigma'")
     axes = {axis: _read_axis(file, axis) for axis in AXES}
@@ -62,6 +74,16 @@ def _read_content(name: str, file: h5py.File) -> TableContent:
     attributes = {key: plain_attribute(value) for key, value in sorted(file.attrs.items()) if key not in _RESERVED}
     table = Table(reference, _text(file, "title"), axes, quantities, _text(file, "campaign"), attributes)
     return TableContent(table, values, standard_errors)
+
+
+def _check_kind(file: h5py.File) -> None:
+    """Refuses other kinds of tables. Tables of the sea surface never name their kind."""
+    if _KIND not in file.attrs:
+        return
+    kind = _text(file, _KIND)
+    if kind == _SEA_SURFACE:
+        raise TableFileError(f"attribute '{_KIND}' is '{kind}': files of that kind do not have it")
+    raise TableFileError(f"is a table of kind '{kind}': expected kind '{_SEA_SURFACE}'")
 
 
 def _read_axis(file: h5py.File, axis: str) -> Axis:
