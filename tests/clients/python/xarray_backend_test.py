@@ -54,6 +54,20 @@ class Backend(unittest.TestCase):
                       "https://albtpu.example/survey.h5", io.BytesIO(b"CDF"), b"bytes", None):
             self.assertFalse(self.backend.guess_can_open(other), other)
 
+    def test_does_not_raise_for_inputs_that_are_no_table_files(self):
+        closed = io.BytesIO(TABLE.read_bytes())
+        closed.close()
+
+        class Unreadable:
+            def tell(self):
+                return 0
+
+            def read(self):  # Takes no number of bytes.
+                return b""
+
+        for other in (closed, Unreadable(), "embedded\0null", "\ud800.h5", 1, ["a.nc", "b.nc"], {}):
+            self.assertIs(self.backend.guess_can_open(other), False, repr(other))
+
     def test_leaves_an_open_file_where_it_was(self):
         with open(TABLE, "rb") as file:
             self.assertTrue(self.backend.guess_can_open(file))

@@ -6,7 +6,6 @@ on anyway, and the values come from the same bytes whose seal was checked.
 
 from __future__ import annotations
 
-import io
 import os
 import pathlib
 from collections.abc import Iterable
@@ -20,7 +19,7 @@ from xarray.backends import BackendEntrypoint
 from .errors import TableFileError
 from .schema import AXES, QUANTITIES, REFRACTIONS, STANDARD_ERROR
 from .seal import MAGIC
-from .table_reader import TableContent, plain_attribute, read_table
+from .table_reader import TableContent, open_sealed, plain_attribute, read_content
 
 # Attributes that describe the HDF5 storage. Readers of netCDF hide them, too.
 _HIDDEN = {"CLASS", "NAME", "REFERENCE_LIST", "DIMENSION_LIST", "_FillValue"}
@@ -43,7 +42,7 @@ class AlbtpuBackendEntrypoint(BackendEntrypoint):
                 with open(filename_or_obj, "rb") as file:
                     return file.read(len(MAGIC)) == MAGIC
             return _peek(filename_or_obj) == MAGIC
-        except (OSError, AttributeError):  # Not a local file, or not a file.
+        except (OSError, AttributeError, TypeError, ValueError):  # Not a local file, not a file, or a closed one.
             return False
 
     def open_dataset(  # type: ignore[override]  # xarray asks for named options, so that it can refuse others.
@@ -62,11 +61,10 @@ class AlbtpuBackendEntrypoint(BackendEntrypoint):
             filename_or_obj.seek(0)
             name, file = "table", filename_or_obj.read()
         try:
-            content = read_table(name, file)
+            with open_sealed(file) as opened:
+                dataset = _dataset(read_content(name, opened), opened)
         except TableFileError as error:
             raise TableFileError(f"{filename_or_obj}: {error}") from error
-        with h5py.File(io.BytesIO(file)) as opened:
-            dataset = _dataset(content, opened)
         return dataset.drop_vars(dropped, errors="ignore")
 
 
