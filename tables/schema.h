@@ -41,6 +41,10 @@ extern const TableSchema kSeaSurface;
 const AxisSchema& Describe(AxisId axis);
 const QuantitySchema& Describe(Quantity quantity);
 
+// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, and the larger of the values along
+// and across the wind.
+inline bool MayBeAbsent(AxisId axis) { return Describe(axis).if_absent != IfAbsent::kRefuse; }
+
 // The inverse of `Describe(...).name`; nothing if there is no such name.
 std::optional<AxisId> FindAxis(std::string_view name);
 std::optional<Quantity> FindQuantity(std::string_view name);

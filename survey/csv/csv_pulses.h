@@ -53,8 +53,4 @@ PulseBatch OnePulse(const FixedCoordinates& fixed);
 // The flag that sets a coordinate for all pulses: `--wind-speed`.
 std::string FlagName(AxisId axis);
 
-// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, and the larger of the values along
-// and across the wind.
-constexpr bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId::kAzimuth; }
-
 }  // namespace albtpu::client

@@ -28,6 +28,12 @@ TEST(Schema, HasDepthForAllQuantitiesButRefraction) {
   }
 }
 
+TEST(Schema, NeedsAllCoordinatesButFetchAndAzimuth) {
+  for (AxisId axis : kAxes) {
+    EXPECT_EQ(MayBeAbsent(axis), axis == AxisId::kFetch || axis == AxisId::kAzimuth) << Describe(axis).name;
+  }
+}
+
 TEST(Schema, FindsEveryName) {
   for (AxisId axis : kAxes) EXPECT_EQ(FindAxis(Describe(axis).name), axis);
   for (Quantity quantity : kQuantities) EXPECT_EQ(FindQuantity(Describe(quantity).name), quantity);

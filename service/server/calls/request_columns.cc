@@ -14,8 +14,6 @@ namespace {
 
 using ColumnBytes = std::array<const std::string*, kAxisCount>;
 
-bool MayBeAbsent(AxisId axis) { return axis == AxisId::kFetch || axis == AxisId::kAzimuth; }
-
 std::string Quoted(AxisId axis) { return absl::StrCat("column '", std::string(Describe(axis).name), "'"); }
 
 // The axis of the longest column, which has one number for each pulse.
