@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "tables/coverage.h"
+#include "tables/query/larger_answer.h"
 #include "tables/query/table_interpolation.h"
 
 namespace albtpu {
@@ -22,12 +22,6 @@ PulseUncertainty InterpolatePulse(const UncertaintyTable& table, const Coordinat
   if (answer.outcome == Outcome::kInterpolated)
     uncertainty.radius_over_thu = RadiusOverThu(uncertainty.values);
   return uncertainty;
-}
-
-// The outcome that counts for both: invalid before out of domain, then the first axis.
-const PulseUncertainty& WorseOutcome(const PulseUncertainty& a, const PulseUncertainty& b) {
-  if (a.outcome != b.outcome) return a.outcome > b.outcome ? a : b;
-  return a.axis <= b.axis ? a : b;
 }
 
 }  // namespace
@@ -48,16 +42,9 @@ PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse) 
 }
 
 PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind) {
-  const bool numbers =
-      downwind.outcome == Outcome::kInterpolated && crosswind.outcome == Outcome::kInterpolated;
-  PulseUncertainty larger = numbers ? downwind : WorseOutcome(downwind, crosswind);
+  PulseUncertainty larger = LargerAnswer(downwind, crosswind);
   larger.azimuth_absent = true;
-  if (!numbers) return larger;
-  for (std::size_t i = 0; i < kQuantityCount; ++i) {
-    if (!(std::abs(crosswind.values[i]) > std::abs(downwind.values[i]))) continue;
-    larger.values[i] = crosswind.values[i];
-    larger.standard_errors[i] = crosswind.standard_errors[i];
-  }
+  if (larger.outcome != Outcome::kInterpolated) return larger;
   larger.radius_over_thu = LargerRadiusOverThu(downwind[Quantity::kThu], downwind.radius_over_thu,
                                                crosswind[Quantity::kThu], crosswind.radius_over_thu);
   return larger;

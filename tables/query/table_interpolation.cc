@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tables/query/answer_writer.h"
+#include "tables/query/larger_answer.h"
 #include "tables/query/table_layout.h"
 
 namespace albtpu {
@@ -80,24 +81,6 @@ double InterpolateValue(const Variable& variable, const Corners& corners) {
   return std::exp(corners.Mean(variable.values, [](double value) { return std::log(value); }));
 }
 
-// The outcome that counts for both: invalid before out of domain, then the first axis.
-const TableValues& WorseOutcome(const TableValues& a, const TableValues& b) {
-  if (a.outcome != b.outcome) return a.outcome > b.outcome ? a : b;
-  return a.axis <= b.axis ? a : b;
-}
-
-TableValues LargerOf(const TableValues& low, const TableValues& high) {
-  if (low.outcome != Outcome::kInterpolated || high.outcome != Outcome::kInterpolated)
-    return WorseOutcome(low, high);
-  TableValues larger = low;
-  for (std::size_t q = 0; q < kMaxQuantities; ++q) {
-    if (!(std::abs(high.values[q]) > std::abs(low.values[q]))) continue;
-    larger.values[q] = high.values[q];
-    larger.standard_errors[q] = high.standard_errors[q];
-  }
-  return larger;
-}
-
 // Writes the numbers of a block as they are.
 class ValueWriter {
  public:
@@ -140,6 +123,14 @@ class ValueWriter {
   Needs needs_;
 };
 
+// Whether only columns of quantities of the schema are wanted: the others would not be written.
+[[maybe_unused]] bool AreOfSchema(const ValueColumns& answers, const TableSchema& schema) {
+  for (std::size_t q = schema.quantities.size(); q < kMaxQuantities; ++q) {
+    if (answers.values[q] != nullptr || answers.standard_errors[q] != nullptr) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TableValues InterpolateAt(const Table& table, std::span<const double> coordinates) {
@@ -170,6 +161,7 @@ TableValues InterpolateAt(const Table& table, std::span<const double> coordinate
 }
 
 TableValues Interpolate(const Table& table, std::span<const std::optional<float>> coordinates) {
+  assert(coordinates.size() == table.axes().size());
   std::array<double, kMaxAxes> at;
   std::optional<std::size_t> two_ended;
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
@@ -184,11 +176,13 @@ TableValues Interpolate(const Table& table, std::span<const std::optional<float>
   at[*two_ended] = kFoldedEnds[0];
   const TableValues low = InterpolateAt(table, all);
   at[*two_ended] = kFoldedEnds[1];
-  return LargerOf(low, InterpolateAt(table, all));
+  return LargerAnswer(low, InterpolateAt(table, all));
 }
 
 struct TableInterpolator::Layout : TableLayout {
-  using TableLayout::TableLayout;
+  explicit Layout(const Table& table) : TableLayout(table), schema(table.schema()) {}
+
+  const TableSchema& schema;
 };
 
 TableInterpolator::TableInterpolator(const Table& table) : layout_(std::make_unique<const Layout>(table)) {}
@@ -211,7 +205,8 @@ void ForEachColumn(const ValueColumns& wanted, ValueColumns& other, const Visit&
 
 void TableInterpolator::Interpolate(const PulseColumns& pulses, std::size_t begin, std::size_t end,
                                     const ValueColumns& answers) const {
-  assert(begin <= end && end <= pulses.size);
+  assert(CheckLengths(layout_->schema, pulses).ok() && begin <= end && end <= pulses.size);
+  assert(AreOfSchema(answers, layout_->schema));
   InterpolateColumns(*layout_, pulses, begin, end, answers,
                      [&](const ValueColumns& columns) { return ValueWriter(layout_->records, columns); });
 }

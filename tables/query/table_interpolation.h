@@ -30,7 +30,7 @@ TableValues InterpolateAt(const Table& table, std::span<const double> coordinate
 TableValues Interpolate(const Table& table, std::span<const std::optional<float>> coordinates);
 
 // Where to write answers: columns of as many elements as there are pulses, at the indices of the schema; null what
-// is not wanted.
+// is not wanted, and beyond the quantities of the schema.
 struct ValueColumns {
   std::uint8_t* outcomes = nullptr;      // 1 interpolated, 2 out of domain, 3 invalid: Outcome + 1
   std::uint8_t* outcome_axes = nullptr;  // index + 1 of the axis that made the outcome; 0 if interpolated
@@ -43,7 +43,7 @@ struct ValueColumns {
 // Immutable; may be used by any number of threads at a time.
 class TableInterpolator {
  public:
-  // `table` need not outlive it.
+  // `table` need not outlive it, but its schema must.
   explicit TableInterpolator(const Table& table);
   ~TableInterpolator();
   TableInterpolator(TableInterpolator&&) noexcept;

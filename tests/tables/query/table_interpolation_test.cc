@@ -54,8 +54,8 @@ Columns RandomColumns(const Table& table, std::size_t size, std::uint32_t seed) 
 }
 
 struct Answers {
-  explicit Answers(std::size_t size) : outcomes(size), axes(size) {
-    for (std::size_t q = 0; q < kMaxQuantities; ++q) {
+  Answers(const Table& table, std::size_t size) : outcomes(size), axes(size) {
+    for (std::size_t q = 0; q < table.schema().quantities.size(); ++q) {
       values[q].resize(size);
       errors[q].resize(size);
     }
@@ -64,6 +64,7 @@ struct Answers {
     ValueColumns all{
         .outcomes = outcomes.data(), .outcome_axes = axes.data(), .values = {}, .standard_errors = {}};
     for (std::size_t q = 0; q < kMaxQuantities; ++q) {
+      if (values[q].empty()) continue;
       all.values[q] = values[q].data();
       all.standard_errors[q] = errors[q].data();
     }
@@ -75,7 +76,7 @@ struct Answers {
 };
 
 Answers Interpolated(const Table& table, const PulseColumns& pulses) {
-  Answers answers(pulses.size);
+  Answers answers(table, pulses.size);
   TableInterpolator(table).Interpolate(pulses, 0, pulses.size, answers.columns());
   return answers;
 }
@@ -187,7 +188,7 @@ TEST_P(TableInterpolation, DoesNotDependOnTheOtherPulses) {
     const PulseColumns pulses = Pulses(columns, 2000);
     const Answers together = Interpolated(table, pulses);
     const TableInterpolator interpolator(table);
-    Answers alone(2000);
+    Answers alone(table, 2000);
     for (std::size_t i = 0; i < 2000; ++i) interpolator.Interpolate(pulses, i, i + 1, alone.columns());
     EXPECT_EQ(alone.outcomes, together.outcomes);
     for (std::size_t q = 0; q < table.schema().quantities.size(); ++q) {
