@@ -23,7 +23,8 @@ class Axis {
  public:
   // Fails with InvalidArgument, naming the axis and the node, if there is no node, or if a node is not finite, is not
   // representable in float32, is negative, does not increase, is not positive on a log scale, breaks the limits of
-  // format.h, or is above 90 degrees on a folded axis. Without a scale, the axis has that of its schema.
+  // format.h, or is above 90 degrees on a folded axis. Without a scale, the axis has that of its schema. The axis
+  // copies `schema`, but not its texts (name, units, long_name): they must outlive the axis.
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
   // An axis of the sea surface.

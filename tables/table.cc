@@ -101,7 +101,11 @@ absl::Status CheckAxes(const TableSchema& schema, std::span<const Axis> axes) {
 
 absl::Status CheckVariables(const TableSchema& schema, std::span<const Axis> axes,
                             const Table::Variables& variables) {
-  assert(variables.size() == schema.quantities.size());
+  if (variables.size() != schema.quantities.size()) {
+    return absl::InvalidArgumentError(absl::StrFormat("there are %d variables: expected the %d of kind '%s'",
+                                                      variables.size(), schema.quantities.size(),
+                                                      std::string(schema.name)));
+  }
   for (std::size_t q = 0; q < variables.size(); ++q) {
     const QuantitySchema& quantity = schema.quantities[q];
     if (!variables[q].has_value()) {

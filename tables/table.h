@@ -30,9 +30,10 @@ class Table {
   using Axes = std::vector<Axis>;
   using Variables = std::vector<std::optional<Variable>>;
 
-  // Fails with InvalidArgument if the axes are not those of the schema, a required variable is missing, a shape
-  // does not fit the axes, a value breaks the rules of `Variable`, or the provenance its own. The message names the
-  // axis or the variable and the index. `schema` must be well-formed and outlive the table.
+  // Fails with InvalidArgument if the axes are not those of the schema, there are not as many variables as the
+  // schema has quantities, a required variable is missing, a shape does not fit the axes, a value breaks the rules
+  // of `Variable`, or the provenance its own. The message names the axis or the variable and the index. `schema`
+  // must be well-formed and outlive the table.
   static absl::StatusOr<Table> Create(const TableSchema& schema, Axes axes, Variables variables,
                                       Provenance provenance);
 

@@ -41,12 +41,26 @@ struct QuantitySchema {
   std::string_view name;   // "thu"; its standard error is `name + kStandardErrorSuffix`.
   std::string_view units;  // "degree" or "m".
   std::string_view long_name;
-  bool
-      over_last_axis;  // False: the quantity does not depend on the last axis, and its variable has one axis less.
-  bool is_bias;        // Biases may be negative, and may be absent; the other quantities may not.
-  bool over_depth = over_last_axis;  // The same under its former name; depth is the sea surface's last axis.
+  // False: the quantity does not depend on the last axis, and its variable has one axis less.
+  bool over_last_axis;
+  bool is_bias;  // Biases may be negative, and may be absent; the other quantities may not.
 
-  bool operator==(const QuantitySchema&) const = default;
+  // A copy of `over_last_axis`. No list of initial values can give it another value.
+  class OverDepth {
+   public:
+    constexpr explicit OverDepth(bool over_last_axis) : value_(over_last_axis) {}
+    constexpr operator bool() const { return value_; }
+
+   private:
+    bool value_;
+  };
+  // The former name of `over_last_axis`, for existing source; depth is the last axis of the sea surface.
+  OverDepth over_depth = OverDepth(over_last_axis);
+
+  constexpr bool operator==(const QuantitySchema& other) const {
+    return name == other.name && units == other.units && long_name == other.long_name &&
+           over_last_axis == other.over_last_axis && is_bias == other.is_bias;
+  }
 };
 
 inline constexpr std::string_view kStandardErrorSuffix = "_standard_error";
@@ -66,6 +80,23 @@ struct TableSchema {
   // pulse to pulse. The order decides the rounding of an answer, too.
   std::span<const std::size_t> blend_order;
 };
+
+// Whether the datasets of axes, quantities and standard errors, which are all in one group, have different names.
+constexpr bool HasDistinctNames(const TableSchema& schema) {
+  const std::size_t axis_count = schema.axes.size(), count = axis_count + schema.quantities.size();
+  const auto name = [&](std::size_t i) {
+    return i < axis_count ? schema.axes[i].name : schema.quantities[i - axis_count].name;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (name(i).empty()) return false;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (i == j || !name(i).starts_with(name(j))) continue;
+      const std::string_view rest = name(i).substr(name(j).size());
+      if (rest.empty() || (rest == kStandardErrorSuffix && j >= axis_count)) return false;
+    }
+  }
+  return true;
+}
 
 // Whether a schema keeps the rules that the code relies on. To be asserted beside the constant.
 constexpr bool IsWellFormed(const TableSchema& schema) {
@@ -88,7 +119,7 @@ constexpr bool IsWellFormed(const TableSchema& schema) {
   for (const QuantitySchema& quantity : schema.quantities) {
     if (!quantity.over_last_axis && axis_count == 1) return false;
   }
-  return true;
+  return HasDistinctNames(schema);
 }
 
 }  // namespace albtpu

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tables/file/table_io.h"
 #include "tests/tables/file/forged_table.h"
@@ -92,6 +94,17 @@ TEST(TableKind, RefusesAxesOfAnother) {
   EXPECT_EQ(problem(table.axes()), "variable 'spread' is missing: only biases may be absent");
 }
 
+TEST(TableKind, RefusesAnotherNumberOfVariables) {
+  const Table table = RandomTable(kThreeAxes, {2, 2, 2}, 1);
+  for (const std::size_t count : {0u, 1u, 3u}) {
+    const absl::Status status =
+        Table::Create(kThreeAxes, table.axes(), Table::Variables(count), table.provenance()).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(status.message(),
+              "there are " + std::to_string(count) + " variables: expected the 2 of kind 'three_axes'");
+  }
+}
+
 TEST(TableSchema, IsWellFormedOnlyWithinItsRules) {
   EXPECT_TRUE(IsWellFormed(kSeaSurface));
   TableSchema schema = kThreeAxes;
@@ -105,6 +118,47 @@ TEST(TableSchema, IsWellFormedOnlyWithinItsRules) {
   schema = kThreeAxes;
   schema.name = "";
   EXPECT_FALSE(IsWellFormed(schema));
+}
+
+// They are all datasets of one group.
+TEST(TableSchema, NamesAxesQuantitiesAndStandardErrorsDifferently) {
+  const auto is_well_formed = [](std::string_view axis, std::string_view first, std::string_view second) {
+    std::vector<AxisSchema> axes(kThreeAxes.axes.begin(), kThreeAxes.axes.end());
+    std::vector<QuantitySchema> quantities(kThreeAxes.quantities.begin(), kThreeAxes.quantities.end());
+    axes.front().name = axis;
+    quantities.front().name = first;
+    quantities.back().name = second;
+    TableSchema schema = kThreeAxes;
+    schema.axes = axes;
+    schema.quantities = quantities;
+    return IsWellFormed(schema);
+  };
+  EXPECT_TRUE(is_well_formed("attenuation", "spread", "shift"));
+  EXPECT_TRUE(is_well_formed("attenuation", "spread", "shift_standard_error"));
+  EXPECT_FALSE(is_well_formed("heading", "spread", "shift"));
+  EXPECT_FALSE(is_well_formed("attenuation", "spread", "spread"));
+  EXPECT_FALSE(is_well_formed("attenuation", "spread", "range"));
+  EXPECT_FALSE(is_well_formed("attenuation", "spread", "spread_standard_error"));
+  EXPECT_FALSE(is_well_formed("attenuation", "shift_standard_error", "shift"));
+  EXPECT_FALSE(is_well_formed("spread_standard_error", "spread", "shift"));
+  EXPECT_FALSE(is_well_formed("", "spread", "shift"));
+}
+
+template <typename Schema>
+concept TakesSixValues = requires {
+  Schema{"thu", "m", "THU", true, false, false};
+};
+
+TEST(QuantitySchema, KeepsTheFormerNameOfAMember) {
+  for (const bool over_last_axis : {false, true}) {
+    const QuantitySchema quantity{"thu", "m", "THU", over_last_axis, false};
+    EXPECT_EQ(quantity.over_depth, over_last_axis);
+    const bool over_depth = quantity.over_depth;
+    EXPECT_EQ(over_depth, over_last_axis);
+    EXPECT_EQ(quantity, QuantitySchema(quantity));
+    EXPECT_NE(quantity, QuantitySchema({"thu", "m", "THU", !over_last_axis, false}));
+  }
+  static_assert(!TakesSixValues<QuantitySchema>, "The two names could differ.");
 }
 
 }  // namespace
