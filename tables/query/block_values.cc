@@ -31,7 +31,7 @@ std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
   for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {
     if (!step(pulses.fractions[slot], pulses.steps[slot])) return -1;
   }
-  return step(pulses.last, 1) ? node : -1;
+  return step(pulses.innermost, 1) ? node : -1;
 }
 
 }  // namespace

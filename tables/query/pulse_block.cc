@@ -47,14 +47,14 @@ Grid::Grid(const Table& table)
   slots_ = {SlotsOf(table.schema(), false), SlotsOf(table.schema(), true)};
 }
 
-// The axes but the fastest one of the records take the slots in the blend order: all five if there are five, else the
-// first four, aligned at their end, so that the axis that changes most is blended last.
+// The axes but the innermost one of the records take the slots in the blend order: all five if there are five, else
+// the first four, aligned at their end, so that the axis that changes most is blended last.
 Grid::Slots Grid::SlotsOf(const TableSchema& schema, bool over_last_axis) const {
   constexpr std::size_t kFew = BlendedPulses::kFastest;
-  const std::size_t fastest = over_last_axis || last() == 0 ? last() : last() - 1;
+  const std::size_t innermost = over_last_axis || last() == 0 ? last() : last() - 1;
   std::vector<std::size_t> outer;
   for (const std::size_t axis : schema.blend_order) {
-    if (axis < fastest) outer.push_back(axis);
+    if (axis < innermost) outer.push_back(axis);
   }
   Slots slots{.axes = {}, .steps = {}};
   slots.axes.fill(kNoAxis);
@@ -164,7 +164,7 @@ void PulseBlock::SetBlended(bool over_last_axis, End end, BlendedPulses& pulses)
     if (axis != Grid::kNoAxis) pulses.fractions[slot] = fractions(axis);
     if (axis == Grid::kNoAxis && slot != BlendedPulses::kFastest) pulses.fractions[slot] = zeros_.begin();
   }
-  pulses.last = fractions(over_last_axis || last == 0 ? last : last - 1);
+  pulses.innermost = fractions(over_last_axis || last == 0 ? last : last - 1);
 }
 
 }  // namespace albtpu

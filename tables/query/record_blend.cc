@@ -12,7 +12,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-// Two records that are neighbours on the fastest axis, in one vector or more.
+// Two records that are neighbours on the innermost axis, in one vector or more.
 constexpr std::size_t kPair = 2 * kRecordSize;
 using D = hn::CappedTag<float, kPair>;
 using V = hn::Vec<D>;
@@ -204,7 +204,7 @@ void BlendFiveSlots(const float* records, const BlendedPulses& pulses, float* bl
       const V to = Lerp(fast, hn::Load(d, at + kPair), hn::Load(d, at + 3 * kPair));
       pair[v] = Lerp(fastest, from, to);
     }
-    StoreRecord(pair, pulses.last[i], blended + i * kRecordSize);
+    StoreRecord(pair, pulses.innermost[i], blended + i * kRecordSize);
   }
 }
 
@@ -217,7 +217,7 @@ void BlendFourSlots(const float* records, const BlendedPulses& pulses, float* bl
     for (std::size_t v = 0; v < kPair / kLanes; ++v, at += kLanes) {
       pair[v] = Lerp(fast, hn::Load(d, at), hn::Load(d, at + kPair));
     }
-    StoreRecord(pair, pulses.last[i], blended + i * kRecordSize);
+    StoreRecord(pair, pulses.innermost[i], blended + i * kRecordSize);
   }
 }
 

@@ -22,8 +22,9 @@ struct TableLayout {
   std::size_t fewest_to_sort;
 };
 
-// Interpolates block by block up to `end`, or to a scattered block that leaves at least `fewest_to_sort` pulses.
-// Returns where it stopped. `writer` says by needs() what it writes by Write(block, values).
+// Interpolates the pulses from `begin` on, block by block. Stops at `end`, or after a scattered block if at least
+// `fewest_to_sort` pulses follow it. Returns the index of the first pulse that it has not interpolated.
+// `writer.needs()` are the sets of records to blend; `writer.Write(block, values)` writes the answers of a block.
 template <typename Writer>
 std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pulses, std::size_t begin,
                               std::size_t end, std::size_t fewest_to_sort, Writer&& writer) {
@@ -41,7 +42,8 @@ std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pul
 }
 
 // Interpolates the pulses from `begin` to `end` into the same rows of `answers`, sorting them on the way if that is
-// faster. `make_writer(answers)` makes the writer of an order.
+// faster. `make_writer(columns)` returns the writer that fills `columns`: `answers` for pulses in the order in which
+// they come, columns of a SortedAnswers for pulses that are sorted.
 template <typename Columns, typename MakeWriter>
 void InterpolateColumns(const TableLayout& layout, const PulseColumns& pulses, std::size_t begin,
                         std::size_t end, const Columns& answers, const MakeWriter& make_writer) {
