@@ -58,6 +58,8 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
 
 }  // namespace
 
+std::string_view Name(Scale scale) { return scale == Scale::kLog ? "log" : "linear"; }
+
 absl::StatusOr<Axis> Axis::Create(AxisId id, std::vector<double> nodes) {
   return Create(Describe(id), std::move(nodes));
 }

@@ -73,6 +73,4 @@ std::optional<Quantity> FindQuantity(std::string_view name) {
   return std::nullopt;
 }
 
-std::string_view Name(Scale scale) { return scale == Scale::kLog ? "log" : "linear"; }
-
 }  // namespace albtpu

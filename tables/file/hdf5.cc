@@ -138,8 +138,8 @@ Handle OpenImage(absl::string_view bytes) {
   H5Pset_fapl_core(access, kIncrement, kOnDisk);
   H5Pset_file_image_callbacks(access, &callbacks);
   H5Pset_file_image(access, buffer, bytes.size());
-  H5Pset_fclose_degree(access,
-                       H5F_CLOSE_STRONG);  // Closing the file also closes objects that HDF5 lost track of.
+  // Closing the file also closes objects that HDF5 lost track of.
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   return Handle(H5Fopen(NameInMemory().c_str(), H5F_ACC_RDONLY, access), H5Fclose);
 }
 

@@ -134,8 +134,8 @@ absl::StatusOr<std::vector<TableFile>> FindTables(const fs::path& folder) {
   std::sort(files.begin(), files.end(), [](const TableFile& a, const TableFile& b) {
     return a.name != b.name ? a.name < b.name : IsOlder(b.version, a.version);
   });
-  for (std::size_t i = 1; i < files.size();
-       ++i) {  // The empty version is the oldest one and so the last of its name.
+  // The empty version is the oldest one and so the last of its name.
+  for (std::size_t i = 1; i < files.size(); ++i) {
     if (files[i].name != files[i - 1].name || !files[i].version.empty()) continue;
     return absl::InvalidArgumentError(
         absl::StrCat("'", files[i].path.string(), "' and '", files[i - 1].path.string(), "' are both table '",
