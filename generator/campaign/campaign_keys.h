@@ -77,7 +77,8 @@ inline constexpr CampaignKey kTitle = {
     "What the table is for, in words."};
 inline constexpr CampaignKey kSeed = {
     "", "seed", WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", std::int64_t{1},
-    "Seed of all random numbers. The same program on the same kind of processor makes the same table from the same seed."};
+    "Seed of all random numbers. The same program on the same kind of processor makes the same table from the "
+    "same seed."};
 
 inline constexpr CampaignKey kWindSpeed = {
     "axes", "wind_speed", NodeRange{0, false, kInfinity}, "m/s", Required{},
