@@ -193,7 +193,7 @@ void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
       ->required()
       ->delimiter(',')
       ->check(NumberIn(0, 1e4));
-  point.add_option("--profile", options.profile, "Intensity across the beam: uniform (default) or gaussian")
+  point.add_option("--profile", options.profile, "Irradiance across the beam: uniform (default) or gaussian")
       ->check(albtpu::OneOf({"uniform", "gaussian"}));
   point
       .add_option("--refractive-index", options.refractive_index,

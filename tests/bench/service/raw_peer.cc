@@ -86,7 +86,7 @@ void Serve(int socket, const ColumnInterpolator& interpolator) {
       std::memcpy(&count, requests.data() + taken, sizeof count);
       if (have - taken < RequestBytes(count)) break;
       interpolator.Interpolate({}, ReadRequest(requests.data() + taken, count), 0, count,
-                          AnswerIn(answer.data(), count));
+                               AnswerIn(answer.data(), count));
       if (!WriteAll(socket, answer.data(), AnswerBytes(count))) break;
       taken += RequestBytes(count);
     }
