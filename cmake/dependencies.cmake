@@ -21,6 +21,9 @@ find_package(HDF5 REQUIRED COMPONENTS C HL)
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(JEMALLOC REQUIRED IMPORTED_TARGET jemalloc)
 
+# PROJ's CMake configuration file names no imported target that is the same in all its versions.
+pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
+
 # pkg-config instead of the CMake configuration file of prometheus-cpp, which requires CURL for its push component; we
 # use only the pull component.
 pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)
