@@ -1,0 +1,223 @@
+#include "budget/beams/displacement_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "budget/beams/facing_slopes.h"
+
+namespace albtpu {
+namespace {
+
+using Derivative = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+
+constexpr double kCorrelation = 0.5;  // s, as in the fit of a track.
+constexpr double kCell = 0.05;        // s
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+int Parameters(Displacement displacement) {
+  return displacement == Displacement::kTime ? 1 : displacement == Displacement::kOffset ? 3 : 4;
+}
+
+// Forward, right and up of a velocity; a sensor that stands still looks north.
+Eigen::Matrix3d Axes(const Eigen::Vector3d& velocity) {
+  const double speed = velocity.head<2>().norm();
+  const Eigen::Vector2d forward =
+      speed > 0 ? Eigen::Vector2d(velocity.head<2>() / speed) : Eigen::Vector2d::UnitY().eval();
+  Eigen::Matrix3d axes;
+  axes << forward.x(), forward.y(), 0, forward.y(), -forward.x(), 0, 0, 0, 1;
+  return axes;
+}
+
+Derivative DerivativeOf(const TrackedRay& ray, Displacement displacement, const Eigen::Vector3d& centre) {
+  Derivative d(3, Parameters(displacement));
+  if (displacement == Displacement::kTime) {
+    d = ray.velocity;
+    return d;
+  }
+  d.leftCols<3>() = Axes(ray.velocity);
+  if (displacement == Displacement::kOffsetRotation)
+    d.col(3) = Eigen::Vector3d::UnitZ().cross(ray.position - centre);
+  return d;
+}
+
+// The covariance of the sum of scores that are correlated for up to kCorrelation: sums over cells of kCell, their
+// products at all lags with Bartlett's weights, and Student's factor for the number of correlation times.
+template <typename Score>
+Square LongRunCovariance(std::span<const double> times, int size, const Score& score) {
+  const auto lags = static_cast<std::int64_t>(kCorrelation / kCell);
+  std::vector<std::pair<std::int64_t, Column>> cells;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto cell = static_cast<std::int64_t>(std::floor((times[i] - times[0]) / kCell));
+    if (cells.empty() || cells.back().first != cell) cells.emplace_back(cell, Column::Zero(size));
+    cells.back().second += score(i);
+  }
+  Square sum = Square::Zero(size, size);
+  double correlation_times = 0;
+  std::int64_t counted = std::numeric_limits<std::int64_t>::min() / 2;
+  for (std::size_t a = 0; a < cells.size(); ++a) {
+    if (cells[a].first - counted > lags) ++correlation_times, counted = cells[a].first;
+    sum += cells[a].second * cells[a].second.transpose();
+    for (std::size_t b = a + 1; b < cells.size() && cells[b].first - cells[a].first <= lags; ++b) {
+      const double bartlett =
+          1 - static_cast<double>(cells[b].first - cells[a].first) / static_cast<double>(lags + 1);
+      const Square product = bartlett * cells[a].second * cells[b].second.transpose();
+      sum += product + product.transpose();
+    }
+  }
+  const double freedom = std::max(1.0, correlation_times - size);
+  const double student = 1 + 1.2 / freedom;
+  return sum * (student * student);
+}
+
+}  // namespace
+
+std::vector<TrackedRay> FollowTrack(std::span<const AirRay> rays, const TrackPositions& track, double shift) {
+  constexpr double kHalf = 0.25;  // s, of the difference that gives the velocity; shorter than any swing.
+  std::vector<double> times(3 * rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    for (int j = 0; j < 3; ++j)
+      times[static_cast<std::size_t>(j) * rays.size() + i] = rays[i].time + shift + (j - 1) * kHalf;
+  std::vector<Eigen::Vector3d> positions(times.size(), Eigen::Vector3d::Constant(std::nan("")));
+  track(times, positions);
+  std::vector<TrackedRay> tracked;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Eigen::Vector3d& at = positions[rays.size() + i];
+    if (!at.allFinite()) continue;
+    const bool has_before = positions[i].allFinite(), has_after = positions[2 * rays.size() + i].allFinite();
+    if (!has_before && !has_after) continue;
+    const Eigen::Vector3d& before = has_before ? positions[i] : at;
+    const Eigen::Vector3d& after = has_after ? positions[2 * rays.size() + i] : at;
+    tracked.push_back({rays[i], at, (after - before) / (kHalf * (has_before + has_after))});
+  }
+  return tracked;
+}
+
+Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement,
+                               const Eigen::VectorXd& values, const Eigen::Vector3d& centre) {
+  return DerivativeOf(ray, displacement, centre) * values;
+}
+
+double MedianAngle(std::span<const TrackedRay> rays) {
+  std::vector<double> angles;
+  for (const TrackedRay& ray : rays)
+    angles.push_back(
+        AngleBetween((ray.ray.water_point - ray.position).normalized(), ray.ray.direction, 0).norm());
+  return Median(std::move(angles));
+}
+
+MeanOverTime WeightedMean(std::span<const double> times, std::span<const double> values,
+                          std::span<const double> weights) {
+  double sum = 0, weight = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * values[i], weight += weights[i];
+  const double mean = sum / weight;
+  const Square variance = LongRunCovariance(
+      times, 1, [&](std::size_t i) { return Column::Constant(1, weights[i] * (values[i] - mean)); });
+  return {mean, std::sqrt(variance(0, 0)) / weight};
+}
+
+DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement displacement, double index) {
+  constexpr int kDistanceRounds = 9, kAngleRounds = 15;
+  const int size = Parameters(displacement);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const TrackedRay& ray : rays) centre += ray.position / static_cast<double>(rays.size());
+
+  std::vector<double> times(rays.size()), squares(rays.size()), separations(rays.size()), incidences;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    times[i] = rays[i].ray.time;
+    separations[i] = rays[i].ray.separation;
+    incidences.push_back(std::atan2(rays[i].ray.direction.head<2>().norm(), -rays[i].ray.direction.z()));
+  }
+  const double incidence = std::clamp(Median(std::move(incidences)), 0.01, 1.2);
+  const FacingSlopes facing = FacingSlopesAt(incidence, index);
+
+  DisplacementFit fit;
+  // Start: distances from the lines of the rays, which are linear in the parameters.
+  Column values = Column::Zero(size);
+  std::vector<double> weights(rays.size(), 1), distances(rays.size());
+  for (int round = 0; round < kDistanceRounds; ++round) {
+    Square normal = Square::Zero(size, size);
+    Column right = Column::Zero(size);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto& [ray, position, velocity] = rays[i];
+      const Derivative d = DerivativeOf(rays[i], displacement, centre);
+      const Eigen::Vector3d gap = ray.water_point - position;
+      const Derivative across = d - ray.direction * (ray.direction.transpose() * d);
+      normal += weights[i] * across.transpose() * d;
+      right += weights[i] * across.transpose() * gap;
+    }
+    values = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Eigen::Vector3d at =
+          rays[i].position + DerivativeOf(rays[i], displacement, centre) * values - rays[i].ray.water_point;
+      distances[i] = at.cross(rays[i].ray.direction).norm();
+    }
+    const double scale = std::max(Median(distances), 1e-6);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      weights[i] = 1 / (1 + distances[i] * distances[i] / (scale * scale));
+  }
+
+  // Then angles.
+  std::vector<Eigen::Vector3d> residuals(rays.size()), directions(rays.size());
+  std::vector<double> ranges(rays.size());
+  const auto look = [&] {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Eigen::Vector3d to =
+          rays[i].ray.water_point - rays[i].position - DerivativeOf(rays[i], displacement, centre) * values;
+      ranges[i] = std::max(to.norm(), 1.0);
+      directions[i] = to.normalized();
+      residuals[i] = AngleBetween(directions[i], rays[i].ray.direction, fit.flattening);
+      squares[i] = residuals[i].squaredNorm();
+    }
+  };
+  Square normal;
+  double response = 0, weight = 0;
+  std::vector<Column> scores(rays.size());
+  const auto assemble = [&] {
+    normal = Square::Zero(size, size);
+    response = weight = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const RayWeight w = WeightOf(fit.noise, separations[i], squares[i]);
+      const Derivative d = DerivativeOf(rays[i], displacement, centre);
+      const Derivative across = d - directions[i] * (directions[i].transpose() * d);
+      normal += w.weight / (ranges[i] * ranges[i]) * across.transpose() * d;
+      scores[i] = -w.weight / ranges[i] * (across.transpose() * residuals[i]);
+      weight += w.weight;
+      response += w.response;
+    }
+  };
+  look();
+  fit.noise = RobustRayNoise(squares, separations);
+  for (int round = 0; round < kAngleRounds; ++round) {
+    fit.noise = FitRayNoise(squares, separations, fit.noise, round == 0 ? 10 : 3);
+    if (round >= 2)
+      fit.flattening =
+          std::pow(std::min(fit.noise.slopes, 0.1) / facing.gain, 2) * facing.bias / std::sin(incidence);
+    assemble();
+    Column right = Column::Zero(size);
+    for (const Column& score : scores) right += score;
+    values += normal.ldlt().solve(right);
+    look();
+  }
+  assemble();
+  const double curvature = std::clamp(response / weight, 0.3, 1.0);
+  const Square inverse = normal.ldlt().solve(Square::Identity(size, size));
+  const Square covariance =
+      inverse * LongRunCovariance(times, size, [&](std::size_t i) { return scores[i]; }) * inverse;
+  fit.values = values;
+  fit.sigmas = covariance.diagonal().cwiseMax(0).cwiseSqrt() / curvature;
+  for (double& square : squares) square = std::sqrt(square);
+  fit.median_angle = Median(squares);
+  return fit;
+}
+
+}  // namespace albtpu

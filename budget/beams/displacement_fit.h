@@ -1,0 +1,60 @@
+// The displacement of a given track that makes it agree with rays: Gauss-Newton on the same angles, noise and weights
+// as the fit of a track (ray_track.h), with a few parameters for all rays together.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "budget/beams/ray_noise.h"
+#include "budget/beams/return_pair.h"
+
+namespace albtpu {
+
+// Positions of a track at `times`, in the frame of the rays; NaN where they are not known. Times may come in any order
+// and lie outside of the track.
+using TrackPositions =
+    std::function<void(std::span<const double> times, std::span<Eigen::Vector3d> positions)>;
+
+// A ray, where the given track has the sensor then, and how fast it moves.
+struct TrackedRay {
+  AirRay ray;
+  Eigen::Vector3d position, velocity;
+};
+
+// The rays at whose time plus `shift` the track knows a position and a velocity, in order.
+std::vector<TrackedRay> FollowTrack(std::span<const AirRay> rays, const TrackPositions& track, double shift);
+
+// Forward and right are horizontal, along and across the course of the track.
+enum class Displacement {
+  kOffset,          // Forward, right, up [m].
+  kOffsetRotation,  // The same, and a rotation about the vertical through the mean position [rad], to the left.
+  kTime,            // Along the velocity [s].
+};
+
+struct DisplacementFit {
+  Eigen::VectorXd values, sigmas;  // With errors that are correlated for up to half a second.
+  RayNoise noise;                  // Of the rays about the displaced track.
+  double flattening = 0;           // Mean angle by waves per sine of the incidence (facing_slopes.h).
+  double median_angle = 0;         // rad; median angle between rays and directions from the displaced track.
+};
+
+// Requires at least one ray more than there are parameters. `index` is that of the water.
+DisplacementFit FitDisplacement(std::span<const TrackedRay> rays, Displacement displacement, double index);
+
+// The displacement of one ray's position by `values`, about the mean position `centre`.
+Eigen::Vector3d DisplacementOf(const TrackedRay& ray, Displacement displacement,
+                               const Eigen::VectorXd& values, const Eigen::Vector3d& centre);
+
+// The median angle between rays and the directions from the track to their water points.
+double MedianAngle(std::span<const TrackedRay> rays);
+
+// A mean and its standard error, where values up to half a second apart are correlated. Each value has a weight.
+struct MeanOverTime {
+  double mean, sigma;
+};
+MeanOverTime WeightedMean(std::span<const double> times, std::span<const double> values,
+                          std::span<const double> weights);
+
+}  // namespace albtpu

@@ -1,0 +1,120 @@
+#include "budget/beams/ray_noise.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace albtpu {
+namespace {
+
+// No survey knows directions better: a return of 1 mm and a separation of 10 m, or slopes of 1e-4.
+constexpr double kLeastSigma = 2e-5;
+// Outliers lie outside of the good ones, else the two could not be told apart.
+constexpr double kLeastOutlierRatio = 4;
+
+// Sums over rays of what the maximization step needs. The good rays' part is a regression of |r|^2 / 2 on
+// 1 and 1 / separation^2, weighted by p / sigma^4.
+struct Sums {
+  double s0 = 0, s1 = 0, s2 = 0, y0 = 0, y1 = 0;
+  double good = 0, bad = 0, bad_squares = 0, variance = 0;
+  Sums& operator+=(const Sums& o) {
+    s0 += o.s0, s1 += o.s1, s2 += o.s2, y0 += o.y0, y1 += o.y1;
+    good += o.good, bad += o.bad, bad_squares += o.bad_squares, variance += o.variance;
+    return *this;
+  }
+};
+
+// The regression with both coefficients at least 0.
+void SolveVariances(const Sums& s, RayNoise& noise) {
+  const double determinant = s.s0 * s.s2 - s.s1 * s.s1;
+  double slopes = -1, points = -1;
+  if (determinant > 1e-9 * s.s0 * s.s2) {
+    slopes = (s.s2 * s.y0 - s.s1 * s.y1) / determinant;
+    points = (s.s0 * s.y1 - s.s1 * s.y0) / determinant;
+  }
+  if (slopes < 0 || points < 0) {
+    // On one of the borders, the one that explains more of the squares.
+    const double only_slopes = s.y0 / s.s0, only_points = s.y1 / s.s2;
+    const bool by_slopes = s.y0 * only_slopes >= s.y1 * only_points;
+    slopes = by_slopes ? only_slopes : 0;
+    points = by_slopes ? 0 : only_points;
+  }
+  noise.slopes = std::max(std::sqrt(slopes), kLeastSigma);
+  noise.points = std::sqrt(points);
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+RayWeight WeightOf(const RayNoise& noise, double separation, double square) {
+  const double good_variance = noise.Variance(separation);
+  const double bad_variance = std::max(noise.outlier_sigma * noise.outlier_sigma,
+                                       kLeastOutlierRatio * kLeastOutlierRatio * good_variance);
+  const double difference = 1 / good_variance - 1 / bad_variance;
+  // The odds of an outlier: the ratio of the two densities times that of the shares.
+  const double odds = noise.outlier_share / (1 - noise.outlier_share) * good_variance / bad_variance *
+                      std::exp(std::min(square * difference / 2, 700.0));
+  const double good = 1 / (1 + odds);
+  const double weight = good * difference + 1 / bad_variance;
+  return {.good = good,
+          .weight = weight,
+          .response = weight - square / 2 * good * (1 - good) * difference * difference};
+}
+
+RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations,
+                     const RayNoise& start, int steps) {
+  RayNoise noise = start;
+  for (int step = 0; step < steps; ++step) {
+    const Sums sums = tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::size_t>(0, squares.size(), 16384), Sums{},
+        [&](const tbb::blocked_range<std::size_t>& range, Sums s) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const double good = WeightOf(noise, separations[i], squares[i]).good;
+            const double variance = noise.Variance(separations[i]);
+            const double x = 1 / (separations[i] * separations[i]);
+            const double w = good / (variance * variance);
+            s += Sums{.s0 = w,
+                      .s1 = w * x,
+                      .s2 = w * x * x,
+                      .y0 = w * squares[i] / 2,
+                      .y1 = w * x * squares[i] / 2,
+                      .good = good,
+                      .bad = 1 - good,
+                      .bad_squares = (1 - good) * squares[i],
+                      .variance = good * variance};
+          }
+          return s;
+        },
+        [](Sums a, const Sums& b) { return a += b; });
+    if (!(sums.good > 0)) break;
+    SolveVariances(sums, noise);
+    // One pseudo-observation of each kind keeps the share away from 0 and 1.
+    noise.outlier_share = std::clamp((sums.bad + 0.5) / (sums.good + sums.bad + 1), 1e-4, 0.6);
+    const double least = kLeastOutlierRatio * std::sqrt(sums.variance / sums.good);
+    const double prior = 0.09;  // rad^2: 0.3 rad, one observation.
+    noise.outlier_sigma = std::max(std::sqrt((sums.bad_squares / 2 + prior) / (sums.bad + 1)), least);
+  }
+  return noise;
+}
+
+RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double> separations) {
+  // |r|^2 of two normal components has the median 2 ln 2 sigma^2. Half of the variance goes to each cause.
+  const double variance =
+      std::max(Median({squares.begin(), squares.end()}) / 1.386, kLeastSigma * kLeastSigma);
+  const double separation = Median({separations.begin(), separations.end()});
+  const double sigma = std::sqrt(variance / 2);
+  return {.slopes = sigma,
+          .points = sigma * separation,
+          .outlier_share = 0.1,
+          .outlier_sigma = std::max(0.3, kLeastOutlierRatio * std::sqrt(variance))};
+}
+
+}  // namespace albtpu
