@@ -2,6 +2,13 @@
 
 namespace albtpu {
 
+std::string_view Name(Side side) { return side == Side::kBelow ? "below" : "above"; }
+
+std::optional<Side> SideOf(const AxisSchema& axis, double last, double coordinate) {
+  if (axis.is_folded) return std::nullopt;
+  return coordinate > last ? Side::kAbove : Side::kBelow;
+}
+
 std::string OutcomeText(const PulseUncertainty& uncertainty) {
   switch (uncertainty.outcome) {
     case Outcome::kInterpolated:
@@ -9,6 +16,7 @@ std::string OutcomeText(const PulseUncertainty& uncertainty) {
     case Outcome::kOutOfDomain: {
       std::string text = "OUT_OF_DOMAIN";
       if (uncertainty.axis.has_value()) text.append(":").append(Describe(*uncertainty.axis).name);
+      if (uncertainty.side.has_value()) text.append(":").append(Name(*uncertainty.side));
       return text;
     }
     case Outcome::kInvalid:

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "tables/schema.h"
 
@@ -27,6 +28,14 @@ enum class Outcome {
   kInvalid,       // A coordinate is not finite (except a fetch of +infinity). There are no numbers.
 };
 
+// Where a coordinate that is outside the nodes of its axis lies: below the first one, or above the last.
+enum class Side { kBelow, kAbove };
+std::string_view Name(Side side);  // "below", "above"
+
+// The side of `coordinate`, which is outside the nodes of `axis`, the last of which is `last`. None on a folded axis: an
+// azimuth is on no side of the folded nodes. Coordinates compare as in Axis::Locate.
+std::optional<Side> SideOf(const AxisSchema& axis, double last, double coordinate);
+
 // At 2 sigma, as in the table; see coverage.h for 95 %. NaN wherever there is no number.
 struct PulseUncertainty {
   Outcome outcome = Outcome::kInvalid;
@@ -39,11 +48,12 @@ struct PulseUncertainty {
   // The ratio of the 95 % radius of the horizontal error to the THU, for coverage.h. Without an azimuth it cannot be
   // computed from the values: the radius, too, is the larger of those at 0 and 90 degrees.
   double radius_over_thu = 1;
+  std::optional<Side> side;  // On which side of `axis` the pulse is, if it is out of domain: SideOf.
 
   float operator[](Quantity quantity) const { return values[Index(quantity)]; }
 };
 
-// "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID": the text in CSV files and for people.
+// "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID": the text in CSV files and for people.
 std::string OutcomeText(const PulseUncertainty& uncertainty);
 
 }  // namespace albtpu

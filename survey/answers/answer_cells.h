@@ -15,7 +15,7 @@ namespace albtpu::client {
 // Columns, in order:
 //   refraction_along_wind, refraction_cross_wind  degree
 //   thu, tvu, bias_along_beam, bias_vertical      m
-//   outcome                                       "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID"
+//   outcome                                       "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID"
 //   with standard errors:  <each of the six>_standard_error, in the same unit
 //   with an S-44 order:
 //     s44_best_order                              the strictest order that the sea surface alone leaves open;
@@ -35,7 +35,7 @@ class AnswerCells {
              EmptyCell nothing) const {
     const auto number_or_nothing = [&](float value) { std::isfinite(value) ? number(value) : nothing(); };
     for (const auto& column : answers.values) number_or_nothing(column[i]);
-    text(OutcomeName(answers.outcomes[i], answers.outcome_axes[i]));
+    text(OutcomeName(answers, i));
     if (style_.standard_errors) {
       for (const auto& column : answers.standard_errors) number_or_nothing(column[i]);
     }

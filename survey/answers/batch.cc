@@ -1,5 +1,7 @@
 #include "survey/answers/batch.h"
 
+#include "tables/pulse.h"
+
 namespace albtpu::client {
 
 PulseColumns PulseBatch::columns() const {
@@ -16,6 +18,7 @@ AnswerColumns AnswerBatch::Resize(std::size_t count, const AnswerSelection& sele
   AnswerColumns columns;
   columns.outcomes = column(outcomes, true);
   columns.outcome_axes = column(outcome_axes, true);
+  sides.assign(count, 0);
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
     columns.values[i] = column(values[i], selection.quantities[i]);
     columns.standard_errors[i] =
@@ -25,6 +28,26 @@ AnswerColumns AnswerBatch::Resize(std::size_t count, const AnswerSelection& sele
   columns.remaining_thu = column(remaining_thu, selection.s44_remaining);
   columns.remaining_tvu = column(remaining_tvu, selection.s44_remaining);
   return columns;
+}
+
+void AnswerBatch::FindSides(const PulseBatch& pulses, const TableAxes& axes) {
+  constexpr std::uint8_t kOutOfDomain = 2;
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    if (outcomes[i] != kOutOfDomain || outcome_axes[i] == 0) continue;
+    const AxisId id = kAxes[outcome_axes[i] - 1];
+    if (pulses.axis[Index(id)].empty()) continue;  // No azimuth.
+    const std::optional<Side> side = SideOf(Describe(id), axes[Index(id)].last, pulses.coordinate(id, i));
+    if (side.has_value()) sides[i] = static_cast<std::uint8_t>(static_cast<int>(*side) + 1);
+  }
+}
+
+absl::Status AnswerPulses(UncertaintySource& source, const Query& query, const PulseBatch& pulses,
+                          const AnswerSelection& selection, AnswerBatch& answers) {
+  const AnswerColumns columns = answers.Resize(pulses.size, selection);
+  if (pulses.size == 0) return absl::OkStatus();
+  absl::Status status = source.Answer(query, pulses.columns(), columns);
+  if (status.ok()) answers.FindSides(pulses, source.table().axes);
+  return status;
 }
 
 }  // namespace albtpu::client

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "absl/status/status.h"
+#include "service/client/uncertainty_source.h"
 #include "tables/coverage.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
@@ -36,7 +38,15 @@ struct PulseBatch {
 
   std::vector<float>& operator[](AxisId id) { return axis[Index(id)]; }
   PulseColumns columns() const;
+  // Of a pulse on an axis that has a number for it.
+  float coordinate(AxisId id, std::size_t i) const {
+    const std::vector<float>& column = axis[Index(id)];
+    return column[column.size() == 1 ? 0 : i];
+  }
 };
+
+// The ranges of the axes of a table.
+using TableAxes = decltype(TableSummary::axes);
 
 // Which columns are queried; the outcomes always are.
 struct AnswerSelection {
@@ -49,6 +59,7 @@ struct AnswerSelection {
 // Element i of each column belongs to pulse i. Columns that are not selected are empty.
 struct AnswerBatch {
   std::vector<std::uint8_t> outcomes, outcome_axes;
+  std::vector<std::uint8_t> sides;  // Side + 1 of a pulse out of domain; 0 of any other, and on the azimuth.
   std::array<std::vector<float>, kQuantityCount> values, standard_errors;
   std::vector<std::uint8_t> best_s44_orders;
   std::vector<float> remaining_thu, remaining_tvu;
@@ -56,8 +67,15 @@ struct AnswerBatch {
   // Makes room for `count` answers and discards the previous ones.
   AnswerColumns Resize(std::size_t count, const AnswerSelection& selection);
 
+  // Fills `sides` from the outcomes. `pulses` are those that were answered, `axes` those of the table that answered.
+  void FindSides(const PulseBatch& pulses, const TableAxes& axes);
+
   bool interpolated(std::size_t i) const { return outcomes[i] == 1; }
   std::span<const float> operator[](Quantity quantity) const { return values[Index(quantity)]; }
 };
+
+// Queries `source` for all pulses and replaces the contents of `answers`, sides included.
+absl::Status AnswerPulses(UncertaintySource& source, const Query& query, const PulseBatch& pulses,
+                          const AnswerSelection& selection, AnswerBatch& answers);
 
 }  // namespace albtpu::client

@@ -4,57 +4,81 @@
 #include <numeric>
 
 #include "absl/strings/str_cat.h"
+#include "tables/pulse.h"
 
 namespace albtpu::client {
 namespace {
 
-// "OUT_OF_DOMAIN:depth" and its like, by axis.
-std::array<std::string, kAxisCount> OutOfDomainNames() {
-  std::array<std::string, kAxisCount> names;
-  for (const AxisId axis : kAxes) {
-    names[Index(axis)] = absl::StrCat("OUT_OF_DOMAIN:", std::string(Describe(axis).name));
+using Names = std::array<std::string, OutcomeCounts::kAskedCount>;
+
+Names MakeNames() {
+  Names names;
+  names.front() = "INTERPOLATED";
+  names.back() = "INVALID";
+  const std::string sides[] = {"", absl::StrCat(":", std::string(albtpu::Name(Side::kBelow))),
+                               absl::StrCat(":", std::string(albtpu::Name(Side::kAbove)))};
+  for (std::size_t i = 0; i < OutcomeCounts::kOutOfDomainCount; ++i) {
+    const std::size_t axis = i / 3;
+    names[1 + i] = absl::StrCat(
+        "OUT_OF_DOMAIN", axis > 0 ? absl::StrCat(":", std::string(Describe(kAxes[axis - 1]).name)) : "",
+        sides[i % 3]);
   }
   return names;
 }
 
 }  // namespace
 
-std::string_view OutcomeName(std::uint8_t outcome, std::uint8_t axis) {
-  static const std::array<std::string, kAxisCount> out_of_domain = OutOfDomainNames();
-  if (outcome == 1) return "INTERPOLATED";
-  if (outcome == 2) return axis > 0 ? std::string_view(out_of_domain[axis - 1]) : "OUT_OF_DOMAIN";
-  return "INVALID";
+std::string_view OutcomeCounts::Name(std::size_t number) {
+  static const Names names = MakeNames();
+  return names[number];
+}
+
+std::string_view OutcomeName(NoPulse why) {
+  switch (why) {
+    case NoPulse::kNoTrajectory:
+      return "NO_TRAJECTORY";
+    case NoPulse::kUncertainTrajectory:
+      return "UNCERTAIN_TRAJECTORY";
+    case NoPulse::kNoSurface:
+      return "NO_SURFACE";
+    case NoPulse::kAboveWater:
+      break;
+  }
+  return "ABOVE_WATER";
+}
+
+std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i) {
+  return OutcomeCounts::Name(OutcomeCounts::Number(answers, i));
 }
 
 void OutcomeCounts::Add(const AnswerBatch& answers, bool azimuth_absent) {
-  for (std::size_t i = 0; i < answers.outcomes.size(); ++i) {
-    ++counts_[answers.outcomes[i] - 1][answers.outcome_axes[i]];
-  }
+  for (std::size_t i = 0; i < answers.outcomes.size(); ++i) ++asked_[Number(answers, i)];
   if (azimuth_absent) without_azimuth_ += answers.outcomes.size();
 }
 
 void OutcomeCounts::Merge(const OutcomeCounts& other) {
-  for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
-    for (std::size_t axis = 0; axis < kAxesAndNone; ++axis) {
-      counts_[outcome][axis] += other.counts_[outcome][axis];
-    }
-  }
+  for (std::size_t i = 0; i < asked_.size(); ++i) asked_[i] += other.asked_[i];
+  for (std::size_t i = 0; i < without_pulse_.size(); ++i) without_pulse_[i] += other.without_pulse_[i];
   without_azimuth_ += other.without_azimuth_;
 }
 
-std::uint64_t OutcomeCounts::ByOutcome(std::size_t outcome) const {
-  return std::accumulate(counts_[outcome].begin(), counts_[outcome].end(), std::uint64_t{0});
+std::uint64_t OutcomeCounts::AskedTotal() const {
+  return std::accumulate(asked_.begin(), asked_.end(), std::uint64_t{0});
 }
 
-std::uint64_t OutcomeCounts::total() const { return ByOutcome(0) + ByOutcome(1) + ByOutcome(2); }
+std::uint64_t OutcomeCounts::total() const {
+  return std::accumulate(without_pulse_.begin(), without_pulse_.end(), AskedTotal());
+}
 
 nlohmann::ordered_json OutcomeCounts::Json() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["INTERPOLATED"] = interpolated();
-  for (std::size_t axis = 0; axis < kAxesAndNone; ++axis) {
-    if (counts_[1][axis] > 0) json[std::string(OutcomeName(2, axis))] = counts_[1][axis];
+  for (std::size_t i = 1; i < asked_.size(); ++i) {
+    if (asked_[i] > 0) json[std::string(Name(i))] = asked_[i];
   }
-  if (ByOutcome(2) > 0) json["INVALID"] = ByOutcome(2);
+  for (std::size_t i = 0; i < without_pulse_.size(); ++i) {
+    if (without_pulse_[i] > 0) json[std::string(OutcomeName(static_cast<NoPulse>(i)))] = without_pulse_[i];
+  }
   return json;
 }
 
@@ -66,7 +90,7 @@ std::string OutcomeCounts::Text() const {
     if (outcome != "INTERPOLATED") absl::StrAppend(&text, ", ", count.get<std::uint64_t>(), " ", outcome);
   }
   if (without_azimuth_ > 0) {
-    absl::StrAppend(&text, "; ", without_azimuth_ == total() ? "all" : absl::StrCat(without_azimuth_),
+    absl::StrAppend(&text, "; ", without_azimuth_ == AskedTotal() ? "all" : absl::StrCat(without_azimuth_),
                     " without azimuth: each value is the larger of those along and across the wind");
   }
   return text;

@@ -11,34 +11,55 @@
 
 namespace albtpu::client {
 
-// "INTERPOLATED", "OUT_OF_DOMAIN:depth" or "INVALID", as CSV files and messages state it. The arguments are the
-// numbers of AnswerColumns.
-std::string_view OutcomeName(std::uint8_t outcome, std::uint8_t axis);
+// Why a chosen point has no pulse that a table could be asked about.
+enum class NoPulse : std::uint8_t {
+  kNoTrajectory,         // No position of the sensor is known at its time.
+  kUncertainTrajectory,  // The position is too uncertain for an incidence.
+  kNoSurface,            // No water surface is known there.
+  kAboveWater,           // The point lies above the water surface.
+};
+inline constexpr std::size_t kNoPulseCount = 4;
+
+std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
+
+// "INTERPOLATED", "OUT_OF_DOMAIN:depth:above" or "INVALID", as CSV files and messages state it.
+std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i);
 
 class OutcomeCounts {
  public:
-  // `azimuth_absent` means that none of the pulses had an azimuth.
+  // Pulses that were asked. `azimuth_absent` means that none of them had an azimuth.
   void Add(const AnswerBatch& answers, bool azimuth_absent);
+  // Chosen points that were not asked.
+  void Add(NoPulse why, std::uint64_t count = 1) { without_pulse_[static_cast<std::size_t>(why)] += count; }
   void Merge(const OutcomeCounts& other);
 
-  std::uint64_t total() const;
-  std::uint64_t interpolated() const { return ByOutcome(0); }
+  std::uint64_t total() const;  // All chosen points, asked or not.
+  std::uint64_t interpolated() const { return asked_[0]; }
 
-  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth", and the number without azimuth, if any.
+  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth:above", and the number without azimuth, if any.
   std::string Text() const;
 
-  // {"INTERPOLATED": 56000, "OUT_OF_DOMAIN:depth": 382}; other outcomes appear only if they occurred.
+  // {"INTERPOLATED": 56000, "OUT_OF_DOMAIN:depth:above": 382}; other outcomes appear only if they occurred, those of
+  // the table first, by axis.
   nlohmann::ordered_json Json() const;
   std::uint64_t without_azimuth() const { return without_azimuth_; }
 
+  // Outcomes of pulses that were asked, numbered in the order of Json(): interpolated, out of domain by axis and
+  // side, invalid.
+  static constexpr std::size_t kOutOfDomainCount = (kAxisCount + 1) * 3;  // No axis, no side.
+  static constexpr std::size_t kAskedCount = kOutOfDomainCount + 2;
+  static std::size_t Number(const AnswerBatch& answers, std::size_t i) {
+    const std::uint8_t outcome = answers.outcomes[i];
+    if (outcome == 1) return 0;
+    return outcome == 2 ? 1 + 3 * std::size_t{answers.outcome_axes[i]} + answers.sides[i] : kAskedCount - 1;
+  }
+  static std::string_view Name(std::size_t number);
+
  private:
-  static constexpr std::size_t kOutcomes = 3;
-  static constexpr std::size_t kAxesAndNone = kAxisCount + 1;
+  std::uint64_t AskedTotal() const;
 
-  std::uint64_t ByOutcome(std::size_t outcome) const;
-
-  // By outcome and axis, numbered as in AnswerColumns, but with outcomes counted from 0.
-  std::array<std::array<std::uint64_t, kAxesAndNone>, kOutcomes> counts_ = {};
+  std::array<std::uint64_t, kAskedCount> asked_ = {};
+  std::array<std::uint64_t, kNoPulseCount> without_pulse_ = {};
   std::uint64_t without_azimuth_ = 0;
 };
 

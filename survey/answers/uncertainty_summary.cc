@@ -65,7 +65,12 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
     return style_.standard_errors ? answers.standard_errors[Index(quantity)][i] : 0;
   };
   for (std::size_t i = 0; i < pulses.size; ++i) {
-    if (!answers.interpolated(i)) continue;
+    if (!answers.interpolated(i)) {
+      if (answers.sides[i] == 0) continue;  // Invalid, or without an axis to name.
+      const AxisId axis = kAxes[answers.outcome_axes[i] - 1];
+      outside_[OutcomeCounts::Number(answers, i)].Add(pulses.coordinate(axis, i));
+      continue;
+    }
     const float depth = depths[depths.size() == 1 ? 0 : i];
     least_depth_ = std::min(least_depth_, depth);
     greatest_depth_ = std::max(greatest_depth_, depth);
@@ -79,8 +84,15 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
   }
 }
 
+void UncertaintySummary::AddAboveWater(float depth) {
+  outcomes_.Add(NoPulse::kAboveWater);
+  above_water_.Add(depth);
+}
+
 void UncertaintySummary::Merge(const UncertaintySummary& other) {
   outcomes_.Merge(other.outcomes_);
+  for (std::size_t i = 0; i < outside_.size(); ++i) outside_[i].Merge(other.outside_[i]);
+  above_water_.Merge(other.above_water_);
   for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i].Merge(other.bands_[i]);
   least_depth_ = std::min(least_depth_, other.least_depth_);
   greatest_depth_ = std::max(greatest_depth_, other.greatest_depth_);
@@ -135,6 +147,19 @@ ordered_json UncertaintySummary::BandJson(std::size_t index) const {
   return json;
 }
 
+ordered_json UncertaintySummary::OutsideJson() const {
+  ordered_json json = ordered_json::object();
+  const auto add = [&json](std::string_view outcome, const CoordinateSpread& spread) {
+    if (spread.count() == 0) return;
+    json[std::string(outcome)] = {{"least", JsonNumber(spread.least())},
+                                  {"median", JsonNumber(spread.middle())},
+                                  {"greatest", JsonNumber(spread.greatest())}};
+  };
+  for (std::size_t i = 0; i < outside_.size(); ++i) add(OutcomeCounts::Name(i), outside_[i]);
+  add(OutcomeName(NoPulse::kAboveWater), above_water_);
+  return json;
+}
+
 ordered_json UncertaintySummary::Json() const {
   Band all;
   ordered_json bands = ordered_json::array();
@@ -146,6 +171,7 @@ ordered_json UncertaintySummary::Json() const {
   json["pulses"] = outcomes_.total();
   json["outcomes"] = outcomes_.Json();
   json["without_azimuth"] = outcomes_.without_azimuth();
+  if (ordered_json outside = OutsideJson(); !outside.empty()) json["outside"] = std::move(outside);
   if (all.count == 0) return json;
   json["depth"] = {{"least", JsonNumber(least_depth_)}, {"greatest", JsonNumber(greatest_depth_)}};
   ordered_json& orders = json["s44_best_order"];

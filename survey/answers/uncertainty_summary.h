@@ -10,6 +10,7 @@
 #include <string>
 
 #include "survey/answers/batch.h"
+#include "survey/answers/coordinate_spread.h"
 #include "survey/answers/outcome_counts.h"
 
 namespace albtpu::client {
@@ -23,7 +24,12 @@ class UncertaintySummary {
   // Adds the columns that a summary needs to a selection.
   static void Select(AnswerSelection& selection);
 
+  // Pulses that were asked.
   void Add(const PulseBatch& pulses, const AnswerBatch& answers);
+  // Chosen points that were not asked; those above the water by the next function.
+  void Add(NoPulse why, std::uint64_t count = 1) { outcomes_.Add(why, count); }
+  // A chosen point above the water surface, at this negative depth [m].
+  void AddAboveWater(float depth);
   void Merge(const UncertaintySummary& other);
 
   const OutcomeCounts& outcomes() const { return outcomes_; }
@@ -31,8 +37,9 @@ class UncertaintySummary {
   // Several lines: the outcomes, then a table of depth bands.
   std::string Text() const;
 
-  // `outcomes`, `depth`, `s44_best_order` (number of pulses by the strictest order that the sea surface alone
-  // leaves open) and `depth_bands` with `thu` and `tvu` in m.
+  // `outcomes`; `outside`, by outcome the least, median (to 1/16) and greatest of the coordinate that caused it, for
+  // ABOVE_WATER the depth; `depth`, `s44_best_order` (number of pulses by the strictest order that the sea surface
+  // alone leaves open) and `depth_bands` with `thu` and `tvu` in m.
   nlohmann::ordered_json Json() const;
 
  private:
@@ -61,9 +68,12 @@ class UncertaintySummary {
   S44Order order() const { return style_.s44_order.value_or(S44Order::k1b); }
   std::string BandText(std::size_t band) const;
   nlohmann::ordered_json BandJson(std::size_t band) const;
+  nlohmann::ordered_json OutsideJson() const;
 
   AnswerStyle style_;
   OutcomeCounts outcomes_;
+  std::array<CoordinateSpread, OutcomeCounts::kAskedCount> outside_;  // By OutcomeCounts::Number.
+  CoordinateSpread above_water_;                                      // Depths.
   std::array<Band, kBandEnds.size() + 1> bands_ = {};
   float least_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
   float greatest_depth_ = -std::numeric_limits<float>::infinity();

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
+#include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/interpolation_error.h"
 #include "survey/commands/options.h"
@@ -21,19 +22,26 @@ struct CsvOptions {
   Existing existing = Existing::kKeep;
   SourceOptions source;
   AnswerStyle style;
-  FixedCoordinates fixed;
+  FixedInputs fixed;
 };
 
 // For a summary; null where a column of the file has it, or nothing does.
 nlohmann::ordered_json Parameters(const CsvOptions& options) {
   nlohmann::ordered_json json;
-  for (const AxisId axis : kAxes) {
-    const std::optional<float>& value = options.fixed[Index(axis)];
-    json[std::string(Describe(axis).name)] =
-        value.has_value() ? JsonNumber(*value) : nlohmann::ordered_json();
+  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
+    const auto input = static_cast<PulseInput>(i);
+    const std::optional<float>& value = options.fixed[input];
+    json[std::string(Name(input))] = value.has_value() ? JsonNumber(*value) : nlohmann::ordered_json();
   }
   json.update(Parameters(options.style));
   return json;
+}
+
+// None where only the columns of each file tell.
+std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
+  if (fixed[PulseInput::kFootprint].has_value()) return false;
+  if (fixed[PulseInput::kAltitude].has_value() || fixed[PulseInput::kDivergence].has_value()) return true;
+  return std::nullopt;
 }
 
 absl::Status RunCsv(const CsvOptions& options) {
@@ -52,14 +60,25 @@ absl::Status RunCsv(const CsvOptions& options) {
                                   .answers = csv->summary.Json()},
                          " " + csv->summary.outcomes().Text()};
   };
-  return AnnotateFiles(*jobs,
-                       {.command = "csv",
-                        .records = "pulses",
-                        .parameters = Parameters(options),
-                        .resume = options.files.resume,
-                        .existing = options.existing,
-                        .annotate = annotate},
-                       (*source)->table());
+  RunVerdict verdict({.axes = (*source)->table().axes,
+                      .water_level = {},
+                      .footprint_from_beam = IsFootprintFromBeam(options.fixed)},
+                     "pulse");
+  const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
+    const std::string problem = verdict.Add(job.output.string(), answers);
+    if (!problem.empty() && jobs->size() > 1) Note(problem);
+  };
+  const absl::Status status = AnnotateFiles(*jobs,
+                                            {.command = "csv",
+                                             .records = "pulses",
+                                             .parameters = Parameters(options),
+                                             .resume = options.files.resume,
+                                             .existing = options.existing,
+                                             .annotate = annotate,
+                                             .finished = judge},
+                                            (*source)->table());
+  if (const std::string note = verdict.DeepNote(); !note.empty()) Note(note);
+  return status.ok() ? verdict.status() : status;
 }
 
 }  // namespace
@@ -69,9 +88,12 @@ void AddCsvCommand(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("csv",
                                              "Copy CSV files of pulses and append the uncertainty of each; "
                                              "columns are wind_speed, fetch, incidence, "
-                                             "azimuth, footprint, depth, in any order, among others");
+                                             "azimuth, footprint, depth, in any order, among others; "
+                                             "beam_azimuth and wind_from may stand for azimuth, altitude "
+                                             "and divergence for footprint");
   AddFileOptions(*command, ".csv", options->files, options->existing);
-  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->fixed);
+  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->fixed.coordinates);
+  AddBeamInputs(*command, options->fixed);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);
   EndHelp(*command,

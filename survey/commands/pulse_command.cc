@@ -15,21 +15,18 @@ namespace albtpu::client {
 namespace {
 
 struct PulseOptions {
-  FixedCoordinates coordinates;
+  FixedInputs inputs;
   SourceOptions source;
   AnswerStyle style;
   bool json = false;
 };
 
 absl::Status RunPulse(const PulseOptions& options) {
-  for (const AxisId axis : kAxes) {
-    if (options.coordinates[Index(axis)].has_value() || MayBeAbsent(axis)) continue;
-    return UsageError(absl::StrCat("pulse: ", FlagName(axis), " is missing; give it in ",
-                                   std::string(Describe(axis).units)));
-  }
+  const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(options.inputs);
+  if (!coordinates.ok()) return coordinates.status();
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
   if (!source.ok()) return source.status();
-  const absl::StatusOr<PulseAnswer> answer = AskPulse(options.coordinates, options.style, **source);
+  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, options.style, **source);
   if (!answer.ok()) return answer.status();
   const TableSummary& table = (*source)->table();
   std::cout << (options.json ? PulseJson(*answer, table) : PulseText(*answer, table));
@@ -41,7 +38,8 @@ absl::Status RunPulse(const PulseOptions& options) {
 void AddPulseCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<PulseOptions>();
   CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
-  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->coordinates);
+  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->inputs.coordinates);
+  AddBeamInputs(*command, options->inputs);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")

@@ -111,10 +111,9 @@ absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle 
   AnswerSelection surface;
   UncertaintySummary::Select(surface);
   absl::Status status =
-      source.Answer(style.query(), batch.columns(), answer.stated.Resize(1, AnswerCells(style).selection()));
+      AnswerPulses(source, style.query(), batch, AnswerCells(style).selection(), answer.stated);
   if (status.ok()) {
-    status = source.Answer({.coverage = Coverage::kP95, .s44_order = {}}, batch.columns(),
-                           answer.p95.Resize(1, surface));
+    status = AnswerPulses(source, {.coverage = Coverage::kP95, .s44_order = {}}, batch, surface, answer.p95);
   }
   if (!status.ok()) return status;
   return answer;
@@ -126,7 +125,7 @@ std::string PulseText(const PulseAnswer& answer, const TableSummary& table) {
   for (const AxisId axis : kAxes) {
     text += Line(Describe(axis).name, CoordinateText(axis, answer.pulse[Index(axis)]));
   }
-  text += Line("outcome", OutcomeName(answer.stated.outcomes[0], answer.stated.outcome_axes[0]));
+  text += Line("outcome", OutcomeName(answer.stated, 0));
   if (!answer.stated.interpolated(0)) return text + WhyNoNumber(answer.stated, table) + "\n";
   for (const Quantity quantity : kQuantities) {
     text += Line(Describe(quantity).name, ValueText(quantity, answer));

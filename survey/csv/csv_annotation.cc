@@ -84,10 +84,8 @@ class BlockWork {
 
   absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers,
                            UncertaintySummary& summary) const {
-    const AnswerColumns columns = answers.Resize(pulses.size, selection_);
-    if (pulses.size == 0) return absl::OkStatus();
-    absl::Status status = source_.Answer(style_.query(), pulses.columns(), columns);
-    if (status.ok()) summary.Add(pulses, answers);
+    absl::Status status = AnswerPulses(source_, style_.query(), pulses, selection_, answers);
+    if (status.ok() && pulses.size > 0) summary.Add(pulses, answers);
     return status;
   }
 
@@ -154,7 +152,7 @@ absl::Status AnnotateRecords(CsvReader& reader, const BlockWork& work, AnswerSty
 
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
-                                         const FixedCoordinates& fixed, AnswerStyle style,
+                                         const FixedInputs& fixed, AnswerStyle style,
                                          UncertaintySource& source, FileProgress& progress) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   absl::StatusOr<CsvReader> reader = CsvReader::Open(input);

@@ -19,19 +19,20 @@ struct AnnotatedCsv {
   OutputFile file;  // Complete; Commit() gives it its name.
 };
 
-// Columns are found by name, in any order: a column with the name of an axis has that coordinate; all other columns
+// Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns
 // are ignored. Every record is copied byte for byte, including line ending, quotes and byte order mark, and followed by
 // the columns of `AnswerCells`; a last line without a line ending gets that of the header. Blank lines are copied. An
-// empty cell in `fetch` means a fully developed sea, in `azimuth` no azimuth. Reading, querying and writing overlap;
+// empty cell in `fetch` means a fully developed sea, in `azimuth`,
+// `beam_azimuth` or `wind_from` no azimuth. Reading, querying and writing overlap;
 // memory does not grow with the file.
 //
-// Fails and writes nothing when a column is missing and has no fixed coordinate, occurs twice, also has a fixed
-// coordinate (IsUsageError), or has the name of a column to be appended; when the number of cells in a record differs
+// Fails and writes nothing when a column is missing and has no fixed number, occurs twice, also has a fixed number
+// (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be appended; when the number of cells in a record differs
 // from the header; when a coordinate is not a number; or when the input is modified meanwhile. Messages name line and
 // column.
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
-                                         const FixedCoordinates& fixed, AnswerStyle style,
+                                         const FixedInputs& fixed, AnswerStyle style,
                                          UncertaintySource& source, FileProgress& progress);
 
 }  // namespace albtpu::client

@@ -43,13 +43,33 @@ absl::Status CheckUnique(const std::string& file, const std::vector<std::string>
   return absl::OkStatus();
 }
 
-absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names) {
+std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
+  for (const OtherWay& way : kOtherWays) {
+    if (way.axis != axis) continue;
+    const std::string first(Name(way.first)), second(Name(way.second));
+    if (origins[Index(way.first)] != InputOrigin::kNone)
+      return absl::StrCat(", or add ", second, " to ", first);
+    if (origins[Index(way.second)] != InputOrigin::kNone)
+      return absl::StrCat(", or add ", first, " to ", second);
+    return absl::StrCat(", or give ", first, " and ", second);
+  }
+  return "";
+}
+
+absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names,
+                           const InputOrigins& origins) {
   const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
-  return absl::InvalidArgumentError(absl::StrCat(
-      file, " line 1: no column '", std::string(Describe(axis).name),
-      "' (columns found: ", absl::StrJoin(names, ", "), "); ",
-      other_separator ? std::string("separate the columns by commas")
-                      : absl::StrCat("add it, or give one value for all pulses by ", FlagName(axis))));
+  return absl::InvalidArgumentError(
+      absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name),
+                   "' (columns found: ", absl::StrJoin(names, ", "), "); ",
+                   other_separator ? std::string("separate the columns by commas")
+                                   : absl::StrCat("add it, or give one value for all pulses by ",
+                                                  FlagName(axis), MissingAdvice(axis, origins))));
+}
+
+bool MayBeEmpty(PulseInput input) {
+  if (input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom) return true;
+  return Index(input) < kAxisCount && MayBeAbsent(kAxes[Index(input)]);
 }
 
 }  // namespace
@@ -62,34 +82,68 @@ PulseBatch OnePulse(const FixedCoordinates& fixed) {
   return pulse;
 }
 
-std::string FlagName(AxisId axis) {
-  std::string flag = "--";
-  for (const char letter : Describe(axis).name) flag += letter == '_' ? '-' : letter;
-  return flag;
-}
-
 absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvRecord& header,
-                                          const FixedCoordinates& fixed,
+                                          const FixedInputs& fixed,
                                           const std::vector<std::string>& appended) {
   const std::vector<std::string> names = ColumnNames(header);
   if (absl::Status status = CheckUnique(name, names, appended); !status.ok()) return status;
   CsvPulses pulses;
   pulses.name_ = name;
   pulses.column_count_ = names.size();
-  pulses.fixed_ = fixed;
+  std::array<std::size_t, kPulseInputCount> column_of = {};
+  InputOrigins origins = {};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (const std::optional<AxisId> axis = FindAxis(names[i])) pulses.columns_[Index(*axis)] = i;
+    const std::optional<PulseInput> input = FindInput(names[i]);
+    if (!input.has_value()) continue;
+    column_of[Index(*input)] = i;
+    origins[Index(*input)] = InputOrigin::kColumn;
   }
-  for (const AxisId axis : kAxes) {
-    const bool in_file = pulses.columns_[Index(axis)].has_value();
-    const bool given = fixed[Index(axis)].has_value();
-    if (in_file && given) {
-      return UsageError(absl::StrCat(FlagName(axis), ": ", name, " also has the column '",
-                                     std::string(Describe(axis).name), "'; leave out one of them"));
+  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
+    const auto input = static_cast<PulseInput>(i);
+    if (!fixed[input].has_value()) continue;
+    if (origins[i] == InputOrigin::kColumn) {
+      return UsageError(absl::StrCat(FlagName(input), ": ", name, " also has the column '",
+                                     std::string(Name(input)), "'; leave out one of them"));
     }
-    if (!in_file && !given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names);
+    origins[i] = InputOrigin::kFlag;
+    pulses.fixed_[i] = *fixed[input];
   }
+  if (absl::Status status = CheckWays(origins, absl::StrCat(name, " line 1")); !status.ok()) return status;
+  for (const AxisId axis : kAxes) {
+    const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
+    if (!given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names, origins);
+  }
+  for (const OtherWay& way : kOtherWays) {  // Half of a way is like any other column.
+    if (IsGivenByOtherWay(way.axis, origins)) continue;
+    origins[Index(way.first)] = origins[Index(way.second)] = InputOrigin::kNone;
+  }
+  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
+    if (origins[i] == InputOrigin::kColumn) {
+      pulses.columns_.push_back({static_cast<PulseInput>(i), column_of[i]});
+    }
+  }
+  pulses.FindCoordinates(fixed, origins);
   return pulses;
+}
+
+void CsvPulses::FindCoordinates(const FixedInputs& fixed, const InputOrigins& origins) {
+  const auto is_column = [&](PulseInput input) { return origins[Index(input)] == InputOrigin::kColumn; };
+  constant_ = fixed.coordinates;
+  for (const AxisId axis : kAxes) {
+    if (is_column(InputOf(axis))) varying_.push_back(axis);
+  }
+  for (const OtherWay& way : kOtherWays) {
+    if (!IsGivenByOtherWay(way.axis, origins)) continue;
+    const bool of_incidence = way.axis == AxisId::kFootprint && is_column(PulseInput::kIncidence);
+    if (is_column(way.first) || is_column(way.second) || of_incidence) {
+      varying_.push_back(way.axis);
+      from_other_way_.push_back(way.axis);
+    } else {
+      constant_[Index(way.axis)] = FromOtherWay(way.axis, fixed_);
+    }
+  }
+  may_have_azimuth_ =
+      origins[Index(AxisId::kAzimuth)] != InputOrigin::kNone || IsGivenByOtherWay(AxisId::kAzimuth, origins);
 }
 
 void CsvPulses::Clear(CsvPulseBatches& batches) const {
@@ -97,25 +151,24 @@ void CsvPulses::Clear(CsvPulseBatches& batches) const {
     batch->size = 0;
     for (const AxisId axis : kAxes) {
       (*batch)[axis].clear();
-      if (fixed_[Index(axis)].has_value()) (*batch)[axis].push_back(*fixed_[Index(axis)]);
+      if (constant_[Index(axis)].has_value()) (*batch)[axis].push_back(*constant_[Index(axis)]);
     }
   }
 }
 
-absl::StatusOr<std::optional<float>> CsvPulses::Number(const CsvRecord& record, AxisId axis) const {
-  const std::size_t column = *columns_[Index(axis)];
-  const std::string_view raw = record.RawCell(column);
+absl::StatusOr<std::optional<float>> CsvPulses::Number(const CsvRecord& record, const Column& column) const {
+  const std::string_view raw = record.RawCell(column.index);
   const bool quoted = !raw.empty() && raw.front() == '"';
-  const std::string unquoted = quoted ? record.Cell(column) : "";
+  const std::string unquoted = quoted ? record.Cell(column.index) : "";
   const absl::string_view cell = absl::StripAsciiWhitespace(
       quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
-  if (cell.empty() && MayBeAbsent(axis)) return std::nullopt;
+  if (cell.empty() && MayBeEmpty(column.input)) return std::nullopt;
   const std::optional<float> value = ParseFloat(std::string_view(cell.data(), cell.size()));
   if (value.has_value()) return value;
   return absl::InvalidArgumentError(absl::StrCat(
-      name_, " line ", record.line, ", column '", std::string(Describe(axis).name),
+      name_, " line ", record.line, ", column '", std::string(Name(column.input)),
       "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-      "; write a number in ", std::string(Describe(axis).units), ", such as 12.5"));
+      "; write a number in ", std::string(Units(column.input)), ", such as 12.5"));
 }
 
 absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches& batches) const {
@@ -124,20 +177,20 @@ absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches&
                                                    " cells, but the header has ", column_count_,
                                                    "; write one cell for each column"));
   }
-  bool has_azimuth = fixed_[Index(AxisId::kAzimuth)].has_value();
-  std::array<float, kAxisCount> numbers;
-  for (const AxisId axis : kAxes) {
-    if (!columns_[Index(axis)].has_value()) continue;
-    const absl::StatusOr<std::optional<float>> number = Number(record, axis);
+  bool has_azimuth = may_have_azimuth_;
+  PulseNumbers numbers = fixed_;
+  for (const Column& column : columns_) {
+    const absl::StatusOr<std::optional<float>> number = Number(record, column);
     if (!number.ok()) return number.status();
-    if (axis == AxisId::kAzimuth) has_azimuth = number->has_value();
-    numbers[Index(axis)] = number->value_or(std::numeric_limits<float>::infinity());  // An absent fetch.
+    // An absent fetch; of the other inputs that may be empty, each makes the azimuth absent.
+    numbers[Index(column.input)] = number->value_or(std::numeric_limits<float>::infinity());
+    if (!number->has_value() && column.input != PulseInput::kFetch) has_azimuth = false;
   }
+  for (const AxisId axis : from_other_way_) numbers[Index(axis)] = FromOtherWay(axis, numbers);
   PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
   ++batch.size;
-  for (const AxisId axis : kAxes) {
-    if (!columns_[Index(axis)].has_value() || (axis == AxisId::kAzimuth && !has_azimuth)) continue;
-    batch[axis].push_back(numbers[Index(axis)]);
+  for (const AxisId axis : varying_) {
+    if (axis != AxisId::kAzimuth || has_azimuth) batch[axis].push_back(numbers[Index(axis)]);
   }
   return has_azimuth;
 }

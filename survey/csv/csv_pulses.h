@@ -1,4 +1,4 @@
-// Pulses from CSV records: which column has which coordinate, and the numbers in its cells.
+// Pulses from CSV records: which columns have which input of a pulse, and the numbers in their cells.
 #pragma once
 
 #include <array>
@@ -10,12 +10,10 @@
 #include "absl/status/statusor.h"
 #include "survey/answers/batch.h"
 #include "survey/csv/csv_reader.h"
+#include "survey/csv/pulse_inputs.h"
 #include "tables/schema.h"
 
 namespace albtpu::client {
-
-// Coordinates that are the same for all pulses, by axis.
-using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
 
 // Pulses with an azimuth and pulses without one are queried separately, because a column of PulseColumns has a number
 // for all pulses or for none.
@@ -27,8 +25,7 @@ class CsvPulses {
  public:
   // `name` is the file, for messages; `appended` are the columns that the output gets in addition.
   static absl::StatusOr<CsvPulses> Bind(const std::string& name, const CsvRecord& header,
-                                        const FixedCoordinates& fixed,
-                                        const std::vector<std::string>& appended);
+                                        const FixedInputs& fixed, const std::vector<std::string>& appended);
 
   // Empties the batches, except for coordinates that are the same for all pulses.
   void Clear(CsvPulseBatches& batches) const;
@@ -37,20 +34,28 @@ class CsvPulses {
   absl::StatusOr<bool> Append(const CsvRecord& record, CsvPulseBatches& batches) const;
 
  private:
+  // A column that coordinates come from.
+  struct Column {
+    PulseInput input;
+    std::size_t index;
+  };
+
   CsvPulses() = default;
 
-  absl::StatusOr<std::optional<float>> Number(const CsvRecord& record, AxisId axis) const;
+  void FindCoordinates(const FixedInputs& fixed, const InputOrigins& origins);
+  absl::StatusOr<std::optional<float>> Number(const CsvRecord& record, const Column& column) const;
 
   std::string name_;
   std::size_t column_count_ = 0;
-  std::array<std::optional<std::size_t>, kAxisCount> columns_;
-  FixedCoordinates fixed_;
+  std::vector<Column> columns_;
+  PulseNumbers fixed_ = {};             // By flags; the others have any value.
+  FixedCoordinates constant_;           // The same for all pulses.
+  std::vector<AxisId> varying_;         // The others, without those that are absent from all pulses.
+  std::vector<AxisId> from_other_way_;  // Of these, those that have no column of their own.
+  bool may_have_azimuth_ = false;       // Where no cell of it is empty.
 };
 
 // A single pulse at the fixed coordinates; fetch and azimuth may be absent.
 PulseBatch OnePulse(const FixedCoordinates& fixed);
-
-// The flag that sets a coordinate for all pulses: `--wind-speed`.
-std::string FlagName(AxisId axis);
 
 }  // namespace albtpu::client

@@ -37,7 +37,7 @@ class Run {
  public:
   Run(const AnnotationRun& run, const TableSummary& table, const std::vector<Job>& jobs)
       : run_(run),
-        settings_{run.command, run.parameters, table},
+        settings_{run.command, run.parameters, table, run.files},
         jobs_(jobs),
         progress_(run.records, jobs.size(), TotalSize(jobs)) {}
 
@@ -73,6 +73,7 @@ class Run {
       if (complete.ok()) {
         progress_.Skip(SizeOf(job.input));
         Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
+        if (run_.finished) run_.finished(job, ReadAnswers(job));
         return complete;
       }
       if (!absl::IsNotFound(complete) && run_.existing == Existing::kKeep) {
@@ -89,7 +90,9 @@ class Run {
     if (!annotated.ok()) return annotated.status();
     const std::string summary = SummaryText(settings_, job, annotated->findings, annotated->file.size());
     absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
-    if (status.ok()) Note(absl::StrCat(job.output.string(), ":"), annotated->text);
+    if (!status.ok()) return status;
+    Note(absl::StrCat(job.output.string(), ":"), annotated->text);
+    if (run_.finished) run_.finished(job, annotated->findings.answers);
     return status;
   }
 

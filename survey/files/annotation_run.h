@@ -26,9 +26,12 @@ struct AnnotationRun {
   std::string command;                // "las"
   std::string records;                // What the files contain, for the user: "points".
   nlohmann::ordered_json parameters;  // Everything that decides the output, apart from input and table.
-  bool resume = false;                // Keep outputs that are already complete.
+  std::vector<std::filesystem::path> files = {};  // Which are read beside the inputs.
+  bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
   std::function<absl::StatusOr<AnnotatedFile>(const Job&, FileProgress&)> annotate;
+  // If set, called with the answers in the summary of each output that was written or kept.
+  std::function<void(const Job&, const nlohmann::ordered_json& answers)> finished = {};
 };
 
 // Annotates every file with `table`, the table of the source, and writes a summary beside each output. When one file

@@ -89,11 +89,17 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
                      {"output", {{"bytes", SizeOf(job.output)}}}};
   const std::string difference = Difference(json, here, "");
   if (!difference.empty()) return differs(absl::StrCat("according to its summary, ", difference));
-  if (fs::last_write_time(job.input, error) > fs::last_write_time(job.output, error) || error) {
-    return differs(absl::StrCat(job.input.string(), " is newer"));
+  std::vector<fs::path> read = {job.input};
+  read.insert(read.end(), settings.files.begin(), settings.files.end());
+  for (const fs::path& file : read) {
+    if (fs::last_write_time(file, error) > fs::last_write_time(job.output, error) || error) {
+      return differs(absl::StrCat(file.string(), " is newer"));
+    }
   }
   return absl::OkStatus();
 }
+
+Json ReadAnswers(const Job& job) { return ReadSummary(SummaryPath(job.output)).value("answers", Json()); }
 
 absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing) {
   const fs::path summary = SummaryPath(job.output);

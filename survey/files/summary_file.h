@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -22,6 +23,7 @@ struct OutputSettings {
   std::string command;                // "las"
   nlohmann::ordered_json parameters;  // The flags, including defaults.
   TableSummary table;
+  std::vector<std::filesystem::path> files = {};  // Which were read beside the input, such as trajectories.
 };
 
 // What was read and answered.
@@ -36,8 +38,12 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
                         std::uint64_t output_bytes);
 
 // OK when the output of `job` exists, has the size that its summary states, was made with these settings from an input
-// of this name and size, and the input has not been modified since. Otherwise the error says what differs.
+// of this name and size, and neither the input nor a file of the settings has been modified since. Otherwise the error
+// says what differs.
 absl::Status CheckComplete(const OutputSettings& settings, const Job& job);
+
+// The answers that the summary of the output of `job` states; null if there are none.
+nlohmann::ordered_json ReadAnswers(const Job& job);
 
 // AlreadyExists when a file that is to be kept has the name of the output or of its summary.
 absl::Status CheckSummaryCanBeWritten(const Job& job, Existing existing);

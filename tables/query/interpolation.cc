@@ -17,6 +17,7 @@ PulseUncertainty InterpolatePulse(const UncertaintyTable& table, const Coordinat
   PulseUncertainty uncertainty;
   uncertainty.outcome = answer.outcome;
   if (answer.axis.has_value()) uncertainty.axis = kAxes[*answer.axis];
+  uncertainty.side = answer.side;
   std::copy_n(answer.values.begin(), kQuantityCount, uncertainty.values.begin());
   std::copy_n(answer.standard_errors.begin(), kQuantityCount, uncertainty.standard_errors.begin());
   if (answer.outcome == Outcome::kInterpolated)

@@ -142,7 +142,11 @@ TableValues InterpolateAt(const Table& table, std::span<const double> coordinate
   Brackets brackets;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const std::optional<Bracket> bracket = axes[axis].Locate(coordinates[axis]);
-    if (!bracket.has_value()) return WithoutNumbers(Outcome::kOutOfDomain, axis);
+    if (!bracket.has_value()) {
+      TableValues outside = WithoutNumbers(Outcome::kOutOfDomain, axis);
+      outside.side = SideOf(axes[axis].schema(), axes[axis].nodes().back(), coordinates[axis]);
+      return outside;
+    }
     brackets[axis] = *bracket;
   }
 

@@ -20,6 +20,7 @@ struct TableValues {
   std::optional<std::size_t> axis;  // The first axis that made the outcome; none if interpolated.
   std::array<float, kMaxQuantities> values;
   std::array<float, kMaxQuantities> standard_errors;  // Interpolated linearly.
+  std::optional<Side> side;  // On which side of `axis` the pulse is, if it is out of domain: SideOf.
 };
 
 // At one coordinate for each axis of the table.

@@ -35,6 +35,11 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
         only = dict(reference=self.reference(), title="Fake")
         return pb.ListTablesResponse(tables=[only], default_table="fake")
 
+    def GetTable(self, request, context):
+        table = self.source.table()
+        axes = [dict(name=name, nodes=axis.nodes, units=axis.units) for name, axis in table.axes.items()]
+        return pb.GetTableResponse(table=dict(reference=self.reference(), title="Fake", axes=axes))
+
     def reference(self):
         mine = self.source.table().reference
         return dict(name="fake", id=mine.id, version=mine.version, digest=self.digest)

@@ -97,7 +97,7 @@ class Queries(unittest.TestCase):
 
     def test_return_names_units_and_provenance(self):
         answer = self.query(depth=[8, 30, np.nan, 9], standard_errors=True, best_s44_order=True, s44_order="2")
-        self.assertEqual(answer.outcome_counts(), {"INTERPOLATED": 2, "OUT_OF_DOMAIN:depth": 1, "INVALID": 1})
+        self.assertEqual(answer.outcome_counts(), {"INTERPOLATED": 2, "OUT_OF_DOMAIN:depth:above": 1, "INVALID": 1})
         self.assertEqual(list(answer.interpolated), [True, False, False, True])
         self.assertEqual(answer.table[:3], ("synthetic", "synthetic", "1"))
         self.assertEqual(len(answer.table.digest), 64)

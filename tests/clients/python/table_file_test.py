@@ -80,14 +80,14 @@ class TableFile(unittest.TestCase):
                 np.testing.assert_allclose(once.thu, many.thu[:500], rtol=2e-7)
 
     def test_names_the_first_axis_that_caused_an_outcome(self):
-        for changes, word in (({}, "INTERPOLATED"), ({"depth": 20.001}, "OUT_OF_DOMAIN:depth"),
-                              ({"depth": -0.1, "wind_speed": 2.9}, "OUT_OF_DOMAIN:wind_speed"),
+        for changes, word in (({}, "INTERPOLATED"), ({"depth": 20.001}, "OUT_OF_DOMAIN:depth:above"),
+                              ({"depth": -0.1, "wind_speed": 2.9}, "OUT_OF_DOMAIN:wind_speed:below"),
                               ({"wind_speed": 2.9, "depth": np.nan}, "INVALID"),
                               ({"fetch": np.inf}, "INTERPOLATED"), ({"fetch": -np.inf}, "INVALID"),
-                              ({"fetch": 1e30}, "INTERPOLATED"), ({"fetch": 999.9}, "OUT_OF_DOMAIN:fetch"),
+                              ({"fetch": 1e30}, "INTERPOLATED"), ({"fetch": 999.9}, "OUT_OF_DOMAIN:fetch:below"),
                               ({"azimuth": -100000.5}, "INTERPOLATED"), ({"azimuth": np.inf}, "INVALID"),
-                              ({"footprint": 0}, "OUT_OF_DOMAIN:footprint"),
-                              ({"incidence": -1}, "OUT_OF_DOMAIN:incidence")):
+                              ({"footprint": 0}, "OUT_OF_DOMAIN:footprint:below"),
+                              ({"incidence": -1}, "OUT_OF_DOMAIN:incidence:below")):
             answer = self.source.query(**{**PULSE, **changes})
             self.assertEqual(answer.outcome, word, changes)
             self.assertEqual(np.isnan(answer.thu), word != "INTERPOLATED", changes)

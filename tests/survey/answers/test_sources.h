@@ -29,6 +29,8 @@ inline PulseUncertainty QueryPulse(client::UncertaintySource& source, const Puls
   if (!status.ok()) return uncertainty;  // Invalid.
   uncertainty.outcome = static_cast<Outcome>(answers.outcomes[0] - 1);
   if (answers.outcome_axes[0] > 0) uncertainty.axis = kAxes[answers.outcome_axes[0] - 1];
+  answers.FindSides(batch, source.table().axes);
+  if (answers.sides[0] > 0) uncertainty.side = static_cast<Side>(answers.sides[0] - 1);
   for (std::size_t i = 0; i < kQuantityCount; ++i) {
     uncertainty.values[i] = answers.values[i][0];
     uncertainty.standard_errors[i] = answers.standard_errors[i][0];

@@ -23,6 +23,7 @@ struct Answers {
       const bool inside = depths[i] >= 0;
       answers.outcomes[i] = inside ? 1 : 2;
       answers.outcome_axes[i] = inside ? 0 : Index(AxisId::kDepth) + 1;
+      answers.sides[i] = inside ? 0 : 1;
       answers.values[Index(Quantity::kThu)][i] = inside ? depths[i] / 10 : NAN;
       answers.values[Index(Quantity::kTvu)][i] = inside ? depths[i] / 100 : NAN;
       answers.standard_errors[Index(Quantity::kThu)][i] = 0.5f;
@@ -40,7 +41,7 @@ TEST(UncertaintySummary, SortsPulsesIntoDepthBands) {
   summary.Add(some.pulses, some.answers);
   const Json json = summary.Json();
   EXPECT_EQ(json["pulses"], 7);
-  EXPECT_EQ(json["outcomes"], Json({{"INTERPOLATED", 6}, {"OUT_OF_DOMAIN:depth", 1}}));
+  EXPECT_EQ(json["outcomes"], Json({{"INTERPOLATED", 6}, {"OUT_OF_DOMAIN:depth:below", 1}}));
   EXPECT_EQ(json["without_azimuth"], 7);
   EXPECT_EQ(json["depth"], Json({{"least", 0.0}, {"greatest", 60.0}}));
   ASSERT_EQ(json["depth_bands"].size(), 4u);

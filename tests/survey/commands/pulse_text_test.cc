@@ -67,7 +67,7 @@ TEST_F(PulseTextTest, IsNullWhereThereIsNoNumber) {
        {"azimuth", "thu", "bias_vertical", "tvu_standard_error", "s44_best_order", "s44_remaining_tvu"}) {
     EXPECT_TRUE(json.at(name).is_null()) << name;
   }
-  EXPECT_EQ(json.at("outcome"), "OUT_OF_DOMAIN:depth");
+  EXPECT_EQ(json.at("outcome"), "OUT_OF_DOMAIN:depth:above");
   EXPECT_EQ(json.at("coverage"), "p95");
 }
 
@@ -88,7 +88,7 @@ TEST_F(PulseTextTest, StatesTheRangeThatTheTableCovers) {
   Pulse pulse = kPulse;
   pulse.depth = 99;
   EXPECT_THAT(TextOf(pulse),
-              HasSubstr("OUT_OF_DOMAIN:depth\nno number (the table covers depth from 0 to 20 m)\n"));
+              HasSubstr("OUT_OF_DOMAIN:depth:above\nno number (the table covers depth from 0 to 20 m)\n"));
 }
 
 TEST_F(PulseTextTest, StatesWhatTheTableDoesNotHold) {

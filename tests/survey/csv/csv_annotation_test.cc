@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "service/client/local_source.h"
+#include "survey/answers/beam_coordinates.h"
 #include "survey/exit_status.h"
 #include "survey/number_text.h"
 #include "tests/survey/answers/test_sources.h"
@@ -50,11 +51,12 @@ class CsvAnnotation : public ::testing::Test {
     return absl::StrCat(cells, ",", OutcomeText(answer));
   }
 
-  void Fix(AxisId axis, float value) { fixed_[Index(axis)] = value; }
+  void Fix(AxisId axis, float value) { Fix(InputOf(axis), value); }
+  void Fix(PulseInput input, float value) { fixed_[input] = value; }
 
   TemporaryFolder folder_;
   LocalSource source_{"", SyntheticTable()};
-  FixedCoordinates fixed_;
+  FixedInputs fixed_;
   AnswerStyle style_;
   OutcomeCounts counts_;
   absl::Status status_;
@@ -106,13 +108,13 @@ TEST_F(CsvAnnotation, GivesEveryPulseAnOutcome) {
       Annotate(std::string(kHeader) +
                "\n5,,12,,.6,7\n-5,,12,,.6,7\n5,,12,,.6,-1\n5,,12,,.6,nan\ninf,,12,,.6,7\n"
                "5,,12,,.6,1e39\n5,-inf,12,,.6,7\n5,,91,,.6,7\n");
-  EXPECT_THAT(text, HasSubstr("\n-5,,12,,.6,7,,,,,,,OUT_OF_DOMAIN:wind_speed\n"));
-  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,-1,,,,,,,OUT_OF_DOMAIN:depth\n"));
+  EXPECT_THAT(text, HasSubstr("\n-5,,12,,.6,7,,,,,,,OUT_OF_DOMAIN:wind_speed:below\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,-1,,,,,,,OUT_OF_DOMAIN:depth:below\n"));
   EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,nan,,,,,,,INVALID"));
   EXPECT_THAT(text, HasSubstr("\ninf,,12,,.6,7,,,,,,,INVALID"));
-  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,1e39,,,,,,,OUT_OF_DOMAIN:depth\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,,12,,.6,1e39,,,,,,,OUT_OF_DOMAIN:depth:above\n"));
   EXPECT_THAT(text, HasSubstr("\n5,-inf,12,,.6,7,,,,,,,INVALID"));
-  EXPECT_THAT(text, HasSubstr("\n5,,91,,.6,7,,,,,,,OUT_OF_DOMAIN:incidence\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,,91,,.6,7,,,,,,,OUT_OF_DOMAIN:incidence:above\n"));
   EXPECT_EQ(counts_.total(), 8u);
   EXPECT_EQ(counts_.interpolated(), 1u);
 }
@@ -136,7 +138,7 @@ TEST_F(CsvAnnotation, AppendsStandardErrorsAndS44OnRequest) {
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(p95[Quantity::kThu]), ",")));
   const double left = RemainingBudget(ThuLimit(S44Order::k1b, 7), p95[Quantity::kThu]).value();
   EXPECT_THAT(text, HasSubstr(absl::StrCat(",", FormatFloat(static_cast<float>(left)), ",")));
-  EXPECT_THAT(text, HasSubstr(",OUT_OF_DOMAIN:depth,,,,,,,,,\n"));
+  EXPECT_THAT(text, HasSubstr(",OUT_OF_DOMAIN:depth:above,,,,,,,,,\n"));
 }
 
 TEST_F(CsvAnnotation, LeavesCellsEmptyWhereTheTableHasNoNumber) {
@@ -168,6 +170,89 @@ TEST_F(CsvAnnotation, RejectsAFlagBesideItsColumn) {
   Fix(AxisId::kDepth, 3);
   EXPECT_THAT(Annotate(std::string(kHeader) + "\n5,,12,,.6,7\n"), HasSubstr("--depth"));
   EXPECT_TRUE(IsUsageError(status_));
+}
+
+TEST_F(CsvAnnotation, TakesDirectionsForAzimuthAndABeamForFootprint) {
+  // Wind from 250 degrees blows to 70; the beam towards 100 is 30 degrees from downwind. At nadir, the footprint is
+  // 400 m * 1.5 mrad.
+  Pulse pulse = kPulse;
+  pulse.incidence = 0;
+  pulse.footprint = 0.6f;
+  const std::string by_columns = Annotate(
+      "wind_speed,fetch,incidence,beam_azimuth,wind_from,altitude,divergence,depth\n"
+      "5,3e4,0,100,250,400,1.5,7\n");
+  EXPECT_THAT(by_columns, HasSubstr(",7" + Cells(pulse) + "\n"));
+  Fix(PulseInput::kWindFrom, 250);
+  Fix(PulseInput::kDivergence, 1.5f);
+  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,beam_azimuth,altitude,depth\n5,3e4,0,100,400,7\n"),
+              HasSubstr(",7" + Cells(pulse) + "\n"));
+  Fix(PulseInput::kBeamAzimuth, 100);
+  Fix(PulseInput::kAltitude, 400);
+  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,0,7\n"),
+              HasSubstr(",7" + Cells(pulse) + "\n"));
+  pulse.incidence = 12.5f;
+  pulse.footprint = static_cast<float>(FootprintDiameter(400, 1.5, 12.5));
+  EXPECT_THAT(Annotate("wind_speed,fetch,incidence,depth\n5,3e4,12.5,7\n"),
+              HasSubstr(",7" + Cells(pulse) + "\n"));
+}
+
+TEST_F(CsvAnnotation, HasNoAzimuthWhereADirectionIsEmpty) {
+  Pulse pulse = kPulse;
+  pulse.fetch = std::numeric_limits<float>::infinity();
+  pulse.azimuth.reset();
+  const std::string header = "wind_speed,incidence,beam_azimuth,wind_from,footprint,depth\n";
+  const std::string text = Annotate(header + "5,12.5,,250,.6,7\n5,12.5,100, ,.6,7\n5,12.5,100,250,.6,7\n");
+  EXPECT_THAT(text, HasSubstr("\n5,12.5,,250,.6,7" + Cells(pulse) + "\n"));
+  EXPECT_THAT(text, HasSubstr("\n5,12.5,100, ,.6,7" + Cells(pulse) + "\n"));
+  pulse.azimuth = 30;
+  EXPECT_THAT(text, HasSubstr("\n5,12.5,100,250,.6,7" + Cells(pulse) + "\n"));
+  EXPECT_EQ(counts_.without_azimuth(), 2u);
+}
+
+TEST_F(CsvAnnotation, ReadsNoColumnThatLacksTheOtherOfItsWay) {
+  Pulse pulse = kPulse;
+  pulse.fetch = std::numeric_limits<float>::infinity();
+  pulse.azimuth.reset();
+  EXPECT_THAT(Annotate("wind_speed,incidence,beam_azimuth,altitude,footprint,depth\n5,12.5,east,low,.6,7\n"),
+              HasSubstr("east,low,.6,7" + Cells(pulse) + "\n"));
+}
+
+TEST_F(CsvAnnotation, RejectsTwoWaysToACoordinateAndNamesBoth) {
+  const std::string sea = "wind_speed,incidence,depth,";
+  EXPECT_THAT(
+      Annotate(sea + "footprint,azimuth,beam_azimuth,wind_from\n"),
+      HasSubstr("in.csv line 1: column 'azimuth' gives the azimuth, and so do column 'beam_azimuth' and "
+                "column 'wind_from'; leave out"));
+  EXPECT_FALSE(IsUsageError(status_));
+  EXPECT_THAT(
+      Annotate(sea + "footprint,altitude,divergence\n"),
+      HasSubstr(
+          "column 'footprint' gives the footprint, and so do column 'altitude' and column 'divergence'"));
+  Fix(PulseInput::kAltitude, 400);
+  EXPECT_THAT(Annotate(sea + "footprint\n"),
+              HasSubstr("column 'footprint' gives the footprint, which --altitude is for, too"));
+  EXPECT_TRUE(IsUsageError(status_));
+  EXPECT_THAT(Annotate(sea + "altitude,divergence\n"), HasSubstr("--altitude: "));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
+TEST_F(CsvAnnotation, NamesTheMissingHalfOfAWay) {
+  EXPECT_THAT(Annotate("wind_speed,incidence,depth,altitude\n"),
+              HasSubstr("by --footprint, or add divergence to altitude"));
+  EXPECT_THAT(Annotate("wind_speed,incidence,depth\n"),
+              HasSubstr("by --footprint, or give altitude and divergence"));
+  Fix(PulseInput::kWindFrom, 250);
+  EXPECT_THAT(
+      Annotate("wind_speed,incidence,depth,footprint\n"),
+      HasSubstr("--wind-from alone does not give the azimuth; add --beam-azimuth or, in a file, a column "
+                "'beam_azimuth'"));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
+TEST_F(CsvAnnotation, PutsAFootprintBeyondFloatsOutOfTheDomain) {
+  EXPECT_THAT(Annotate("wind_speed,incidence,depth,altitude,divergence\n5,12,7,1e30,1e30\n5,12,7,nan,1\n"),
+              ::testing::AllOf(HasSubstr("1e30,1e30,,,,,,,OUT_OF_DOMAIN:footprint:above\n"),
+                               HasSubstr("nan,1,,,,,,,INVALID\n")));
 }
 
 TEST_F(CsvAnnotation, RejectsAmbiguousHeaders) {

@@ -85,6 +85,15 @@ TEST_F(SummaryFile, NoticesThatTheInputIsNewer) {
   EXPECT_THAT(Difference(), HasSubstr("in.las is newer"));
 }
 
+TEST_F(SummaryFile, RejectsAnOutputThatIsOlderThanItsTrajectory) {
+  settings_.files = {folder_.Write("sbet.out", "trajectory")};
+  ASSERT_TRUE(Write().ok());
+  EXPECT_TRUE(CheckComplete(settings_, job_).ok()) << Difference();
+  const auto later = std::filesystem::last_write_time(job_.output) + std::chrono::seconds(1);
+  std::filesystem::last_write_time(settings_.files[0], later);
+  EXPECT_THAT(Difference(), HasSubstr("sbet.out is newer"));
+}
+
 TEST_F(SummaryFile, RejectsAnOutputWithoutAValidSummary) {
   for (const char* text : {"", "{", "[]", "{\"program\": 1}", "{\"parameters\": 1, \"command\": \"las\"}"}) {
     folder_.Write("out.las", "output");

@@ -153,16 +153,16 @@ TEST(Interpolation, NamesTheAxisThatThePulseIsOutsideOf) {
     ExpectNoNumbers(result);
     return OutcomeText(result);
   };
-  EXPECT_EQ(outcome(AxisId::kWindSpeed, 2.99f), "OUT_OF_DOMAIN:wind_speed");
-  EXPECT_EQ(outcome(AxisId::kWindSpeed, -5), "OUT_OF_DOMAIN:wind_speed");
-  EXPECT_EQ(outcome(AxisId::kFetch, 999), "OUT_OF_DOMAIN:fetch");
-  EXPECT_EQ(outcome(AxisId::kFetch, -1000), "OUT_OF_DOMAIN:fetch");
-  EXPECT_EQ(outcome(AxisId::kIncidence, 25.1f), "OUT_OF_DOMAIN:incidence");
-  EXPECT_EQ(outcome(AxisId::kIncidence, -1), "OUT_OF_DOMAIN:incidence");
-  EXPECT_EQ(outcome(AxisId::kFootprint, 0), "OUT_OF_DOMAIN:footprint");
-  EXPECT_EQ(outcome(AxisId::kFootprint, -0.5f), "OUT_OF_DOMAIN:footprint");
-  EXPECT_EQ(outcome(AxisId::kDepth, 20.01f), "OUT_OF_DOMAIN:depth");
-  EXPECT_EQ(outcome(AxisId::kDepth, -0.01f), "OUT_OF_DOMAIN:depth");
+  EXPECT_EQ(outcome(AxisId::kWindSpeed, 2.99f), "OUT_OF_DOMAIN:wind_speed:below");
+  EXPECT_EQ(outcome(AxisId::kWindSpeed, -5), "OUT_OF_DOMAIN:wind_speed:below");
+  EXPECT_EQ(outcome(AxisId::kFetch, 999), "OUT_OF_DOMAIN:fetch:below");
+  EXPECT_EQ(outcome(AxisId::kFetch, -1000), "OUT_OF_DOMAIN:fetch:below");
+  EXPECT_EQ(outcome(AxisId::kIncidence, 25.1f), "OUT_OF_DOMAIN:incidence:above");
+  EXPECT_EQ(outcome(AxisId::kIncidence, -1), "OUT_OF_DOMAIN:incidence:below");
+  EXPECT_EQ(outcome(AxisId::kFootprint, 0), "OUT_OF_DOMAIN:footprint:below");
+  EXPECT_EQ(outcome(AxisId::kFootprint, -0.5f), "OUT_OF_DOMAIN:footprint:below");
+  EXPECT_EQ(outcome(AxisId::kDepth, 20.01f), "OUT_OF_DOMAIN:depth:above");
+  EXPECT_EQ(outcome(AxisId::kDepth, -0.01f), "OUT_OF_DOMAIN:depth:below");
 }
 
 TEST(Interpolation, IsInvalidWhereACoordinateIsNotFinite) {
@@ -185,7 +185,7 @@ TEST(Interpolation, ReportsInvalidBeforeOutOfDomainAndThenTheFirstAxis) {
   Pulse pulse = Typical();
   pulse.incidence = 80;
   pulse.depth = 80;
-  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:incidence");
+  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:incidence:above");
   pulse.depth = kNaN;
   EXPECT_EQ(Interpolate(table, pulse).outcome, Outcome::kInvalid);
   EXPECT_EQ(Interpolate(table, pulse).axis, AxisId::kDepth);
@@ -210,7 +210,7 @@ TEST(Interpolation, AnswersAtAnyFetchFromOneNode) {
   pulse.fetch = 1;
   EXPECT_EQ(Interpolate(table, pulse).values, infinite.values);
   pulse.fetch = 0;
-  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:fetch");
+  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:fetch:below");
 }
 
 TEST(Interpolation, FoldsAzimuth) {
@@ -260,7 +260,7 @@ TEST(Interpolation, WithoutAzimuthNeedsBothEndsOfTheAxis) {
   pulse.depth = 99;  // Azimuth comes before depth.
   EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:azimuth");
   pulse.wind_speed = 99;
-  EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:wind_speed");
+  EXPECT_EQ(OutcomeText(Interpolate(*table, pulse)), "OUT_OF_DOMAIN:wind_speed:above");
 }
 
 TEST(Interpolation, HasNoNumbersForQuantitiesThatTheTableLacks) {

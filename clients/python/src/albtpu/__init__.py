@@ -6,6 +6,7 @@
     answer.thu, answer.tvu, answer.outcome, answer.units, answer.table.digest
 
 `help(albtpu.UncertaintySource.query)` documents the arguments of a query, `help(albtpu.Uncertainties)` its answer.
+`albtpu.geometry` finds incidence, azimuth and footprint from the positions of sensor and points.
 """
 
 from importlib import import_module
@@ -19,6 +20,7 @@ from .tables import Axis, Quantity, Table, TableReference, TableSummary
 from .uncertainties import Uncertainties
 
 if TYPE_CHECKING:
+    from . import geometry
     from .service import Service, connect
     from .table_file import TableFile, open_table
 
@@ -26,7 +28,7 @@ __version__ = "0.1.0"
 __all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Service", "ServiceError",
            "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
-           "connect", "open_table"]
+           "connect", "geometry", "open_table"]
 
 # Imported on first use: table files do not need gRPC, and services do not need HDF5.
 _LATER = {"Service": ".service", "connect": ".service",
@@ -34,6 +36,8 @@ _LATER = {"Service": ".service", "connect": ".service",
 
 
 def __getattr__(name: str) -> Any:
+    if name == "geometry":
+        return import_module(".geometry", __name__)
     if name not in _LATER:
         raise AttributeError(f"module 'albtpu' has no attribute '{name}'")
     return getattr(import_module(_LATER[name], __name__), name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import grpc
@@ -49,6 +50,7 @@ class Service(UncertaintySource):
     def __init__(self, target: str, channel: grpc.Channel, timeout: float, patience: float) -> None:
         self._target, self._channel, self._timeout, self._patience = target, channel, timeout, patience
         self._open_stub: UncertaintyServiceStub | None = UncertaintyServiceStub(channel)
+        self._known_axes: dict[str, Mapping[str, Axis]] = {}  # By digest of the table.
 
     def tables(self) -> list[TableSummary]:
         """All tables of the server, sorted by name; of one name, the newest version first."""
@@ -84,6 +86,11 @@ class Service(UncertaintySource):
             return self.table(query.table).reference
         stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
         return stream.run(Retries(self._channel, self._patience))
+
+    def _axes(self, reference: TableReference) -> Mapping[str, Axis]:
+        if reference.digest not in self._known_axes:
+            self._known_axes[reference.digest] = super()._axes(reference)
+        return self._known_axes[reference.digest]
 
     def _call(self, method: Any, request: Any) -> Any:
         retries = Retries(self._channel, self._patience)

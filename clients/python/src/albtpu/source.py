@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from types import TracebackType
 from typing import TypeVar
 
@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from .names import refuse_unknown_keywords
 from .progress import Progress, show_progress
 from .query import Query, read_query
-from .tables import Table, TableReference
+from .sides import fill_sides
+from .tables import Axis, Table, TableReference
 from .uncertainties import AnswerColumns, Uncertainties
 
 Self = TypeVar("Self", bound="UncertaintySource")
@@ -57,7 +58,7 @@ class UncertaintySource(ABC):
         >>> answer.thu.round(3)
         array([0.538, 1.346,   nan], dtype=float32)
         >>> list(answer.outcome)
-        ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth']
+        ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth:above']
         """
         query = read_query(
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth,
@@ -67,6 +68,8 @@ class UncertaintySource(ABC):
         columns = AnswerColumns.for_query(query)
         with show_progress(query.size if progress else 0) as shown:
             reference = self._answer(query, columns, shown)
+        fill_sides(columns.outcome_sides, columns.outcomes, columns.outcome_axes, query.columns,
+                   lambda: self._axes(reference))
         return Uncertainties(query, columns, reference)
 
     @abstractmethod
@@ -82,6 +85,11 @@ class UncertaintySource(ABC):
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
                  traceback: TracebackType | None) -> None:
         self.close()
+
+    def _axes(self, reference: TableReference) -> Mapping[str, Axis]:
+        """The axes of the table that answered; none if it was replaced meanwhile."""
+        table = self.table(reference.name)
+        return table.axes if table.reference.digest == reference.digest else {}
 
     @abstractmethod
     def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:

@@ -28,6 +28,7 @@ class AnswerColumns:
 
     outcomes: Numbers
     outcome_axes: Numbers
+    outcome_sides: Numbers
     values: dict[str, Floats]
     standard_errors: dict[str, Floats]
     best_s44_orders: Numbers | None
@@ -43,6 +44,7 @@ class AnswerColumns:
             return np.empty(size, np.float32)
 
         return cls(outcomes=np.empty(size, np.uint8), outcome_axes=np.empty(size, np.uint8),
+                   outcome_sides=np.zeros(size, np.uint8),
                    values={name: floats() for name in query.quantities},
                    standard_errors={name: floats() for name in query.quantities if query.standard_errors},
                    best_s44_orders=np.empty(size, np.uint8) if query.best_s44_order else None,
@@ -64,6 +66,8 @@ class Uncertainties:
     standard_errors:  their Monte Carlo standard errors by name; empty if not requested.
     outcomes:         1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
     outcome_axes:     the axis that caused it, its position in albtpu.AXES from 1; 0 if interpolated.
+    outcome_sides:    where a pulse out of domain is on that axis: 1 below the first node, 2 above the last; 0 for
+                      any other pulse, and on the azimuth.
     best_s44_orders:  1 exclusive, 2 special, 3 1a, 4 1b, 5 2, 0 none (uint8); None if not requested.
     remaining_thu, remaining_tvu: the part of the S-44 order's limits that the sea surface leaves for all other
                       sources, in m at 95 %, NaN if nothing remains; None if not requested.
@@ -89,6 +93,7 @@ class Uncertainties:
         self.pulses = query.pulses
         self.outcomes: Numbers = shaped(columns.outcomes)
         self.outcome_axes: Numbers = shaped(columns.outcome_axes)
+        self.outcome_sides: Numbers = shaped(columns.outcome_sides)
         self.values: Mapping[str, Floats] = {name: shaped(column) for name, column in columns.values.items()}
         self.standard_errors: Mapping[str, Floats] = {
             name: shaped(column) for name, column in columns.standard_errors.items()}
@@ -108,11 +113,8 @@ class Uncertainties:
 
     @property
     def outcome(self) -> NDArray[np.object_]:
-        """Words: "INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID"."""
-        words = np.array([*OUTCOMES, *(f"{OUTCOMES[OUT_OF_DOMAIN]}:{axis}" for axis in AXES)], object)
-        axis_at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0))
-        with_axis = np.uint8(len(OUTCOMES) - 1) + axis_at_fault
-        return np.asarray(words[np.where(axis_at_fault > 0, with_axis, self.outcomes)], object)
+        """Words: "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID"."""
+        return np.asarray(_OUTCOME_WORDS[self._outcome_numbers()], object)
 
     @property
     def interpolated(self) -> NDArray[np.bool_]:
@@ -120,12 +122,15 @@ class Uncertainties:
         return self.outcomes == INTERPOLATED
 
     def outcome_counts(self) -> dict[str, int]:
-        """The number of pulses by outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth": 1}."""
-        at_fault = np.where(self.outcomes == OUT_OF_DOMAIN, self.outcome_axes, np.uint8(0)).reshape(-1)
-        pairs = self.outcomes.reshape(-1) * np.uint16(8) + at_fault  # There are fewer than 8 axes.
-        words = [OUTCOMES[OUT_OF_DOMAIN] + f":{axis}" for axis in AXES]
-        return {words[pair % 8 - 1] if pair % 8 else OUTCOMES[pair // 8]: int(count)
-                for pair, count in enumerate(np.bincount(pairs)) if count}
+        """The number of pulses by outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth:above": 1}."""
+        counts = np.bincount(self._outcome_numbers().reshape(-1))
+        return {_OUTCOME_WORDS[number]: int(count) for number, count in enumerate(counts) if count}
+
+    def _outcome_numbers(self) -> Numbers:
+        """Indices of _OUTCOME_WORDS."""
+        axis_and_side = self.outcome_axes * np.uint8(3) + self.outcome_sides
+        within = np.where(self.outcomes == OUT_OF_DOMAIN, axis_and_side, np.uint8(0))
+        return np.asarray(_FIRST_NUMBERS[self.outcomes] + within, np.uint8)
 
     @property
     def best_s44_order(self) -> NDArray[np.object_] | None:
@@ -185,6 +190,16 @@ class Uncertainties:
             total = name[-3:].upper()
             attributes["long_name"] = f"{total} that the sea surface leaves to all other sources, 95 %"
         return attributes
+
+
+# By outcome; out of domain by axis, from none, and side.
+_OUTCOME_WORDS = np.array(
+    [*OUTCOMES[:OUT_OF_DOMAIN],
+     *(OUTCOMES[OUT_OF_DOMAIN] + axis + side for axis in ("", *(f":{name}" for name in AXES))
+       for side in ("", ":below", ":above")),
+     *OUTCOMES[OUT_OF_DOMAIN + 1:]], object)
+_FIRST_NUMBERS = np.array([*range(OUT_OF_DOMAIN + 1),
+                           *range(OUT_OF_DOMAIN + 3 * (len(AXES) + 1), len(_OUTCOME_WORDS))], np.uint8)
 
 
 def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[Any, ...]:

@@ -1,0 +1,46 @@
+// Whether a run over files succeeded: zero answers are no success, although the outputs are written and complete.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "survey/answers/answer_tally.h"
+#include "survey/answers/likely_cause.h"
+
+namespace albtpu::client {
+
+class RunVerdict {
+ public:
+  // `record` is what the files contain, for the user, in the singular: "pulse", "chosen point".
+  RunVerdict(CauseContext context, std::string record)
+      : context_(std::move(context)), record_(std::move(record)) {}
+
+  // Counts a file that was written, or was complete already, by UncertaintySummary::Json(). Returns a message that
+  // names the file and the likely cause if fewer than half of its pulses got a number, otherwise an empty text.
+  std::string Add(std::string_view file, const nlohmann::ordered_json& answers);
+
+  // Of all files together: fails if fewer than half of the pulses got a number, or if all of them are deeper than 20 m
+  // and would not be with the other sign of --water-level. Names the file if there is only one.
+  absl::Status status() const;
+
+  // A message if no pulse that got a number is shallower than 20 m, otherwise an empty text. A lidar sees the shallow
+  // water first: a survey of deep water alone is rarer than a wrong water level.
+  std::string DeepNote() const;
+
+ private:
+  // m; of a run in which all depths are beyond 20 m, where a wrong sign of the water level explains it.
+  std::optional<double> LeastDepthWithOtherSign() const;
+  std::string Problem(const AnswerTally& tally) const;
+
+  CauseContext context_;
+  std::string record_;
+  AnswerTally all_;
+  std::size_t files_ = 0;
+  std::string last_file_;
+};
+
+}  // namespace albtpu::client
