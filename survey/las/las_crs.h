@@ -1,4 +1,4 @@
-// Finds out whether the coordinate system of a LAS file is in feet.
+// What the records of a LAS file state about its coordinate system, and whether it is in feet.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "survey/las/las_reader.h"
+#include "survey/trajectories/map_frame.h"
 
 namespace albtpu::client {
 
@@ -17,5 +18,12 @@ std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory)
 
 // Searches all records of LASF_Projection, WKT (2112) and GeoTIFF keys (34735), in VLRs and EVLRs.
 absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader);
+
+// The codes of a GeoTIFF key directory; 0 where a key is missing or user-defined.
+CrsDescription DescribeGeoKeys(std::string_view geo_key_directory);
+
+// The first well-known text and the first GeoTIFF keys of LASF_Projection, in VLRs and then in EVLRs. Empty where there
+// are none; a user's text is not set. MapFrame::Create makes a projection of it.
+absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader);
 
 }  // namespace albtpu::client

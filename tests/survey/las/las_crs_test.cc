@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+
 #include "survey/las/little_endian.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/temporary_folder.h"
@@ -73,6 +74,60 @@ TEST(LasCrs, SearchesVlrsAndEvlrs) {
   spec.evlrs.clear();
   spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys({{4099, 9002}})});
   EXPECT_TRUE(finds_feet());
+}
+
+TEST(LasCrs, DescribesGeoKeys) {
+  const CrsDescription description = DescribeGeoKeys(
+      GeoKeys({{1024, 1}, {3072, 26917}, {2048, 4269}, {3076, 9003}, {4096, 5703}, {4099, 9001}}));
+  EXPECT_EQ(description.projected, 26917);
+  EXPECT_EQ(description.geographic, 4269);
+  EXPECT_EQ(description.linear_unit, 9003);
+  EXPECT_EQ(description.vertical, 5703);
+  EXPECT_EQ(description.vertical_unit, 9001);
+  EXPECT_TRUE(DescribeGeoKeys(GeoKeys({{1024, 1}, {3072, 32767}, {2048, 0}})).empty());
+  EXPECT_TRUE(DescribeGeoKeys("").empty());
+}
+
+TEST(LasCrs, DescribesWhatTheRecordsState) {
+  const albtpu::testing::TemporaryFolder folder;
+  albtpu::testing::LasSpec spec;
+  spec.points.resize(1);
+  const auto describe = [&] {
+    return DescribeCrs(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value();
+  };
+  EXPECT_TRUE(describe().empty());
+  const std::string wkt = albtpu::testing::kMetricWkt;
+  spec.vlrs.push_back({"LASF_Projection", 2112, wkt + std::string(3, '\0')});
+  spec.evlrs.push_back({"LASF_Projection", 34735, GeoKeys({{3072, 26917}})});
+  spec.evlrs.push_back({"LASF_Projection", 2112, "another"});
+  EXPECT_EQ(describe().wkt, wkt);
+  EXPECT_EQ(describe().projected, 26917);
+  EXPECT_TRUE(describe().user.empty());
+}
+
+// The text of a real file, of a NOAA survey of 2016. Its angles have metres as their unit.
+constexpr char kFaultyWkt[] =
+    R"wkt(PROJCS["NAD83 / UTM zone 17N",GEOGCS["NAD83 / UTM zone 17N",DATUM["NAD83",SPHEROID[")wkt"
+    R"wkt(GRS80",6378137.000,298.257222100,AUTHORITY["EPSG","0"]],AUTHORITY["EPSG","0"]],PRIME)wkt"
+    R"wkt(M["Greenwich",0.0000000000000000,AUTHORITY["EPSG","8901"]],UNIT["Meter",1.0000000000)wkt"
+    R"wkt(0000000000,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","26917"]],PROJECTION["Transver)wkt"
+    R"wkt(se_Mercator"],PARAMETER["latitude_of_origin",0.0000000000000000],PARAMETER["central_)wkt"
+    R"wkt(meridian",-81.0000000000000000],PARAMETER["scale_factor",0.9996000000000000],PARAMET)wkt"
+    R"wkt(ER["false_easting",500000.000],PARAMETER["false_northing",0.000],UNIT["Meter",1.0000)wkt"
+    R"wkt(0000000000000000,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORT)wkt"
+    R"wkt(H],AXIS["Height",UP],AUTHORITY["EPSG","26917"]])wkt";
+
+TEST(LasCrs, FindsTheProjectionOfAFaultyText) {
+  const auto frame = MapFrame::Create("sample", {.wkt = kFaultyWkt});
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_EQ((*frame)->crs_name(), "NAD83 / UTM zone 17N");
+  EXPECT_THAT((*frame)->remark(), ::testing::HasSubstr("its code, EPSG:26917, is used"));
+  EXPECT_EQ((*frame)->unit(), 1);
+  // In the middle of the file, off Marco Island: longitude -81.77, latitude 25.96 degrees.
+  constexpr double kDegree = 0.017453292519943295;
+  const MapPosition position = (*frame)->Project({25.955 * kDegree, -81.766 * kDegree});
+  EXPECT_NEAR(position.x, 423346, 500);
+  EXPECT_NEAR(position.y, 2871090, 500);
 }
 
 }  // namespace

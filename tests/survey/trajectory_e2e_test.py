@@ -1,0 +1,139 @@
+"""albtpu-query trajectory, from outside: sound files are shown, others are refused by name.
+
+Usage: trajectory_e2e_test.py query=ALBTPU_QUERY (other arguments are ignored)
+"""
+
+import json
+import math
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAMS = dict(argument.split("=", 1) for argument in sys.argv[1:])
+COURSE, SPEED, RATE = math.radians(344.4), 56.5, 50
+NORTH, EAST = SPEED * math.cos(COURSE), SPEED * math.sin(COURSE)
+START = 313200  # s of the week: Wednesday 15:00
+RADIUS = 6378137  # m
+
+
+def positions(count):
+    """Time since the start, latitude and longitude [rad] of a straight flight over a sphere."""
+    for i in range(count):
+        t = i / RATE
+        latitude = math.radians(25.1)
+        yield t, latitude + NORTH * t / RADIUS, math.radians(-80.6) + EAST * t / (RADIUS * math.cos(latitude))
+
+
+def sbet(count=1000, gap=(5, 7.5)):
+    wander = 0.3
+    vx = NORTH * math.cos(wander) - EAST * math.sin(wander)
+    vy = -(NORTH * math.sin(wander) + EAST * math.cos(wander))
+    return b"".join(struct.pack("<17d", START + t, lat, lon, 400 + t, vx, vy, 1, 0.01, 0.02, COURSE + wander, wander,
+                                0, 0, -9.8, 0, 0, 0)
+                    for t, lat, lon in positions(count) if not gap[0] < t < gap[1])
+
+
+def smrmsg(count=20):
+    return b"".join(struct.pack("<10d", START + i, .02, .03, .05, .01, .01, .01, .6, .6, 3) for i in range(count))
+
+
+def ascii_text(count=1000, start=146968200):
+    return "".join(f"{start + t:.6f} {math.degrees(lon):.9f} {math.degrees(lat):.9f} {5e5 + EAST * t:.3f} "
+                   f"{3e6 + NORTH * t:.3f} 400 1 2 344 .02 .03 .05 .01 .01 .05\n"
+                   for t, lat, lon in positions(count)).encode()
+
+
+class Trajectory(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, name, data):
+        path = pathlib.Path(self.folder.name, name)
+        path.write_bytes(data)
+        return str(path)
+
+    def run_query(self, *arguments, code=0):
+        result = subprocess.run([PROGRAMS["query"], "trajectory", *map(str, arguments)], capture_output=True, text=True)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def json_of(self, *arguments, code=0):
+        return json.loads(self.run_query(*arguments, "--json", code=code).stdout)["files"]
+
+    def test_shows_an_sbet(self):
+        shown, = self.json_of(self.write("a.out", sbet()))
+        self.assertEqual((shown["error"], shown["format"], shown["records"]), (None, "SBET", 876))
+        self.assertEqual((shown["start"], shown["start_utc"], shown["gaps"]), (START, None, 1))
+        self.assertAlmostEqual(shown["end"], START + 19.98, delta=1e-6)
+        self.assertAlmostEqual(shown["rate"], RATE, delta=1e-6)
+        self.assertAlmostEqual(shown["longest_gap"], 2.5, delta=1e-6)
+        self.assertAlmostEqual(shown["longest_gap_start"], START + 5, delta=1e-6)
+        self.assertEqual(shown["least_height"], 400)
+        self.assertAlmostEqual(shown["greatest_height"], 419.98, delta=1e-6)
+        # A sphere for the ellipsoid: within 0.7 % of the speed.
+        self.assertAlmostEqual(shown["speed"], SPEED, delta=0.007 * SPEED)
+        self.assertLess(shown["velocity_difference"], 0.007 * SPEED)
+        self.assertIsNone(shown["sigma_north"])
+
+    def test_shows_an_smrmsg(self):
+        shown, = self.json_of(self.write("a.out", smrmsg()))
+        self.assertEqual((shown["format"], shown["records"], shown["gaps"], shown["rate"]), ("SMRMSG", 20, 0, 1))
+        self.assertEqual([shown["sigma_north"], shown["sigma_east"], shown["sigma_down"]], [.02, .03, .05])
+        self.assertAlmostEqual(shown["sigma_heading"], 0.05, delta=1e-15)
+        self.assertIsNone(shown["speed"])
+
+    def test_shows_an_ascii_trajectory_with_its_date(self):
+        shown, = self.json_of(self.write("a.txt", ascii_text()))
+        self.assertEqual((shown["format"], shown["records"]), ("ASCII", 1000))
+        self.assertEqual(shown["start_utc"], "2016-05-11T02:16:23Z")  # 1146968200 s since 1980-01-06, minus 17 s
+        self.assertIsNone(shown["velocity_difference"])
+
+    def test_prints_text_for_people(self):
+        text = self.run_query(self.write("a.out", sbet()), self.write("b.out", smrmsg())).stdout
+        self.assertIn("(Wednesday 15:00:00)", text)
+        self.assertIn("1 above 0.2 s, the longest of 2.500 s from 313205.000 s", text)
+        self.assertIn("velocity check passed", text)
+        self.assertIn("format         SMRMSG", text)
+
+    def test_shows_sound_files_beside_refused_ones(self):
+        self.write("a.out", sbet())
+        self.write("b.out", sbet()[:1000])
+        self.write("c.out", b"")
+        self.write("d.txt", ascii_text().replace(b" 25.1", b" 95.1"))
+        files = self.json_of(self.folder.name, code=1)
+        self.assertEqual([pathlib.Path(shown["file"]).name for shown in files], ["a.out", "b.out", "c.out", "d.txt"])
+        self.assertEqual([shown["error"] is None for shown in files], [True, False, False, False])
+        self.assertIn("not a multiple of 136", files[1]["error"])
+        self.assertIn("is empty", files[2]["error"])
+        self.assertIn("line 1, column 3 'latitude'", files[3]["error"])
+        result = self.run_query(self.folder.name, code=1)
+        self.assertIn("format         SBET", result.stdout)
+        self.assertEqual(len(result.stderr.splitlines()), 3)
+
+    def test_refuses_bad_input_with_one_message(self):
+        backwards = sbet(gap=(99, 99))
+        backwards = backwards[:136 * 10] + backwards[:136 * 10]
+        nan = bytearray(sbet(gap=(99, 99)))
+        nan[136 * 5 + 8:136 * 5 + 16] = struct.pack("<d", math.nan)
+        empty = pathlib.Path(self.folder.name, "empty")
+        empty.mkdir()
+        for path, message in ((self.write("cut.out", smrmsg()[:-3]), "not a multiple of 80"),
+                              (self.write("backwards.out", backwards), "times must increase"),
+                              (self.write("nan.out", bytes(nan)), "record 6"),
+                              (self.write("prose.out", b"Dear reader,\nthis is no SBET.\n"), "no line of numbers"),
+                              (empty, "folder without files"),
+                              (pathlib.Path(self.folder.name, "missing"), "No such file")):
+            with self.subTest(message=message):
+                result = self.run_query(path, code=1)
+                self.assertEqual(result.stdout, "")
+                self.assertEqual(len(result.stderr.splitlines()), 1)
+                self.assertIn(message, result.stderr)
+                self.assertIn(pathlib.Path(path).name, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
