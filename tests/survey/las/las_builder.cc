@@ -38,14 +38,20 @@ std::string PointRecord(const LasSpec& spec, std::size_t index) {
   Put(bytes, 4, point.y);
   Put(bytes, 8, point.z);
   if (spec.point_format < 6) {
-    Put<std::uint8_t>(bytes, 14, 0x09);  // Return 1 of 1.
+    Put<std::uint8_t>(bytes, 14, static_cast<std::uint8_t>(point.return_count << 3 | point.return_number));
     // The upper bits are flags (here: key point), not part of the class.
     Put<std::uint8_t>(bytes, 15, static_cast<std::uint8_t>(0x40 | (point.classification & 0x1F)));
     Put<std::int8_t>(bytes, 16, static_cast<std::int8_t>(std::lround(point.scan_angle)));
   } else {
-    Put<std::uint8_t>(bytes, 14, 0x11);
+    Put<std::uint8_t>(bytes, 14, static_cast<std::uint8_t>(point.return_count << 4 | point.return_number));
+    Put<std::uint8_t>(bytes, 15, 0);
     Put<std::uint8_t>(bytes, 16, static_cast<std::uint8_t>(point.classification));
     Put<std::int16_t>(bytes, 18, static_cast<std::int16_t>(std::lround(point.scan_angle / 0.006)));
+  }
+  const bool has_gps_time = spec.point_format != 0 && spec.point_format != 2;
+  if (has_gps_time) Put<double>(bytes, spec.point_format < 6 ? 20 : 22, point.gps_time);
+  if (point.point_source_id >= 0) {
+    Put(bytes, spec.point_format < 6 ? 18 : 20, static_cast<std::uint16_t>(point.point_source_id));
   }
   return bytes;
 }
@@ -87,8 +93,11 @@ std::string BuildLas(const LasSpec& spec) {
   std::string header(own_size, '\0');
   PutText(header, 0, "LASF");
   const bool waveform_inside = !spec.waveform_packet.empty();
-  // Bit 4: the coordinate system is well-known text, as formats 6-10 require. Bit 1: waveforms are in the file.
-  Put<std::uint16_t>(header, 6, (spec.point_format >= 6 ? 0x10 : 0) | (waveform_inside ? 0x2 : 0));
+  // Bit 4: the coordinate system is well-known text, as formats 6-10 require. Bit 1: waveforms are in the file. Bit 0:
+  // the form of GPS times.
+  Put<std::uint16_t>(header, 6,
+                     static_cast<std::uint16_t>((spec.point_format >= 6 ? 0x10 : 0) |
+                                                (waveform_inside ? 0x2 : 0) | (spec.adjusted_time ? 1 : 0)));
   Put<std::uint8_t>(header, 24, 1);
   Put<std::uint8_t>(header, 25, static_cast<std::uint8_t>(spec.version_minor));
   PutText(header, 26, "SIMULATION");
@@ -106,10 +115,15 @@ std::string BuildLas(const LasSpec& spec) {
   Put<std::uint32_t>(header, 107, legacy_count ? count : 0);
   Put<std::uint32_t>(header, 111, legacy_count ? count : 0);
   for (const std::size_t axis : {0, 8, 16}) Put<double>(header, 131 + axis, spec.scale);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Put<double>(header, 155 + 8 * axis, spec.offset[axis]);
     double least = 0, greatest = 0;
     for (const LasPoint& point : spec.points) {
-      const double value = (axis == 0 ? point.x : axis == 1 ? point.y : point.z) * spec.scale;
+      const double value = (axis == 0   ? point.x
+                            : axis == 1 ? point.y
+                                        : point.z) *
+                               spec.scale +
+                           spec.offset[axis];
       least = &point == &spec.points[0] ? value : std::fmin(least, value);
       greatest = &point == &spec.points[0] ? value : std::fmax(greatest, value);
     }

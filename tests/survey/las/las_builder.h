@@ -2,6 +2,7 @@
 // follows the specification and shares no code with our reader.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,6 +14,9 @@ struct LasPoint {
   std::int32_t x = 0, y = 0, z = 0;  // In steps of LasSpec::scale.
   int classification = 0;
   double scan_angle = 0;  // degree, rounded to the resolution of the format
+  double gps_time = 0;    // In formats that have it.
+  int return_number = 1, return_count = 1;
+  int point_source_id = -1;  // -1: the pattern of LasSpec::extra_bytes in place of it.
 };
 
 struct LasRecord {
@@ -31,6 +35,8 @@ struct LasSpec {
   std::string gap;                     // Bytes between the VLRs and the points.
   std::string waveform_packet;         // After the points; the header states its offset (from 1.3).
   double scale = 0.001;
+  std::array<double, 3> offset{};  // Of x, y and z.
+  bool adjusted_time = false;      // Times are GPS time - 1e9 s; otherwise seconds of the GPS week.
 };
 
 std::string BuildLas(const LasSpec& spec);
