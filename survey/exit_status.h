@@ -1,5 +1,5 @@
 // What the program tells the shell: one message on standard error, and the exit code: 0 when every pulse got an
-// outcome, 2 for bad usage, 1 for any other failure.
+// outcome, and of the pulses in files at least half a number, 2 for bad usage, 1 for any other failure.
 #pragma once
 
 #include <string>

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/interpolation_error.h"
 #include "survey/commands/las_options.h"
@@ -15,11 +17,11 @@ namespace albtpu::client {
 namespace {
 
 // The message for a file that has no point of the given classes.
-std::string ClassHint(const Job& job, const LasOptions& options, const AnnotatedLas& annotated) {
-  const int least_class = *options.classes.begin();
+std::string ClassHint(const Job& job, const AnnotatedLas& annotated) {
+  const int least_class = *annotated.chosen_classes.begin();
   const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < least_class;
   return absl::StrCat(
-      job.input.string(), ": no point of class ", absl::StrJoin(options.classes, " or "), " (",
+      job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
       never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ", kLegacyClassMask,
                            "; ")
             : "",
@@ -40,19 +42,26 @@ class LasFiles {
     const bool none = points > 0 && bathymetric == 0;
     // A single file without the class points to a wrong --classes; among many files it may be dry land.
     if (none && options_.files.output_folder.empty()) {
-      return absl::FailedPreconditionError(ClassHint(job, options_, *annotated) + "; nothing was written");
+      return absl::FailedPreconditionError(ClassHint(job, *annotated) + "; nothing was written");
     }
-    if (none) Note(ClassHint(job, options_, *annotated) + "; all its points get no-data");
-    NoteResolution(annotated->point_format);
+    if (none) Note(ClassHint(job, *annotated) + "; all its points get no-data");
+    if (std::holds_alternative<AcrossTrackScan>(annotation_.plan.source)) {
+      NoteResolution(annotated->point_format);
+    }
     points_ += points;
     bathymetric_ += bathymetric;
-    return AnnotatedFile{std::move(annotated->file),
-                         Findings{.input_bytes = annotated->input_bytes,
-                                  .input = {{"point_format", annotated->point_format},
-                                            {"points", points},
-                                            {"points_by_class", annotated->classes.Json()}},
-                                  .answers = annotated->summary.Json()},
-                         absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text())};
+    return AnnotatedFile{
+        std::move(annotated->file),
+        Findings{.input_bytes = annotated->input_bytes,
+                 .input = {{"point_format", annotated->point_format},
+                           {"points", points},
+                           {"points_by_class", annotated->classes.Json()},
+                           {"geometry", annotated->geometry}},
+                 .answers = annotated->summary.Json()},
+        absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text(),
+                     absl::StrJoin(annotated->notes, "", [](std::string* text, const auto& note) {
+                       absl::StrAppend(text, "\n  ", note);
+                     }))};
   }
 
   bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }
@@ -73,31 +82,66 @@ class LasFiles {
   std::uint64_t points_ = 0, bathymetric_ = 0;
 };
 
+// Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
+absl::Status OpenFilesOf(BeamPlan& plan) {
+  if (const auto* files = std::get_if<TrajectoryFromFiles>(&plan.source)) {
+    absl::StatusOr<TrajectoryFiles> trajectories = LoadTrajectories(files->paths);
+    if (!trajectories.ok()) return trajectories.status();
+    plan.trajectories = std::make_shared<const TrajectoryFiles>(*std::move(trajectories));
+    absl::StatusOr<TrajectoryErrors> errors = LoadTrajectoryErrors(files->errors);
+    if (!errors.ok()) return errors.status();
+    plan.trajectory_errors = *std::move(errors);
+  }
+  if (!plan.water_level_file.has_value()) return absl::OkStatus();
+  return ReadWaterLevels(*plan.water_level_file, PointTimeForm::kAdjustedStandard).status();
+}
+
+// What a mistake in the coordinates would be sought in.
+CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
+  CauseContext context{.axes = table.axes,
+                       .water_level = {},
+                       .water_level_by_time = plan.water_level_file.has_value(),
+                       .footprint_from_beam = std::holds_alternative<DivergingBeam>(plan.footprint)};
+  if (plan.water_level.has_value() && plan.water_classes.empty()) {
+    context.water_level = *plan.water_level * plan.metres_per_unit.value_or(1);
+  }
+  return context;
+}
+
 absl::Status RunLas(const LasOptions& options) {
-  const absl::StatusOr<LasAnnotation> annotation = Annotation(options);
+  absl::StatusOr<LasAnnotation> annotation = Annotation(options);
   if (!annotation.ok()) return annotation.status();
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options.files);
   if (!jobs.ok()) return jobs.status();
+  if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
   if (!source.ok()) return source.status();
   if (options.style.standard_errors) Note(InterpolationErrorNote((*source)->table()));
   LasFiles files(options, *annotation, **source);
+  RunVerdict verdict(ContextOf(annotation->plan, (*source)->table()), "chosen point");
+  const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
+    const std::string problem = verdict.Add(job.output.string(), answers);
+    if (!problem.empty() && jobs->size() > 1) Note(problem);
+  };
+  const std::vector<std::string> read = FilesOf(annotation->plan);
   const absl::Status status = AnnotateFiles(
       *jobs,
       {.command = "las",
        .records = "points",
        .parameters = Parameters(*annotation),
+       .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
-       .annotate = [&](const Job& job, FileProgress& progress) { return files.Annotate(job, progress); }},
+       .annotate = [&](const Job& job, FileProgress& progress) { return files.Annotate(job, progress); },
+       .finished = judge},
       (*source)->table());
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
-    return absl::FailedPreconditionError(absl::StrCat("no file has a point of class ",
-                                                      absl::StrJoin(options.classes, " or "),
-                                                      "; name the bathymetric classes with --classes"));
+    return absl::FailedPreconditionError(
+        "no file has a point of the bathymetric classes; name them with --classes");
   }
-  return status;
+  if (const std::string note = verdict.DeepNote(); !note.empty()) Note(note);
+  return status.ok() ? verdict.status() : status;
 }
 
 }  // namespace
@@ -105,7 +149,7 @@ absl::Status RunLas(const LasOptions& options) {
 void AddLasCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<LasOptions>();
   CLI::App* command = program.add_subcommand(
-      "las", "Copy LAS files (1.2 to 1.4) and append total_thu and total_tvu to each point");
+      "las", "Copy LAS files (1.2 to 1.4) and append sea_thu and sea_tvu to each point");
   AddLasOptions(*command, *options);
   command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
 }

@@ -7,22 +7,18 @@
 #include <set>
 
 #include "absl/status/statusor.h"
+#include "survey/commands/beam_options.h"
 #include "survey/commands/options.h"
 #include "survey/files/file_jobs.h"
 #include "survey/las/las_annotation.h"
 
 namespace albtpu::client {
 
-// ASPRS, LAS Domain Profile for Topo-Bathy Lidar: class 40 is the bathymetric point (seafloor or
-// riverbed; submerged topography).
-inline constexpr int kBathymetricPoint = 40;
-
 struct LasOptions {
   FileOptions files;
-  std::set<int> classes = {kBathymetricPoint};
-  std::optional<double> water_level, altitude, divergence, wind_from, flight_direction;
-  std::optional<double> metres_per_unit;
-  FixedCoordinates fixed;  // wind speed, fetch, footprint, azimuth
+  std::optional<std::set<int>> classes;
+  BeamOptions beams;
+  bool details = false;
   Existing existing = Existing::kKeep;
   SourceOptions source;
   AnswerStyle style;
@@ -31,7 +27,7 @@ struct LasOptions {
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
 
-// IsUsageError if something needed is missing, or is given in two ways.
+// IsUsageError if something needed is missing, is given in two ways or has no effect.
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options);
 
 // The same as a summary states it.

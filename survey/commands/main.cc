@@ -28,11 +28,12 @@ int Main(int argc, char** argv) {
       program,
       absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
       "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
-      "las line.las with_uncertainty.las --water-level 0 --wind-speed 5 --footprint 0.6");
+      "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 --divergence 1");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
+  AddTrajectoryCommand(program, run);
   AddTablesCommand(program, run);
   AddHealthCommand(program, run);
   try {

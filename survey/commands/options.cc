@@ -55,6 +55,21 @@ const char* DescribeFlag(AxisId axis) {
   return "";
 }
 
+const char* DescribeBeamInput(PulseInput input) {
+  switch (input) {
+    case PulseInput::kBeamAzimuth:
+      return "Where the beam travels to [degree, true]; with --wind-from instead of --azimuth";
+    case PulseInput::kWindFrom:
+      return "Where the wind comes from [degree, true]; with --beam-azimuth instead of --azimuth";
+    case PulseInput::kAltitude:
+      return "Altitude above the water [m]; with --divergence instead of --footprint";
+    case PulseInput::kDivergence:
+      return "Full divergence of the beam [mrad]; with --altitude instead of --footprint";
+    default:
+      return "";
+  }
+}
+
 // Each of them means TLS.
 void AddCredentialOptions(CLI::App& command, CLI::Option* server, Credentials& credentials) {
   const auto add = [&](const char* flag, std::string& path, const char* description) {
@@ -181,6 +196,24 @@ void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed) {
           DescribeFlag(axis))
       ->type_name("NUMBER")
       ->group(is_of_the_sea ? group::kSea : group::kPulse);
+}
+
+void AddBeamInputs(CLI::App& command, FixedInputs& fixed) {
+  for (const PulseInput input : kBeamInputs) {
+    const bool is_direction = input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom;
+    command
+        .add_option_function<std::string>(
+            FlagName(input),
+            [input, is_direction, &fixed](const std::string& text) {
+              const std::optional<float> value = ParseFloat(text);
+              CheckNumber(FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative,
+                          false);
+              fixed[input] = value;
+            },
+            DescribeBeamInput(input))
+        ->type_name("NUMBER")
+        ->group(input == PulseInput::kWindFrom ? group::kSea : group::kPulse);
+  }
 }
 
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,

@@ -9,7 +9,7 @@
 
 #include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
-#include "survey/csv/csv_pulses.h"
+#include "survey/csv/pulse_inputs.h"
 #include "survey/files/file_jobs.h"
 #include "tables/file/table_io.h"
 
@@ -18,6 +18,7 @@ namespace albtpu::client {
 // The headings under which --help lists options.
 namespace group {
 inline constexpr char kPulse[] = "The pulse";
+inline constexpr char kBeam[] = "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
 inline constexpr char kSea[] = "The sea";
 inline constexpr char kPoints[] = "The points";
 inline constexpr char kFiles[] = "Files";
@@ -44,6 +45,9 @@ nlohmann::ordered_json Parameters(const AnswerStyle& style);
 
 // `--wind-speed` and the like, one value for all pulses.
 void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);
+
+// --beam-azimuth, --wind-from, --altitude and --divergence, one value for all pulses.
+void AddBeamInputs(CLI::App& command, FixedInputs& fixed);
 
 // Whether numbers below zero make sense.
 enum class Sign { kAny, kNotNegative };

@@ -1,7 +1,11 @@
-// Copies a LAS file and appends THU and TVU to each point.
+// Copies a LAS file and appends the uncertainty of each chosen point, and on request the geometry of its beam.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
@@ -16,15 +20,20 @@ namespace albtpu::client {
 struct AnnotatedLas {
   int point_format = 0;
   std::uint64_t input_bytes = 0;
+  std::set<int> chosen_classes;
   LasClassCounts classes;
   UncertaintySummary summary;
-  OutputFile file;  // Complete; Commit() gives it its name.
+  SurfaceCounts surface;
+  CoordinateSpread incidence;       // degree
+  nlohmann::ordered_json geometry;  // How the beams were found, for a summary.
+  std::vector<std::string> notes;   // The same for the user, a line each.
+  OutputFile file;                  // Complete; Commit() gives it its name.
 };
 
-// Bathymetric points with an interpolated answer get their uncertainty, all other points get no-data. Reading, querying
-// and writing overlap; memory does not grow with the file. Fails and leaves no output when LasReader, AnnotatedHead or
-// the source fails, when the output is the input, when the coordinate system is in feet and no unit is given, and when
-// the input is modified meanwhile.
+// Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.
+// Reading, querying and writing overlap; memory does not grow with the file. Fails and leaves no output when LasReader,
+// PlaceOf, the track, AnnotatedHead or the source fails, when the output is the input, and when the input is modified
+// meanwhile.
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const LasAnnotation& annotation, UncertaintySource& source,

@@ -1,75 +1,149 @@
 #include "survey/las/las_chunk.h"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_prescan.h"
 #include "survey/las/little_endian.h"
 
 namespace albtpu::client {
 
+std::set<int> LasAnnotation::ClassesOf(int point_format) const {
+  return classes.has_value() ? *classes : std::set<int>{DefaultClass(point_format)};
+}
+
 LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
-                           UncertaintySource& source)
+                           const BeamGeometry& beams, bool pulse_surface, UncertaintySource& source)
     : fields_(header),
       record_length_(header.record_length),
-      flight_line_(annotation.flight_line),
+      plan_(annotation.plan),
+      beams_(beams),
+      pulse_surface_(pulse_surface && fields_.has_gps_time()),
+      details_(annotation.details),
       style_(annotation.style),
       source_(source) {
   UncertaintySummary::Select(selection_);
   selection_.standard_errors = style_.standard_errors;
-  for (const int point_class : annotation.classes) is_bathymetric_[point_class] = true;
+  for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
+  for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
 }
 
 absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   Decode(chunk);
-  const AnswerColumns answers = chunk.answers.Resize(chunk.pulses.size, selection_);
-  if (absl::Status status = source_.Answer(style_.query(), chunk.pulses.columns(), answers); !status.ok()) {
-    return status;
-  }
-  chunk.summary = UncertaintySummary(style_);
-  chunk.summary.Add(chunk.pulses, chunk.answers);
+  if (pulse_surface_) FindPulseSurface(chunk);
+  beams_.Compute(chunk.points, chunk.scratch, chunk.beams);
+  chunk.surface = chunk.beams.surface;
+  MakePulses(plan_, chunk.beams, chunk.rows, chunk.pulses);
+  absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
+  if (!status.ok()) return status;
+  Summarize(chunk);
   Encode(chunk);
-  return absl::OkStatus();
+  return status;
 }
 
 void LasChunkWork::Decode(Chunk& chunk) const {
-  const std::size_t count = chunk.records.size() / record_length_;
   chunk.classes = {};
-  chunk.bathymetric.resize(count);
-  chunk.z.resize(count);
-  chunk.scan_angles.resize(count);
+  chunk.chosen.resize(chunk.own);
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string_view record(chunk.records.data() + i * record_length_, record_length_);
-    const int point_class = fields_.Class(record);
+  for (std::size_t i = chunk.before; i < chunk.before + chunk.own; ++i) {
+    const int point_class = fields_.Class(Record(chunk, i));
     chunk.classes.Add(point_class);
-    // Avoids a branch: every point is written, and the next one overwrites it unless it is bathymetric.
-    chunk.bathymetric[found] = static_cast<std::uint32_t>(i);
-    chunk.z[found] = fields_.Z(record);
-    chunk.scan_angles[found] = fields_.ScanAngle(record);
-    found += is_bathymetric_[point_class];
+    // Avoids a branch: every index is written, and the next one overwrites it unless it is chosen.
+    chunk.chosen[found] = static_cast<std::uint32_t>(i);
+    found += is_chosen_[point_class];
   }
-  chunk.bathymetric.resize(found);
-  chunk.z.resize(found);
-  chunk.scan_angles.resize(found);
-  flight_line_.MakePulses(chunk.z, chunk.scan_angles, chunk.pulses);
+  chunk.chosen.resize(found);
+  const auto column = [&](auto field, std::vector<double>& values) {
+    values.resize(found);
+    for (std::size_t i = 0; i < found; ++i) values[i] = field(Record(chunk, chunk.chosen[i]));
+  };
+  SurveyPoints& points = chunk.points;
+  column([this](std::string_view record) { return fields_.X(record); }, points.x);
+  column([this](std::string_view record) { return fields_.Y(record); }, points.y);
+  column([this](std::string_view record) { return fields_.Z(record); }, points.z);
+  column([this](std::string_view record) { return fields_.ScanAngle(record); }, points.scan_angles);
+  points.times.clear();
+  if (fields_.has_gps_time()) {
+    column([this](std::string_view record) { return fields_.GpsTime(record); }, points.times);
+  }
+  points.pulse_surface.clear();
+}
+
+void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
+  chunk.water.clear();
+  const std::size_t count = chunk.records.size() / record_length_;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_water_[fields_.Class(Record(chunk, i))]) chunk.water.push_back(static_cast<std::uint32_t>(i));
+  }
+  chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
+  std::size_t first = 0;  // The first return from the surface that is within reach.
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    const std::size_t point = chunk.chosen[i];
+    while (first < chunk.water.size() && chunk.water[first] + kPulseReach < point) ++first;
+    std::size_t nearest = kPulseReach + 1;
+    for (std::size_t at = first; at < chunk.water.size() && chunk.water[at] <= point + kPulseReach; ++at) {
+      const std::size_t other = chunk.water[at];
+      const std::size_t distance = other > point ? other - point : point - other;
+      if (distance == 0 || distance >= nearest) continue;
+      const std::string_view record = Record(chunk, other);
+      if (fields_.GpsTime(record) != chunk.points.times[i]) continue;
+      if (!fields_.OfOnePulse(record, Record(chunk, point))) continue;
+      nearest = distance;
+      chunk.points.pulse_surface[i] = fields_.Z(record);
+    }
+  }
+}
+
+void LasChunkWork::Summarize(Chunk& chunk) const {
+  chunk.summary = UncertaintySummary(style_);
+  chunk.summary.Add(chunk.pulses, chunk.answers);
+  chunk.incidence = {};
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    if (std::isfinite(chunk.beams.incidence[i])) chunk.incidence.Add(chunk.beams.incidence[i]);
+    const std::optional<NoPulse>& why = chunk.beams.why_not[i];
+    if (!why.has_value()) continue;
+    if (*why == NoPulse::kAboveWater) {
+      chunk.summary.AddAboveWater(chunk.beams.depth[i]);
+    } else {
+      chunk.summary.Add(*why);
+    }
+  }
 }
 
 void LasChunkWork::Encode(Chunk& chunk) const {
-  const std::size_t count = chunk.records.size() / record_length_;
-  const std::size_t annotated_length = record_length_ + kAppendedBytes;
-  chunk.annotated.resize(count * annotated_length);
-  char* const annotated = chunk.annotated.data();
-  const float no_data[] = {kNoUncertainty, kNoUncertainty};
-  for (std::size_t i = 0; i < count; ++i) {
-    char* const record = annotated + i * annotated_length;
-    std::memcpy(record, chunk.records.data() + i * record_length_, record_length_);
-    std::memcpy(record + record_length_, no_data, sizeof no_data);
+  const std::size_t appended = AppendedCount(details_) * sizeof(float);
+  const std::size_t annotated_length = record_length_ + appended;
+  chunk.annotated.resize(chunk.own * annotated_length);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr std::array<float, kUncertaintyCount + kDetailCount> kNoData = {
+      kNoNumber, kNoNumber, kNan, kNan, kNoNumber, kNoNumber, kNoNumber};
+  const char* const records = chunk.records.data() + chunk.before * record_length_;
+  for (std::size_t i = 0; i < chunk.own; ++i) {
+    char* const record = chunk.annotated.data() + i * annotated_length;
+    std::memcpy(record, records + i * record_length_, record_length_);
+    std::memcpy(record + record_length_, kNoData.data(), appended);
   }
-  for (std::size_t i = 0; i < chunk.bathymetric.size(); ++i) {
+  const auto appended_to = [&](std::size_t point) {
+    return chunk.annotated.data() + (chunk.chosen[point] - chunk.before) * annotated_length + record_length_;
+  };
+  for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     if (!chunk.answers.interpolated(i)) continue;
-    char* const values = annotated + chunk.bathymetric[i] * annotated_length + record_length_;
+    char* const values = appended_to(chunk.rows[i]);
     Store(chunk.answers[Quantity::kThu][i], values);
     Store(chunk.answers[Quantity::kTvu][i], values + sizeof(float));
+  }
+  if (!details_) return;
+  const auto length_or_none = [](float value) { return value >= 0 ? value : kNoNumber; };  // Also for NaN.
+  const PointBeams& beams = chunk.beams;
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    char* values = appended_to(i) + kUncertaintyCount * sizeof(float);
+    for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
+                              length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
+      Store(value, values);
+      values += sizeof(float);
+    }
   }
 }
 

@@ -1,47 +1,64 @@
-// A run of points of a LAS file: turns their records into records with THU and TVU appended.
+// A run of points of a LAS file: turns their records into records with the uncertainty, and on request the geometry of
+// the beam, appended.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "service/client/uncertainty_source.h"
 #include "survey/answers/batch.h"
+#include "survey/answers/coordinate_spread.h"
 #include "survey/answers/uncertainty_summary.h"
-#include "survey/las/beam_geometry.h"
+#include "survey/beams/beam_plan.h"
+#include "survey/beams/point_beams.h"
 #include "survey/las/las_header.h"
 #include "survey/las/las_points.h"
 
 namespace albtpu::client {
 
 struct LasAnnotation {
-  std::set<int> classes;  // The bathymetric ones: bottom seen through water.
-  FlightLine flight_line;
-  bool unit_is_given = false;  // Then the coordinate system may be in feet.
+  std::optional<std::set<int>> classes;  // Of bottom seen through water; absent: DefaultClass of the format.
+  BeamPlan plan;
+  bool details = false;  // Append the geometry of each beam, too.
   AnswerStyle style;
+
+  std::set<int> ClassesOf(int point_format) const;
 };
 
 // Everything that the chunks of a file have in common.
 class LasChunkWork {
  public:
-  LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, UncertaintySource& source);
+  // `beams` must outlive it. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
+  LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, const BeamGeometry& beams,
+               bool pulse_surface, UncertaintySource& source);
 
   // Memory that is reused from chunk to chunk.
   struct Chunk {
     explicit Chunk(AnswerStyle style) : summary(style) {}
 
-    std::string records;    // Input.
-    std::string annotated;  // Output: the same records, each followed by 8 bytes.
+    // Input: `before` records of the chunk before, `own` records of this chunk, and some of the next one. The others
+    // are only searched for returns of the same pulse.
+    std::string records;
+    std::size_t before = 0, own = 0;
+
+    std::string annotated;  // Output: the own records, each followed by the appended bytes.
     LasClassCounts classes;
+    SurfaceCounts surface;
+    CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
     UncertaintySummary summary;
 
    private:
     friend class LasChunkWork;
-    std::vector<std::uint32_t> bathymetric;  // Indices of records.
-    std::vector<double> z, scan_angles;      // Of these records.
+    std::vector<std::uint32_t> chosen;  // Indices of own records.
+    std::vector<std::uint32_t> water;   // Indices of records from the surface.
+    SurveyPoints points;                // Of the chosen records.
+    BeamScratch scratch;
+    PointBeams beams;
+    std::vector<std::uint32_t> rows;  // Of the points that have a pulse.
     PulseBatch pulses;
     AnswerBatch answers;
   };
@@ -49,15 +66,22 @@ class LasChunkWork {
   absl::Status operator()(Chunk& chunk) const;
 
  private:
+  std::string_view Record(const Chunk& chunk, std::size_t i) const {
+    return std::string_view(chunk.records).substr(i * record_length_, record_length_);
+  }
   void Decode(Chunk& chunk) const;
+  void FindPulseSurface(Chunk& chunk) const;
+  void Summarize(Chunk& chunk) const;
   void Encode(Chunk& chunk) const;
 
   LasPointFields fields_;
   std::size_t record_length_;
-  FlightLine flight_line_;
+  const BeamPlan& plan_;
+  const BeamGeometry& beams_;
+  bool pulse_surface_, details_;
   AnswerStyle style_;
   AnswerSelection selection_;
-  std::array<bool, kClassCount> is_bathymetric_ = {};
+  std::array<bool, kClassCount> is_chosen_ = {}, is_water_ = {};
   UncertaintySource& source_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "absl/strings/str_cat.h"
@@ -71,11 +72,9 @@ std::string Entry(std::uint8_t type, std::uint8_t options, std::string_view name
   return entry;
 }
 
-std::string UncertaintyEntry(std::string_view name, Coverage coverage) {
-  std::string entry =
-      Entry(kFloat, kNoDataIsSet, name,
-            coverage == Coverage::kTwoSigma ? "sea surface only, 2 sigma, m" : "sea surface only, 95 %, m");
-  Store(static_cast<double>(kNoUncertainty), entry.data() + kNoDataField);  // As f64, also for a float.
+std::string FloatEntry(const AppendedFloat& appended) {
+  std::string entry = Entry(kFloat, kNoDataIsSet, appended.name, appended.description);
+  Store(static_cast<double>(appended.no_data), entry.data() + kNoDataField);  // As f64, also for a float.
   return entry;
 }
 
@@ -100,13 +99,29 @@ class FreeNames {
 
 }  // namespace
 
-absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::string_view described,
-                                                std::size_t extra_bytes, Coverage coverage) {
+std::vector<AppendedFloat> AppendedFloats(Coverage coverage, bool details) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::string_view share =
+      coverage == Coverage::kTwoSigma ? "sea surface only, 2 sigma, m" : "sea surface only, 95 %, m";
+  std::vector<AppendedFloat> floats = {{"sea_thu", share, kNoNumber}, {"sea_tvu", share, kNoNumber}};
+  if (details) {
+    floats.push_back({"incidence", "in air, at the water, degree", kNan});
+    floats.push_back({"beam_azimuth", "from true north, degree", kNan});
+    floats.push_back({"footprint", "diameter across the beam, m", kNoNumber});
+    floats.push_back({"water_depth", "below the water surface, m", kNoNumber});
+    floats.push_back({"slant_range", "in air, sensor to water, m", kNoNumber});
+  }
+  return floats;
+}
+
+absl::StatusOr<std::string> DescribeAppended(const std::string& name, std::string_view described,
+                                             std::size_t extra_bytes,
+                                             const std::vector<AppendedFloat>& appended) {
   absl::StatusOr<Described> known = Read(name, described);
   if (!known.ok()) return known.status();
-  for (const std::string_view ours : {kThuName, kTvuName}) {
-    if (known->names.count(ours) > 0) {
-      return Invalid(name, absl::StrCat("already has ", std::string(ours),
+  for (const AppendedFloat& ours : appended) {
+    if (known->names.count(ours.name) > 0) {
+      return Invalid(name, absl::StrCat("already has ", std::string(ours.name),
                                         "; annotate the file from which it was made"));
     }
   }
@@ -121,11 +136,11 @@ absl::StatusOr<std::string> DescribeUncertainty(const std::string& name, std::st
     record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }
-  record += UncertaintyEntry(kThuName, coverage);
-  record += UncertaintyEntry(kTvuName, coverage);
+  for (const AppendedFloat& ours : appended) record += FloatEntry(ours);
   if (record.size() > kLargestExtraBytesRecord) {
-    return Invalid(name, absl::StrCat("describes so many extra bytes that two more descriptions exceed ",
-                                      kLargestExtraBytesRecord, " bytes; remove some"));
+    return Invalid(
+        name, absl::StrCat("describes so many extra bytes that ", appended.size(),
+                           " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
   }
   return record;
 }

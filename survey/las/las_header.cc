@@ -19,7 +19,9 @@ constexpr int kFirstVersion = 2;
 
 // LASzip sets one of the two upper bits of the point format in a compressed file.
 constexpr int kCompressionBits = 0xC0;
-constexpr std::uint16_t kWaveformInside = 0x2;  // Bit 1 of the global encoding.
+// Bits of the global encoding.
+constexpr std::uint16_t kAdjustedGpsTime = 0x1;
+constexpr std::uint16_t kWaveformInside = 0x2;
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
@@ -72,9 +74,11 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
     return Invalid(name, absl::StrCat("has point records of ", header.record_length, " bytes; point format ",
                                       header.point_format, " needs ", minimum, " or more"));
   }
-  if (!std::isfinite(header.scale_z) || header.scale_z == 0 || !std::isfinite(header.offset_z)) {
-    return Invalid(name, absl::StrCat("has z scale ", header.scale_z, " and offset ", header.offset_z,
-                                      "; expected finite numbers and a scale other than zero"));
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
+    const double scale = header.scale[axis], offset = header.offset[axis];
+    if (std::isfinite(scale) && scale != 0 && std::isfinite(offset)) continue;
+    return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ",
+                                      offset, "; expected finite numbers and a scale other than zero"));
   }
   return absl::OkStatus();
 }
@@ -146,8 +150,12 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   header.vlr_count = Load<std::uint32_t>(bytes, las_field::kVlrCount);
   header.point_format = Load<std::uint8_t>(bytes, las_field::kPointFormat);
   header.record_length = Load<std::uint16_t>(bytes, las_field::kRecordLength);
-  header.scale_z = Load<double>(bytes, las_field::kScaleZ);
-  header.offset_z = Load<double>(bytes, las_field::kOffsetZ);
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
+    header.scale[axis] = Load<double>(bytes, las_field::kScale + axis * sizeof(double));
+    header.offset[axis] = Load<double>(bytes, las_field::kOffset + axis * sizeof(double));
+    header.greatest[axis] = Load<double>(bytes, las_field::kBounds + 2 * axis * sizeof(double));
+    header.least[axis] = Load<double>(bytes, las_field::kBounds + (2 * axis + 1) * sizeof(double));
+  }
   if ((header.point_format & kCompressionBits) != 0) {
     return Invalid(name,
                    "is compressed (LAZ); decompress it first, by `laszip -i IN.laz -o OUT.las` or "
@@ -157,6 +165,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   if (!count.ok()) return count.status();
   header.point_count = *count;
   const auto global_encoding = Load<std::uint16_t>(bytes, las_field::kGlobalEncoding);
+  header.adjusted_gps_time = (global_encoding & kAdjustedGpsTime) != 0;
   if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0) {
     header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
   }

@@ -2,6 +2,7 @@
 // records.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,8 +23,9 @@ inline constexpr std::size_t kVlrCount = 100;               // u32
 inline constexpr std::size_t kPointFormat = 104;            // u8
 inline constexpr std::size_t kRecordLength = 105;           // u16
 inline constexpr std::size_t kLegacyPointCount = 107;       // u32
-inline constexpr std::size_t kScaleZ = 147;                 // f64
-inline constexpr std::size_t kOffsetZ = 171;                // f64
+inline constexpr std::size_t kScale = 131;                  // 3 f64: x, y, z
+inline constexpr std::size_t kOffset = 155;                 // 3 f64
+inline constexpr std::size_t kBounds = 179;                 // 6 f64: greatest and least x, then y, then z
 inline constexpr std::size_t kStartOfWaveformPacket = 227;  // u64, from 1.3
 inline constexpr std::size_t kStartOfEvlrs = 235;           // u64, from 1.4
 inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
@@ -41,15 +43,20 @@ struct LasHeader {
   int point_format = 0;
   std::uint16_t record_length = 0;
   std::uint64_t point_count = 0;
-  double scale_z = 0;
-  double offset_z = 0;
-  std::uint64_t start_of_waveform_packet = 0;  // 0: none in this file.
-  std::uint64_t start_of_evlrs = 0;            // 0: none.
+  bool adjusted_gps_time = false;                   // Times are GPS seconds - 1e9, not seconds of the week.
+  std::array<double, 3> scale = {};                 // x, y, z; finite and not zero.
+  std::array<double, 3> offset = {};                // Finite.
+  std::array<double, 3> least = {}, greatest = {};  // The bounds that the file states, true or not.
+  std::uint64_t start_of_waveform_packet = 0;       // 0: none in this file.
+  std::uint64_t start_of_evlrs = 0;                 // 0: none.
   std::uint32_t evlr_count = 0;
 
   std::size_t extra_bytes() const;  // In a point record, after the fields of its format.
   std::uint64_t end_of_points() const { return offset_to_points + point_count * record_length; }
 };
+
+// Whether records of this format have a GPS time: formats 1 and 3 to 10.
+constexpr bool HasGpsTime(int point_format) { return point_format != 0 && point_format != 2; }
 
 // Bytes of a point record without extra bytes, for formats 0 to 10.
 std::size_t MinimumRecordLength(int point_format);

@@ -17,16 +17,23 @@ inline constexpr double kModernScanAngleStep = 0.006;  // degree
 inline constexpr int kLegacyClassMask = 0x1F;          // Formats 0-5 have flags in the upper bits.
 inline constexpr int kClassCount = 256;
 
+// The class of bottom seen through water: 40 in the ASPRS LAS Domain Profile for Topo-Bathy Lidar, 26 in older files,
+// whose classes end at 31.
+constexpr int DefaultClass(int point_format) { return point_format >= kFirstModernFormat ? 40 : 26; }
+
 // Reads the fields of records, which have the format that the header states.
 class LasPointFields {
  public:
   explicit LasPointFields(const LasHeader& header)
       : modern_(header.point_format >= kFirstModernFormat),
-        scale_z_(header.scale_z),
-        offset_z_(header.offset_z) {}
+        gps_time_(HasGpsTime(header.point_format) ? (modern_ ? 22 : 20) : 0),
+        scale_(header.scale),
+        offset_(header.offset) {}
 
-  // In the vertical unit of the file.
-  double Z(std::string_view record) const { return Load<std::int32_t>(record, 8) * scale_z_ + offset_z_; }
+  // In the units of the file's coordinates.
+  double X(std::string_view record) const { return Coordinate(record, 0); }
+  double Y(std::string_view record) const { return Coordinate(record, 1); }
+  double Z(std::string_view record) const { return Coordinate(record, 2); }
   int Class(std::string_view record) const {
     return modern_ ? Load<std::uint8_t>(record, 16) : Load<std::uint8_t>(record, 15) & kLegacyClassMask;
   }
@@ -35,9 +42,39 @@ class LasPointFields {
     return modern_ ? Load<std::int16_t>(record, 18) * kModernScanAngleStep : Load<std::int8_t>(record, 16);
   }
 
+  bool has_gps_time() const { return gps_time_ != 0; }
+  // As the file states it. Requires has_gps_time().
+  double GpsTime(std::string_view record) const { return Load<double>(record, gps_time_); }
+
+  // The number of this return in its pulse, the number of returns of the pulse and the channel of the scanner, which
+  // formats 0-5 do not have.
+  int ReturnNumber(std::string_view record) const {
+    return Load<std::uint8_t>(record, 14) & (modern_ ? 0xF : 0x7);
+  }
+  int ReturnCount(std::string_view record) const {
+    const auto returns = Load<std::uint8_t>(record, 14);
+    return modern_ ? returns >> 4 : returns >> 3 & 0x7;
+  }
+  int ScannerChannel(std::string_view record) const {
+    return modern_ ? Load<std::uint8_t>(record, 15) >> 4 & 0x3 : 0;
+  }
+
+  // Whether two records of equal GPS times are returns of one pulse. Some files have times so coarse that several
+  // pulses share one.
+  bool OfOnePulse(std::string_view a, std::string_view b) const {
+    const bool numbered = ReturnNumber(a) != 0 || ReturnNumber(b) != 0;
+    return ReturnCount(a) == ReturnCount(b) && ScannerChannel(a) == ScannerChannel(b) &&
+           (!numbered || ReturnNumber(a) != ReturnNumber(b));
+  }
+
  private:
+  double Coordinate(std::string_view record, std::size_t axis) const {
+    return Load<std::int32_t>(record, axis * sizeof(std::int32_t)) * scale_[axis] + offset_[axis];
+  }
+
   bool modern_;
-  double scale_z_, offset_z_;
+  std::size_t gps_time_;  // Offset in the record; 0: the format has none.
+  std::array<double, 3> scale_, offset_;
 };
 
 class LasClassCounts {

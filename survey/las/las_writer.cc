@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
-#include "survey/las/las_extra_bytes.h"
 #include "survey/las/little_endian.h"
 
 namespace albtpu::client {
@@ -45,14 +44,16 @@ bool Increase(std::size_t field, std::uint64_t increment, std::string& head) {
 
 }  // namespace
 
-absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage coverage) {
+absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader,
+                                          const std::vector<AppendedFloat>& appended) {
+  const std::size_t appended_bytes = appended.size() * sizeof(float);
   const LasHeader& header = reader.header();
   const absl::StatusOr<std::optional<VlrEntry>> existing = FindExtraBytesRecord(reader);
   if (!existing.ok()) return existing.status();
   const std::string_view described =
       existing->has_value() ? reader.head().substr((*existing)->data_offset, (*existing)->data_size) : "";
   const absl::StatusOr<std::string> data =
-      DescribeUncertainty(reader.name(), described, header.extra_bytes(), coverage);
+      DescribeAppended(reader.name(), described, header.extra_bytes(), appended);
   if (!data.ok()) return data.status();
 
   std::string head(reader.head());
@@ -69,8 +70,8 @@ absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage cove
   }
   const std::uint64_t grown_by = head.size() - reader.head().size();
   fits = fits && Increase<std::uint32_t>(las_field::kOffsetToPoints, grown_by, head) &&
-         Increase<std::uint16_t>(las_field::kRecordLength, kAppendedBytes, head);
-  const std::uint64_t tail_moves_by = grown_by + header.point_count * kAppendedBytes;
+         Increase<std::uint16_t>(las_field::kRecordLength, appended_bytes, head);
+  const std::uint64_t tail_moves_by = grown_by + header.point_count * appended_bytes;
   if (header.start_of_evlrs != 0) {
     fits = fits && Increase<std::uint64_t>(las_field::kStartOfEvlrs, tail_moves_by, head);
   }
@@ -78,7 +79,7 @@ absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader, Coverage cove
     fits = fits && Increase<std::uint64_t>(las_field::kStartOfWaveformPacket, tail_moves_by, head);
   }
   if (!fits) {
-    return Invalid(reader, absl::StrCat("has no room for ", kAppendedBytes, " more bytes in records of ",
+    return Invalid(reader, absl::StrCat("has no room for ", appended_bytes, " more bytes in records of ",
                                         header.record_length, "; remove some of its extra bytes"));
   }
   return head;

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import math
 import os
 import pathlib
 import resource
@@ -47,6 +48,24 @@ class CommandLineTest(programs.Test):
                     self.assertEqual(answer[name], expected, name)
                 self.assertLessEqual({*AXES, *APPENDED, "table", "digest", "coverage"}, set(answer))
 
+    def test_directions_and_beams_give_the_same_numbers_in_pulse_and_csv(self):
+        source, target = self.folder / "in.csv", self.folder / "out.csv"
+        source.write_text("wind_speed,incidence,beam_azimuth,altitude,depth\n5,12,40,400.5,8\n")
+        query("csv", source, target, "--wind-from", 250.25, "--divergence", 1.3, "--table", self.table, check=0)
+        names, cells = (line.split(",") for line in target.read_text().splitlines())
+        beam = ("--beam-azimuth", 40, "--wind-from", 250.25, "--altitude", 400.5, "--divergence", 1.3)
+        pulse = ("--wind-speed", 5, "--incidence", 12, "--depth", 8)
+        answer = json.loads(self.pulse(*pulse, *beam, "--json").stdout)
+        self.assertEqual(answer["azimuth"], -390.25)
+        # 1.3 and the footprint below 1 m are each rounded to single precision: by 2^-25 at most.
+        self.assertAlmostEqual(answer["footprint"], 400.5 / math.cos(math.radians(12)) * 1.3e-3, delta=2**-24)
+        for name, cell in zip(names, cells):
+            if name in APPENDED[:-1]:
+                self.assertEqual(float(cell), answer[name], name)
+        self.assert_fails(self.pulse(*pulse, *beam, "--azimuth", 3), 2, "--azimuth gives the azimuth, and so do "
+                          "--beam-azimuth and --wind-from")
+        self.assert_fails(self.pulse(*pulse, "--altitude", 400), 2, "--altitude alone does not give the footprint")
+
     def test_pulse_prints_answers_on_standard_output_only(self):
         result = self.pulse(*PULSE)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -56,7 +75,7 @@ class CommandLineTest(programs.Test):
     def test_out_of_domain_is_an_answer(self):
         result = self.pulse(*PULSE[:-1], 500)
         self.assertEqual(result.returncode, 0)
-        self.assertIn("OUT_OF_DOMAIN:depth", result.stdout)
+        self.assertIn("OUT_OF_DOMAIN:depth:above", result.stdout)
         self.assertIn("from 0 to 20 m", result.stdout)
 
     def test_wrong_flags_are_bad_usage(self):
@@ -84,7 +103,7 @@ class CommandLineTest(programs.Test):
         query("tables", *table, check=0)
         query("csv", source, self.folder / "out.csv", *PULSE[:-2], *table, *style, "--overwrite", check=0)
         query("las", make_flight(self.folder / "in.las"), self.folder / "out.las", "--water-level", 0,
-              "--wind-speed", 5, "--footprint", 1, *table, *style, "--overwrite", check=0)
+              "--scanner", "across-track", "--wind-speed", 5, "--footprint", 1, *table, *style, "--overwrite", check=0)
 
     def test_flags_without_effect_are_bad_usage(self):
         files = ("in.csv", "out.csv", "--table", self.table)
@@ -94,13 +113,13 @@ class CommandLineTest(programs.Test):
                                (("pulse", *PULSE), ("--resume",)), (("csv", *files), ("--json",)),
                                (("csv", *files), ("--recursive",)), (("csv", *files), ("--classes", 40)),
                                (("csv", *files), ("--token-file", "token")), (("las", *files), ("--depth", 3)),
-                               (("las", *files), ("--incidence", 3)), (("health",), ("--table", self.table)),
+                               (("health",), ("--table", self.table)),
                                (("health", "--server", "localhost:1"), ("--coverage", "p95"))):
             with self.subTest(command=command[0], flags=flags):
                 self.assert_fails(query(*command, *flags), 2, flags[0])
 
     def test_misspelt_words_get_a_suggestion(self):
-        for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, tables, health"),
+        for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, trajectory, tables, health"),
                                      (["plus"], "'plus' is not a command", "did you mean pulse?"),
                                      (["pulse", "--wind-sped", 5], "did you mean --wind-speed?"),
                                      (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),
@@ -136,7 +155,7 @@ class CommandLineTest(programs.Test):
 
     def test_las_flags_that_contradict_each_other_are_bad_usage(self):
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
-        need = {"--water-level": 0, "--wind-speed": 5, "--footprint": 1}
+        need = {"--scanner": "across-track", "--water-level": 0, "--wind-speed": 5, "--footprint": 1}
 
         def las(*files, without=None, more=()):
             pairs = [part for name, value in need.items() if name != without for part in (name, value)]
@@ -145,9 +164,12 @@ class CommandLineTest(programs.Test):
         for name in need:
             self.assert_fails(las(source, target, without=name), 2, name)
         for more in (("--altitude", 400), ("--divergence", 1), ("--altitude", 400, "--divergence", 1),
-                     ("--wind-from", 10), ("--flight-direction", 10),
+                     ("--aperture", 0.1), ("--wind-from", 10), ("--flight-direction", 10),
                      ("--azimuth", 10, "--wind-from", 10, "--flight-direction", 10), ("--classes", "256"),
-                     ("--classes", "bottom"), ("--classes", ""), ("--units", "yard"), ("--altitude", "nan")):
+                     ("--classes", "bottom"), ("--classes", ""), ("--water-classes", "surface"), ("--units", "yard"),
+                     ("--altitude", "nan"), ("--water-level", "nan"), ("--water-level", ""), ("--scanner", "conical"),
+                     ("--lever-arm", "1,2"), ("--lever-arm", "560,0,-300"), ("--water-classes", 40),
+                     ("--classes", "26,27", "--water-classes", "27,9")):
             with self.subTest(more=more):
                 self.assert_fails(las(source, target, more=more), 2)
         self.assert_fails(las(source), 2, "IN.las OUT.las")
@@ -155,6 +177,31 @@ class CommandLineTest(programs.Test):
         self.assertEqual(las(source, target, more=("--azimuth", "-30.5")).returncode, 0)
         need["--water-level"] = "-0.5"
         self.assertEqual(las(source, target, more=("--overwrite",)).returncode, 0)
+
+    def test_las_needs_exactly_one_way_to_an_incidence(self):
+        files = (make_flight(self.folder / "in.las"), self.folder / "out.las", "--table", self.table)
+        rest = ("--water-level", 0, "--wind-speed", 5, "--footprint", 1)
+        ways = {"--trajectory": ("--trajectory", "sbet.out"), "--trajectory-from-returns": ("--trajectory-from-returns",),
+                "--scanner": ("--scanner", "across-track"), "--incidence": ("--incidence", 20)}
+        self.assert_fails(query("las", *files, *rest), 2, *ways)
+        for one in ways:
+            for other in ways:
+                if one < other:
+                    self.assert_fails(query("las", *files, *rest, *ways[one], *ways[other]), 2, one, other)
+        foreign = {"--trajectory": (("--flight-direction", 1), ("--altitude", 400), ("--beam-azimuth", 1), ("--azimuth", 1)),
+                   "--trajectory-from-returns": (("--geoid-separation", 25), ("--lever-arm", "0,0,1"),
+                                                 ("--trajectory-time", "utc"), ("--flight-direction", 1)),
+                   "--scanner": (("--beam-azimuth", 1), ("--water-index", 1.34), ("--crs", "EPSG:26917"),
+                                 ("--trajectory-errors", "smrmsg.out")),
+                   "--incidence": (("--flight-direction", 1), ("--water-index", 1.34), ("--lever-arm", "0,0,1"))}
+        for way, flags in foreign.items():
+            for flag in flags:
+                with self.subTest(way=way, flag=flag):
+                    self.assert_fails(query("las", *files, *rest, *ways[way], *flag), 2, f"{flag[0]} has no effect with {way}")
+        self.assert_fails(query("las", *files, *rest, "--incidence", 90), 2, "--incidence")
+        for index in (1, 3):
+            self.assert_fails(query("las", *files, *rest, *ways["--trajectory-from-returns"], "--water-index", index),
+                              2, "--water-index")
 
     def test_failures_state_the_problem_and_leave_no_files(self):
         source, target = self.folder / "in.csv", self.folder / "out.csv"
@@ -170,7 +217,7 @@ class CommandLineTest(programs.Test):
         self.assert_fails(query("csv", source, target, "--table", source), 1, "in.csv")
         self.assert_fails(query("csv", source, target, "--server", "127.0.0.1:1"), 1, "127.0.0.1:1")
         self.assert_fails(query("csv", source, target, *table, "--depth", 3), 2, "--depth")
-        las = ("--water-level", 0, "--wind-speed", 5, "--footprint", 1)
+        las = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 5, "--footprint", 1)
         self.assert_fails(query("las", source, target, *table, *las), 1, "is not a LAS file")
         self.assert_fails(query("las", self.folder / "pipe", target, *table, *las), 1, "pipe: is not a regular file")
         self.assertEqual(self.names(), before)
@@ -210,7 +257,7 @@ class CommandLineTest(programs.Test):
         limit = source.stat().st_size // 2
         before = self.names()
         result = query("las", source, target, "--table", self.table, "--water-level", 0, "--wind-speed", 5,
-                       "--footprint", 1,
+                       "--footprint", 1, "--scanner", "across-track",
                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.assert_fails(result, 1, "out.las: File too large (no output was written); ")
         self.assertEqual(self.names(), before)
@@ -226,7 +273,7 @@ class CommandLineTest(programs.Test):
         reader, writer = os.pipe()
         os.close(reader)
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
-        flags = ("--water-level", 0, "--wind-speed", 5, "--footprint", 1)
+        flags = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 5, "--footprint", 1)
         command = [programs.PATHS["query"], "las", source, target, "--table", self.table, *map(str, flags)]
         self.assertEqual(subprocess.run(command, stderr=writer).returncode, 0)
         os.close(writer)

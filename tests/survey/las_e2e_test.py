@@ -5,6 +5,7 @@ The output must have the same points in the same order, the same bytes in the ol
 """
 
 import csv
+import json
 import pathlib
 import struct
 
@@ -20,7 +21,7 @@ WIND_FROM, FLIGHT = 100.0, 30.0  # degree
 
 class LasTest(programs.Test):
     def annotate(self, source, target, classes, water_level, *flags):
-        return query("las", source, target, "--table", self.table, "--water-level", water_level,
+        return query("las", source, target, "--table", self.table, "--scanner", "across-track", "--water-level", water_level,
                      "--classes", classes, "--wind-speed", 6.5, "--fetch", 30000, "--altitude", ALTITUDE,
                      "--divergence", DIVERGENCE, "--wind-from", WIND_FROM, "--flight-direction", FLIGHT,
                      *flags, check=0)
@@ -67,7 +68,7 @@ class LasTest(programs.Test):
         # The new values.
         dimensions = new.extra_dimensions()
         by_csv = self.values_by_csv(old, point_class, water_level)
-        for name, expected in zip(("total_thu", "total_tvu"), by_csv):
+        for name, expected in zip(("sea_thu", "sea_tvu"), by_csv):
             offset, kind, no_data, description = dimensions[name]
             self.assertEqual((kind, no_data, description), (9, -1.0, "sea surface only, 2 sigma, m"))
             values = new.field(offset, "<f4")
@@ -90,6 +91,37 @@ class LasTest(programs.Test):
         offset, kind, _, _ = new.extra_dimensions()["undocumented"]
         self.assertEqual((offset, kind), (30, 0))
 
+    def test_returns_of_a_real_survey_tell_its_geometry(self):
+        source = pathlib.Path(programs.PATHS["sample"])
+        if not source.exists():
+            self.skipTest(f"{source} does not exist")
+        target = self.folder / "out.las"
+        query("las", source, target, "--table", self.table, "--trajectory-from-returns", "--classes", 26,
+              "--water-level", -23.09, "--wind-speed", 6.5, "--divergence", 1, "--details", check=0)
+        geometry = json.loads((self.folder / "out.las.json").read_text())["input"]["geometry"]
+        # In the middle of the file, a straight line that another program fitted to the same pairs is 310.5 m above the
+        # water, and is flown at 56.5 m/s.
+        self.assertAlmostEqual(geometry["trajectory"]["height_above_water"], 310.5, delta=0.5)
+        self.assertAlmostEqual(geometry["trajectory"]["speed"], 56.5, delta=0.5)
+        las = LasFile(target)
+        dimensions = las.extra_dimensions()
+        names = ["sea_thu", "sea_tvu", "incidence", "beam_azimuth", "footprint", "water_depth", "slant_range"]
+        self.assertEqual([name for name in dimensions if name in names], names)
+        column = {name: las.field(dimensions[name][0], "<f4")[las.classes == 26] for name in names}
+        for name in names:
+            is_angle = name in ("incidence", "beam_azimuth")
+            no_data = dimensions[name][2]
+            self.assertTrue(np.isnan(no_data) if is_angle else no_data == -1, name)
+        known = np.isfinite(column["incidence"])
+        self.assertGreater(np.mean(known), 0.99)
+        # The scanner is a cone of 20 degrees about an axis that is near the vertical.
+        # The same program's: 17.87 to 20.91 degrees, by a track that is straight.
+        self.assertAlmostEqual(float(np.min(column["incidence"][known])), 17.87, delta=0.05)
+        self.assertAlmostEqual(float(np.max(column["incidence"][known])), 20.91, delta=0.05)
+        np.testing.assert_allclose(column["footprint"][known], 1e-3 * column["slant_range"][known], rtol=1e-6)
+        np.testing.assert_array_equal(column["water_depth"],
+                                      (-23.09 - las.z[las.classes == 26]).astype(np.float32))
+
     def test_simulated_flights_in_many_formats(self):
         for version, point_format, extra_bytes in (
                 (2, 0, 0), (2, 1, 3), (2, 3, 300), (3, 4, 0), (3, 5, 2),
@@ -106,7 +138,7 @@ class LasTest(programs.Test):
         tables = self.folder / "tables"
         tables.mkdir()
         make_table(tables / "quick.h5")
-        flags = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
+        flags = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
         with programs.server(tables) as address:
             for coverage in ("2sigma", "p95"):
                 local, remote = (self.folder / f"{kind}_{coverage}.las" for kind in ("local", "remote"))
@@ -122,7 +154,7 @@ class LasTest(programs.Test):
         out = self.folder / "out"
         out.mkdir()
         (self.folder / "bad.las").write_bytes(b"LASF")
-        flags = ("--output-dir", out, "--table", self.table,
+        flags = ("--output-dir", out, "--table", self.table, "--scanner", "across-track", "--classes", 40,
                  "--water-level", 0, "--wind-speed", 6, "--footprint", 1)
         files = [self.folder / name for name in ("a.las", "bad.las", "land.las", "b.las")]
         result = query("las", *files, *flags)
@@ -133,14 +165,14 @@ class LasTest(programs.Test):
         values = LasFile(out / "land.las")
         self.assertTrue(np.all(values.field(values.record_length - 8, "<f4") == -1))
         self.assertIn("no point of class 40", result.stderr)
-        self.assert_fails(query("las", land, *flags, "--overwrite"), 1, "no file has a point of class 40")
+        self.assert_fails(query("las", land, *flags, "--overwrite"), 1, "no file has a point of the bathymetric classes")
         same_name = self.folder / "out" / ".." / "a.las"
         self.assert_fails(query("las", files[0], same_name, *flags), 2, "two inputs are called a.las")
 
     def test_error_lists_the_classes_of_the_file(self):
         source = make_flight(self.folder / "in.las")
         result = query("las", source, self.folder / "out.las", "--table", self.table, "--water-level", 0,
-                       "--wind-speed", 6, "--footprint", 1, "--classes", "26,27")
+                       "--scanner", "across-track", "--wind-speed", 6, "--footprint", 1, "--classes", "26,27")
         self.assert_fails(result, 1, "no point of class 26 or 27", "--classes", "class 40: 20200 points")
         self.assertNotIn("out.las", self.names())
 

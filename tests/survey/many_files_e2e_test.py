@@ -15,7 +15,7 @@ import programs
 from las_file import LasFile
 from programs import make_flight, make_table, query
 
-FLAGS = ("--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
+FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
 
 
 def repeat(source, target, times):
@@ -98,6 +98,31 @@ class ManyFilesTest(programs.Test):
                          ["line0.las", "north/line0.las"])
         self.assert_fails(query("las", out / "north", "--output-dir", out / "no", *FLAGS), 1, "is not a folder")
 
+    def test_fewer_numbers_than_half_fail_the_run_but_leave_complete_outputs(self):
+        source, out = self.folder / "in", self.folder / "out"
+        source.mkdir()
+        out.mkdir()
+        depths = {"shallow": (1, 2), "upside_down": (-1, -2, -3), "half": (4, -4)}
+        for name, values in depths.items():
+            (source / f"{name}.csv").write_text("depth\n" + "".join(f"{depth}\n" for depth in values))
+        flags = ("csv", source, "--output-dir", out, "--table", self.table, "--wind-speed", 5, "--incidence", 12,
+                 "--resume")
+        for run in range(2):  # The second one finds the outputs of the first.
+            result = query(*flags, "--footprint", 0.5)
+            self.assert_fails(result, 1, "in all 3 files: only 3 of 7 pulses got a number",
+                              "4 OUT_OF_DOMAIN:depth:below: depth -4 to -1 m is below 0 m", "negative downwards?")
+            lines = [line for line in result.stderr.splitlines() if "upside_down.csv: no pulse got a number" in line]
+            self.assertEqual(len(lines), 1)
+            self.assertNotIn("half.csv: only", result.stderr)
+            self.assertEqual(result.stderr.count("is already complete"), 3 * run)
+        for name, values in depths.items():
+            self.assertEqual(len((out / f"{name}.csv").read_text().splitlines()), 1 + len(values))
+            self.assertTrue((out / f"{name}.csv.json").is_file())
+        for path in out.iterdir():
+            path.unlink()
+        self.assert_fails(query(*flags, "--footprint", 60), 1, "in all 3 files: no pulse got a number", "in cm?")
+        self.assert_fails(query(*flags, "--altitude", 400, "--divergence", 0.0015, "--overwrite"), 1, "in rad?")
+
     def test_csv_also_takes_many_files(self):
         source, out = self.folder / "in", self.folder / "out"
         source.mkdir()
@@ -107,7 +132,7 @@ class ManyFilesTest(programs.Test):
         flags = ("csv", source, "--output-dir", out, "--table", self.table)
         query(*flags, check=0)
         summary = json.loads((out / "a.csv.json").read_text())
-        self.assertEqual(summary["answers"]["outcomes"], {"INTERPOLATED": 1, "OUT_OF_DOMAIN:depth": 1})
+        self.assertEqual(summary["answers"]["outcomes"], {"INTERPOLATED": 1, "OUT_OF_DOMAIN:depth:above": 1})
         self.assertEqual(query(*flags, "--resume", check=0).stderr.count("is already complete"), 2)
 
     def test_killed_run_resumes_where_it_stopped(self):
@@ -131,7 +156,8 @@ class ManyFilesTest(programs.Test):
 
     def test_resume_keeps_only_outputs_of_the_same_run(self):
         survey, out = self.make_survey(2)
-        flags = ("las", survey, "--output-dir", out, "--resume", "--water-level", 0, "--footprint", 1)
+        flags = ("las", survey, "--output-dir", out, "--resume", "--scanner", "across-track", "--water-level", 0,
+                 "--footprint", 1)
         query(*flags, "--wind-speed", 6, "--table", self.table, check=0)
         before = self.outputs(out)
         other = make_table(self.folder / "other.h5", "--factor", "2")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <random>
 #include <vector>
@@ -49,9 +50,11 @@ class LasAnnotationTest : public ::testing::Test {
  protected:
   LasAnnotationTest() {
     annotation_.classes = {26};
-    annotation_.flight_line.wind_speed = 5;
-    annotation_.flight_line.footprint = 0.5f;
-    annotation_.flight_line.azimuth = 30.0f;
+    annotation_.plan.source = AcrossTrackScan();
+    annotation_.plan.wind_speed = 5;
+    annotation_.plan.footprint = 0.5f;
+    annotation_.plan.azimuth = 30.0f;
+    annotation_.plan.water_level = 0;
   }
 
   // The annotated file, or the message of the error.
@@ -75,10 +78,14 @@ class LasAnnotationTest : public ::testing::Test {
   std::string Annotate(const LasSpec& spec) { return Annotate(BuildLas(spec)); }
 
   PulseUncertainty AnswerFor(const LasSpec& spec, std::size_t point) {
-    PulseBatch pulses;
-    const double z = spec.points[point].z * spec.scale;
-    annotation_.flight_line.MakePulses({&z, 1}, {&spec.points[point].scan_angle, 1}, pulses);
-    return albtpu::testing::QueryPulse(source_, PulseAt(pulses.columns(), 0), annotation_.style.coverage);
+    Pulse pulse;
+    pulse.wind_speed = annotation_.plan.wind_speed;
+    pulse.incidence = static_cast<float>(std::abs(spec.points[point].scan_angle));
+    pulse.azimuth = annotation_.plan.azimuth;
+    pulse.footprint = 0.5f;
+    pulse.depth =
+        static_cast<float>(-spec.points[point].z * spec.scale * annotation_.plan.metres_per_unit.value_or(1));
+    return albtpu::testing::QueryPulse(source_, pulse, annotation_.style.coverage);
   }
 
   TemporaryFolder folder_;
@@ -149,7 +156,8 @@ TEST_F(LasAnnotationTest, KeepsEveryByteInEveryVersionAndFormat) {
 TEST_F(LasAnnotationTest, CountsClassesAndOutcomes) {
   Annotate(Spec(4, 6));
   EXPECT_EQ(classes_.points(), 5u);
-  EXPECT_EQ(summary_.outcomes().Text(), "4 pulses: 2 interpolated, 2 OUT_OF_DOMAIN:depth");
+  EXPECT_EQ(summary_.outcomes().Text(),
+            "4 pulses: 2 interpolated, 1 OUT_OF_DOMAIN:depth:above, 1 ABOVE_WATER");
   EXPECT_EQ(classes_.Text(), "class 2: 1 points, class 26: 4 points");
   EXPECT_THAT(summary_.Text(), HasSubstr("depth 0.800 m to 5.000 m"));
 }
@@ -177,7 +185,7 @@ TEST_F(LasAnnotationTest, StatesTheCoverageOfTheQuery) {
 
 TEST_F(LasAnnotationTest, ReadsItsOwnOutputAndRefusesToAnnotateItAgain) {
   const std::string output = Annotate(Spec(3, 1));
-  EXPECT_THAT(Annotate(output), HasSubstr("already has total_thu"));
+  EXPECT_THAT(Annotate(output), HasSubstr("already has sea_thu"));
 }
 
 TEST_F(LasAnnotationTest, AnnotatesAFileWithoutPoints) {
@@ -210,8 +218,7 @@ TEST_F(LasAnnotationTest, RequiresAUnitWhenTheFileIsInFeet) {
   LasSpec spec = Spec(4, 6);
   spec.vlrs = {{"LASF_Projection", 2112, "VERT_CS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
   EXPECT_THAT(Annotate(spec), HasSubstr("in feet (unit \"US survey foot\"); give the unit"));
-  annotation_.unit_is_given = true;
-  annotation_.flight_line.metres_per_unit = 1200.0 / 3937.0;
+  annotation_.plan.metres_per_unit = 1200.0 / 3937.0;
   const std::string output = Annotate(spec);
   EXPECT_EQ(Load<float>(output, Load<std::uint32_t>(output, 96) + 30), AnswerFor(spec, 0)[Quantity::kThu]);
 }

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "survey/las/little_endian.h"
 #include "tests/survey/las/las_builder.h"
@@ -15,7 +17,8 @@ using albtpu::testing::ExtraBytesEntry;
 using ::testing::HasSubstr;
 
 std::string Describe(const std::string& described, std::size_t extra_bytes) {
-  const auto record = DescribeUncertainty("in.las", described, extra_bytes, Coverage::kTwoSigma);
+  const auto record =
+      DescribeAppended("in.las", described, extra_bytes, AppendedFloats(Coverage::kTwoSigma, false));
   return record.ok() ? *record : std::string(record.status().message());
 }
 
@@ -32,8 +35,8 @@ int OptionsOf(const std::string& record, std::size_t entry) {
 TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
   const std::string record = Describe("", 0);
   ASSERT_EQ(record.size(), 2 * 192u);
-  EXPECT_EQ(NameOf(record, 0), "total_thu");
-  EXPECT_EQ(NameOf(record, 1), "total_tvu");
+  EXPECT_EQ(NameOf(record, 0), "sea_thu");
+  EXPECT_EQ(NameOf(record, 1), "sea_tvu");
   for (const std::size_t entry : {0, 1}) {
     EXPECT_EQ(TypeOf(record, entry), 9);     // float
     EXPECT_EQ(OptionsOf(record, entry), 1);  // Only no-data is set.
@@ -43,8 +46,28 @@ TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
 }
 
 TEST(LasExtraBytes, StatesTheCoverage) {
-  const auto record = DescribeUncertainty("in.las", "", 0, Coverage::kP95);
+  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats(Coverage::kP95, false));
   EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
+}
+
+TEST(LasExtraBytes, DescribesTheGeometryOfBeamsOnRequest) {
+  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats(Coverage::kTwoSigma, true));
+  ASSERT_EQ(record->size(), AppendedCount(true) * 192);
+  const struct {
+    const char* name;
+    bool is_angle;
+  } expected[] = {{"incidence", true},
+                  {"beam_azimuth", true},
+                  {"footprint", false},
+                  {"water_depth", false},
+                  {"slant_range", false}};
+  for (std::size_t i = 0; i < std::size(expected); ++i) {
+    EXPECT_EQ(NameOf(*record, 2 + i), expected[i].name);
+    EXPECT_EQ(TypeOf(*record, 2 + i), 9);
+    EXPECT_EQ(OptionsOf(*record, 2 + i), 1);
+    const auto no_data = Load<double>(*record, 192 * (2 + i) + 40);
+    EXPECT_TRUE(expected[i].is_angle ? std::isnan(no_data) : no_data == -1) << expected[i].name;
+  }
 }
 
 TEST(LasExtraBytes, DescribesUndocumentedBytesFirst) {
@@ -53,7 +76,7 @@ TEST(LasExtraBytes, DescribesUndocumentedBytesFirst) {
   EXPECT_EQ(NameOf(record, 0), "undocumented");
   EXPECT_EQ(TypeOf(record, 0), 0);
   EXPECT_EQ(OptionsOf(record, 0), 6);
-  EXPECT_EQ(NameOf(record, 1), "total_thu");
+  EXPECT_EQ(NameOf(record, 1), "sea_thu");
 }
 
 TEST(LasExtraBytes, SplitsManyUndocumentedBytes) {
@@ -83,7 +106,7 @@ TEST(LasExtraBytes, KnowsTheSizeOfEveryType) {
 }
 
 TEST(LasExtraBytes, RejectsNamesThatExistAlready) {
-  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "total_tvu"), 4), HasSubstr("in.las: already has total_tvu"));
+  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "sea_tvu"), 4), HasSubstr("in.las: already has sea_tvu"));
 }
 
 TEST(LasExtraBytes, RejectsInvalidRecords) {
@@ -91,7 +114,7 @@ TEST(LasExtraBytes, RejectsInvalidRecords) {
   EXPECT_THAT(Describe(ExtraBytesEntry(31, 0, "x"), 4), HasSubstr("type 31"));
   std::string full;
   for (int i = 0; i < 340; ++i) full += ExtraBytesEntry(1, 0, std::to_string(i));
-  EXPECT_THAT(Describe(full, 340), HasSubstr("two more descriptions exceed 65535 bytes"));
+  EXPECT_THAT(Describe(full, 340), HasSubstr("2 more descriptions exceed 65535 bytes"));
 }
 
 }  // namespace

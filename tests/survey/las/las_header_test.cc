@@ -47,7 +47,8 @@ TEST(LasHeader, ReadsEveryVersionAndFormat) {
       EXPECT_EQ(header->point_format, format);
       EXPECT_EQ(header->point_count, 10u);
       EXPECT_EQ(header->extra_bytes(), 3u);
-      EXPECT_EQ(header->scale_z, 0.001);
+      EXPECT_EQ(header->scale, (std::array{0.001, 0.001, 0.001}));
+      EXPECT_FALSE(header->adjusted_gps_time);
       EXPECT_EQ(MinimumRecordLength(format), albtpu::testing::PointSize(format));
     }
   }
@@ -133,9 +134,22 @@ TEST(LasHeader, RejectsEvlrsThatAreNotAfterThePoints) {
 
 TEST(LasHeader, RejectsScalesAndOffsetsThatAreNotFinite) {
   const std::string file = BuildLas(Spec());
-  EXPECT_THAT(ErrorOf(With(file, las_field::kScaleZ, 0.0)), HasSubstr("z scale 0"));
-  EXPECT_THAT(ErrorOf(With(file, las_field::kOffsetZ, std::numeric_limits<double>::quiet_NaN())),
-              HasSubstr("offset nan"));
+  EXPECT_THAT(ErrorOf(With(file, las_field::kScale, 0.0)), HasSubstr("x scale 0"));
+  EXPECT_THAT(ErrorOf(With(file, las_field::kScale + 16, 0.0)), HasSubstr("z scale 0"));
+  EXPECT_THAT(ErrorOf(With(file, las_field::kOffset + 8, std::numeric_limits<double>::quiet_NaN())),
+              HasSubstr("y scale 0.001 and offset nan"));
+}
+
+TEST(LasHeader, ReadsTheBoundsAndTheFormOfTimes) {
+  LasSpec spec = Spec(4, 6);
+  spec.points[3] = {-5000, 20, 7, 40, 0};
+  std::string file = BuildLas(spec);
+  file[las_field::kGlobalEncoding] |= 1;
+  const absl::StatusOr<LasHeader> header = Parse(file);
+  ASSERT_TRUE(header.ok());
+  EXPECT_EQ(header->least, (std::array{-5.0, 0.0, 0.0}));
+  EXPECT_EQ(header->greatest, (std::array{0.0, 0.02, 0.007}));
+  EXPECT_TRUE(header->adjusted_gps_time);
 }
 
 TEST(LasHeader, SurvivesAnyWrongByte) {

@@ -1,0 +1,47 @@
+// The track of the sensor for the points of one file: from trajectory files, compared with the rays that the returns
+// tell, or from these rays alone.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "budget/beams/return_pair.h"
+#include "budget/beams/sensor_track.h"
+#include "survey/beams/beam_plan.h"
+#include "survey/beams/local_frame.h"
+#include "survey/trajectories/map_frame.h"
+#include "survey/trajectories/trajectory_checks.h"
+#include "survey/trajectories/trajectory_time.h"
+
+namespace albtpu::client {
+
+// What is known of a file before its track.
+struct TrackedFile {
+  std::string name;  // For messages.
+  LocalFrame frame;
+  std::shared_ptr<const MapFrame> map;  // May be null where the track comes from the returns.
+  PointTimes times;                     // Of the chosen points.
+  PointExtent extent;                   // Of the chosen points.
+  std::vector<AirRay> rays;             // In order of time, in the local frame.
+  std::uint64_t pairs = 0;              // Pairs of returns, of which the rays are a sample.
+  std::string remark;                   // Why there may be few pairs; may be empty.
+};
+
+struct FileTrack {
+  std::unique_ptr<const SensorTrack> track;
+  nlohmann::ordered_json json;     // For a summary.
+  std::vector<std::string> notes;  // For the user, a line each.
+};
+
+// From the trajectory files of the plan that overlap the points in time and lie near them. Fails when they do not, and
+// when the rays disagree with the track; the message names the cause as far as it can be told.
+absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan);
+
+// From the rays, of water of index `index`. Fails when they are too few to tell where the sensor was.
+absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index);
+
+}  // namespace albtpu::client

@@ -1,0 +1,109 @@
+#include "survey/las/las_beams.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "survey/beams/file_track.h"
+#include "survey/beams/pair_rays.h"
+
+namespace albtpu::client {
+namespace {
+
+// Times are needed to find the position of the sensor or the water level at a point.
+absl::Status CheckTimes(const LasReader& reader, const BeamPlan& plan) {
+  if (HasGpsTime(reader.header().point_format)) return absl::OkStatus();
+  if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(
+      reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+      "), so neither a trajectory nor water levels by time can be used; give --scanner or --incidence and "
+      "one "
+      "--water-level, or a file of another point format"));
+}
+
+TrackedFile FileOf(const LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
+                   const WaterHeights& water, double index) {
+  return {.name = reader.name(),
+          .frame = place.frame,
+          .map = place.map,
+          .times = {.span = {prescan.first_time, prescan.last_time},
+                    .form = reader.header().adjusted_gps_time ? PointTimeForm::kAdjustedStandard
+                                                              : PointTimeForm::kWeekSeconds},
+          .extent = {.x_min = prescan.least[0],
+                     .x_max = prescan.greatest[0],
+                     .y_min = prescan.least[1],
+                     .y_max = prescan.greatest[1]},
+          .rays = RaysOfPairs(prescan.pairs, water, place.frame, index),
+          .pairs = prescan.pair_count,
+          .remark = prescan.is_scattered()
+                        ? absl::StrCat(prescan.alone, " of ", prescan.of_several,
+                                       " returns of pulses with several lie alone in the file, whose points "
+                                       "are sorted by place or incomplete")
+                        : ""};
+}
+
+}  // namespace
+
+absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a position.
+  const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
+  const bool all_zero = file.times.span.first == 0 && file.times.span.last == 0;
+  if (all_zero || !(file.times.span.first <= file.times.span.last)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(reader.name(), ": the GPS times of its points are all ", all_zero ? "0" : "no numbers",
+                     ", so that no position of the sensor belongs to them; "
+                     "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
+  }
+  absl::StatusOr<FileTrack> track = std::holds_alternative<TrajectoryFromFiles>(plan.source)
+                                        ? TrackFromFiles(file, plan)
+                                        : TrackFromReturns(file, plan.refractive_index);
+  if (!track.ok()) return track.status();
+  track_ = std::move(track->track);
+  json_["trajectory"] = std::move(track->json);
+  notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
+  if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
+    notes_.push_back(
+        "most returns of one pulse do not lie side by side in the file, so that few points have the water "
+        "surface "
+        "of their own pulse; sort the points by GPS time for that");
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader,
+                                                         const LasAnnotation& annotation) {
+  const BeamPlan& plan = annotation.plan;
+  if (absl::Status status = CheckTimes(reader, plan); !status.ok()) return status;
+  std::unique_ptr<LasBeams> beams(new LasBeams());
+  absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
+  if (!place.ok()) return place.status();
+  beams->place_ = *std::move(place);
+  if (plan.has_track() && !beams->place_.remark.empty()) beams->notes_.push_back(beams->place_.remark);
+  if (plan.water_level_file.has_value()) {
+    absl::StatusOr<WaterLevelSeries> levels = ReadWaterLevels(
+        *plan.water_level_file,
+        reader.header().adjusted_gps_time ? PointTimeForm::kAdjustedStandard : PointTimeForm::kWeekSeconds);
+    if (!levels.ok()) return levels.status();
+    beams->levels_ = *std::move(levels);
+  }
+  if (plan.has_track() || !plan.water_classes.empty()) {
+    absl::StatusOr<LasPrescan> prescan =
+        Prescan(reader, beams->place_.frame,
+                {.classes = annotation.ClassesOf(reader.header().point_format),
+                 .water_classes = plan.water_classes,
+                 .pairs = plan.has_track(),
+                 .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt});
+    if (!prescan.ok()) return prescan.status();
+    beams->prescan_ = *std::move(prescan);
+  }
+  const WaterHeights water = {
+      .surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
+      .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
+      .level = plan.water_level};
+  if (plan.has_track()) {
+    if (absl::Status status = beams->FindTrack(reader, plan, water); !status.ok()) return status;
+  }
+  beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get());
+  return beams;
+}
+
+}  // namespace albtpu::client

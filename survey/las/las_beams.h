@@ -1,0 +1,45 @@
+// Where the beams of a LAS file went: everything that is found out about the file before its points are annotated.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "budget/beams/sensor_track.h"
+#include "survey/beams/point_beams.h"
+#include "survey/las/las_chunk.h"
+#include "survey/las/las_place.h"
+#include "survey/las/las_prescan.h"
+#include "survey/las/las_reader.h"
+
+namespace albtpu::client {
+
+class LasBeams {
+ public:
+  // Reads the file once where surface returns or a trajectory are wanted. `annotation` must outlive the result.
+  static absl::StatusOr<std::unique_ptr<LasBeams>> Find(const LasReader& reader,
+                                                        const LasAnnotation& annotation);
+
+  const BeamGeometry& geometry() const { return *geometry_; }
+  bool has_surface_returns() const { return prescan_.surface_returns > 0; }
+
+  nlohmann::ordered_json Json() const { return json_; }
+  std::vector<std::string> Notes() const { return notes_; }
+
+ private:
+  LasBeams() = default;
+  absl::Status FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
+
+  LasPlace place_;
+  LasPrescan prescan_;
+  std::optional<WaterLevelSeries> levels_;
+  std::unique_ptr<const SensorTrack> track_;
+  std::optional<BeamGeometry> geometry_;
+  nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
+  std::vector<std::string> notes_;
+};
+
+}  // namespace albtpu::client

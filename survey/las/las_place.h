@@ -1,0 +1,25 @@
+// Where a LAS file lies: its coordinate system, its units, and the local frame in which its points are compared.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "survey/beams/beam_plan.h"
+#include "survey/beams/local_frame.h"
+#include "survey/las/las_reader.h"
+#include "survey/trajectories/map_frame.h"
+
+namespace albtpu::client {
+
+struct LasPlace {
+  LocalFrame frame;                     // Around the middle of the file.
+  std::shared_ptr<const MapFrame> map;  // Null if the coordinate system is not known and need not be.
+  std::string remark;  // What the user should know about the coordinate system; may be empty.
+};
+
+// The vertical unit is that of the plan, or that of the coordinate system, or metres. Fails when the coordinate system
+// is in feet without saying whether heights are, and when trajectory files need one and there is none.
+absl::StatusOr<LasPlace> PlaceOf(const LasReader& reader, const BeamPlan& plan);
+
+}  // namespace albtpu::client

@@ -1,0 +1,170 @@
+"""Wrong trajectories are refused by name, right ones are not.
+
+Each wrong one is made from the right one of a simulated survey by the mistake that people make.
+"""
+
+import numpy as np
+
+import programs
+from programs import query
+from simulated_survey import SimulatedSurvey
+
+DEGREE = np.pi / 180
+FOOT = 0.3048  # m, exact
+SCANNERS = ("palmer", "raster", "ellipse")
+
+
+def without_wander(records):
+    """The wander angle is forgotten: heading and velocities stay in the wander frame."""
+    records = records.copy()
+    records[:, 10] = 0
+    return records
+
+
+class WrongTrajectoryTest(programs.Test):
+    def survey(self, *flags, name="survey"):
+        folder = self.folder / name
+        folder.mkdir(exist_ok=True)
+        return SimulatedSurvey(folder, "--seconds", 20, *flags)
+
+    def query(self, survey, trajectory, *flags, lever_arm="0.3,-0.2,0.5"):
+        output = self.folder / "out.las"
+        output.unlink(missing_ok=True)
+        arm = ("--lever-arm", lever_arm) if lever_arm else ()
+        return query("las", survey.las, output, "--trajectory", trajectory, *arm, "--water-level", survey.water_level,
+                     "--classes", 40, "--divergence", 1, "--wind-speed", 6, "--table", self.table, *flags)
+
+    def assert_refused(self, cause, survey, trajectory, *flags, **keywords):
+        """`cause` is a regular expression that the message contains, in any case."""
+        result = self.query(survey, trajectory, *flags, **keywords)
+        self.assertNotEqual(result.returncode, 0, f"accepted: {result.stderr}")
+        last = result.stderr.rstrip("\n").split("\n")[-1]
+        self.assertTrue(last.startswith("albtpu-query: "), result.stderr)
+        self.assertRegex(last, f"(?i){cause}")
+        self.assertFalse((self.folder / "out.las").exists(), "something was written")
+
+    def test_right_ones_are_not_refused(self):
+        for seed in range(100, 104):
+            for scanner in SCANNERS:
+                with self.subTest(seed=seed, scanner=scanner):
+                    rough = ("--wave-height", 0.3, "--range-noise", 0.02) if seed % 2 else ()
+                    survey = self.survey("--seed", seed, "--scanner", scanner,
+                                         "--course", 77 * seed % 360, "--altitude", 300 + 75 * (seed % 5), *rough)
+                    for trajectory in (survey.sbet, survey.ascii)[:1 + (seed == 100)]:
+                        result = self.query(survey, trajectory)
+                        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_wrong_times(self):
+        for scanner in SCANNERS:
+            survey = self.survey("--scanner", scanner, "--seed", 7)
+            with self.subTest("UTC for GPS", scanner=scanner):
+                utc = survey.write_sbet("wrong.out", time=lambda t: t - 18)
+                self.assert_refused("utc", survey, utc)
+        with self.subTest("another week"):
+            # SBETs do not name the week: of another one are the records at other times, or at other places.
+            later = survey.write_sbet("wrong.out", time=lambda t: t + 2 * 86400)
+            self.assert_refused("no record at the times of the points", survey, later)
+            elsewhere = self.survey("--seed", 7, "--origin", "27.2,-80.1", name="other")
+            self.assert_refused("another week", survey, elsewhere.sbet)
+
+    def test_wrong_angles(self):
+        survey = self.survey("--seed", 8)
+        with self.subTest("latitude and longitude swapped"):
+            records = survey.records()
+            records[:, [1, 2]] = records[:, [2, 1]]
+            self.assert_refused("exchanged", survey, survey.write_sbet("wrong.out", records))
+            swapped = survey.write_ascii("wrong.txt", lambda c: c[:, [0, 2, 1, *range(3, 15)]])
+            self.assert_refused("exchanged", survey, swapped)
+        with self.subTest("degrees for radians"):
+            names = ("latitude", "longitude", "roll", "pitch", "heading", "wander")
+            degrees = survey.write_sbet("wrong.out", **{name: lambda a: a / DEGREE for name in names})
+            self.assert_refused("are in degrees", survey, degrees)
+            only_position = survey.write_sbet("wrong.out", **{name: lambda a: a / DEGREE for name in names[:2]})
+            self.assert_refused("are in degrees", survey, only_position)
+
+            def to_radians(columns):
+                columns[:, [1, 2, 6, 7, 8]] *= DEGREE
+                return columns
+            self.assert_refused("are in radians", survey, survey.write_ascii("wrong.txt", to_radians))
+
+    def test_a_heading_without_its_wander(self):
+        for scanner in SCANNERS:
+            with self.subTest(scanner=scanner):
+                survey = self.survey("--scanner", scanner, "--seed", 9, "--wander", 20)
+                path = survey.write_sbet("wrong.out", without_wander(survey.records()))
+                self.assert_refused("wander", survey, path)
+
+    def test_wrong_coordinate_systems(self):
+        survey = self.survey("--seed", 10, "--origin", "27,-80.1")
+        with self.subTest("points that name the next zone"):
+            las = survey.las.read_bytes()
+            wrong = las.replace(b"zone 17N", b"zone 16N").replace(b'"central_meridian",-81', b'"central_meridian",-87')
+            wrong = wrong.replace(b'"EPSG","32617"', b'"EPSG","32616"')
+            self.assertNotEqual(las, wrong)
+            survey.las.write_bytes(wrong)
+            for trajectory in (survey.sbet, survey.ascii):
+                self.assert_refused("zone 17", survey, trajectory)
+
+    def test_x_and_y_in_the_next_zone_change_nothing(self):
+        # Longitude and latitude stand beside them, and are what counts: a trajectory may be exported in any system.
+        outputs = []
+        for grid in ("utm17n", "utm16n"):
+            trajectory = self.survey("--seed", 10, "--grid", grid, name=grid).ascii
+            survey = self.survey("--seed", 10)
+            survey.ascii.write_bytes(trajectory.read_bytes())
+            result = self.query(survey, survey.ascii, "--details")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            outputs.append((trajectory.read_bytes(), (self.folder / "out.las").read_bytes()))
+        self.assertNotEqual(outputs[0][0], outputs[1][0])
+        self.assertEqual(outputs[0][1], outputs[1][1])
+
+    def test_feet(self):
+        survey = self.survey("--seed", 12, "--water-level", 3)
+        with self.subTest("heights of the SBET"):
+            feet = survey.write_sbet("wrong.out", height=lambda h: h / FOOT)
+            self.assert_refused("feet", survey, feet)
+        with self.subTest("X, Y and Z of an ASCII trajectory"):
+            def to_feet(columns):
+                columns[:, 3:6] /= FOOT
+                return columns
+            self.assert_refused("feet", survey, survey.write_ascii("wrong.txt", to_feet))
+
+    def test_a_geoid_separation_left_out(self):
+        for scanner in SCANNERS:
+            for separation in (-25, 25):
+                with self.subTest(scanner=scanner, separation=separation):
+                    survey = self.survey("--scanner", scanner, "--seed", 13, "--geoid-separation", separation)
+                    self.assert_refused("geoid", survey, survey.sbet)
+                    result = self.query(survey, survey.sbet, "--geoid-separation", separation)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_wrong_water_level_is_named_beside_the_height_of_the_trajectory(self):
+        # Returns cannot tell which of the two is wrong.
+        survey = self.survey("--seed", 13, "--water-level", -25)
+        survey.water_level = 25
+        self.assert_refused("--water-level is about 5[0-9] m too high", survey, survey.sbet)
+
+    def test_another_flight(self):
+        # Geometry cannot tell what another flight is; the message says what disagrees and by how much.
+        survey = self.survey("--seed", 14)
+        others = {"another place": ("--origin", "27.2,-80.1"), "another line": ("--course", 37),
+                  "another height": ("--altitude", 480), "the way back": ("--course", 215)}
+        for what, flags in others.items():
+            with self.subTest(what):
+                other = self.survey("--seed", 15, *flags, name="other")
+                self.assert_refused(r"[0-9] (k?m|degrees)\b", survey, other.sbet)
+
+    def test_a_lever_arm_of_5_m_left_out(self):
+        # 4 m to a side turn the beams by 0.5 degree at 400 m. 5 m of height alone turn them by 0.23, below the limit of
+        # 0.3: rays know the height less well, because an index of water wrong by 0.01 already moves it by 3 m.
+        for scanner in SCANNERS:
+            for arm in ("5,0,0", "0,-5,0", "4,0,-3", "0,4,3"):
+                with self.subTest(scanner=scanner, arm=arm):
+                    survey = self.survey("--scanner", scanner, "--seed", 16, "--lever-arm", arm)
+                    self.assert_refused("lever", survey, survey.sbet, lever_arm=None)
+                    result = self.query(survey, survey.sbet, lever_arm=arm)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+
+
+if __name__ == "__main__":
+    programs.main()
