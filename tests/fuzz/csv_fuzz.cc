@@ -1,9 +1,13 @@
 // Arbitrary text as CSV records of pulses is rejected with a message that names a line, or read without losing a byte.
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "survey/csv/csv_pulses.h"
 #include "survey/csv/csv_reader.h"
@@ -78,25 +82,64 @@ void CheckNumbers(const PulseBatch& pulses) {
   }
 }
 
+// The value of a cell by its column's name; none if there is no such column or if the cell is empty.
+std::optional<float> Value(const CsvRecord& header, const CsvRecord& record, std::string_view name) {
+  for (std::size_t i = 0; i < header.cell_count(); ++i) {
+    if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size())) {
+      return ParseFloat(record.Cell(i));
+    }
+  }
+  return std::nullopt;
+}
+
+// An azimuth that follows from directions is their difference, and absent where one of them is.
+void CheckAzimuth(const CsvRecord& header, const CsvRecord& record, bool has_azimuth,
+                  const CsvPulseBatches& batches) {
+  const std::optional<float> beam = Value(header, record, "beam_azimuth"),
+                             wind = Value(header, record, "wind_from");
+  ALBTPU_MUST(has_azimuth == (beam.has_value() && wind.has_value()));
+  if (!has_azimuth) return;
+  const float azimuth = batches.with_azimuth.axis[Index(AxisId::kAzimuth)].back();
+  const double expected = static_cast<double>(*beam) - (static_cast<double>(*wind) + 180);
+  constexpr double kGreatest = std::numeric_limits<float>::max();
+  if (std::isfinite(expected)) {
+    ALBTPU_MUST(azimuth == static_cast<float>(std::clamp(expected, -kGreatest, kGreatest)));
+  } else {
+    ALBTPU_MUST(!std::isfinite(azimuth));
+  }
+}
+
 // Every record that is not blank becomes one pulse, up to the first malformed record.
 void CheckPulses(const CsvBlock& block) {
   CsvRecords records("file", block);
   CsvRecord header, record;
   const absl::StatusOr<bool> has_header = records.Next(header);
   if (!has_header.ok() || !*has_header) return;
-  FixedCoordinates fixed;
-  if (!absl::StrContains(block.text, "wind_speed")) fixed[Index(AxisId::kWindSpeed)] = 5.0f;
+  FixedInputs fixed;
+  if (!absl::StrContains(block.text, "wind_speed")) fixed[PulseInput::kWindSpeed] = 5.0f;
+  if (!absl::StrContains(block.text, "divergence") && !absl::StrContains(block.text, "footprint")) {
+    fixed[PulseInput::kDivergence] = 1.5f;
+  }
   static const std::vector<std::string> appended = {"thu", "tvu"};
   const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind("file", header, fixed, appended);
   if (!columns.ok()) return MustNameALine(columns.status());
   CsvPulseBatches batches;
   columns->Clear(batches);
+  const auto has_column = [&](std::string_view name) {
+    for (std::size_t i = 0; i < header.cell_count(); ++i) {
+      if (absl::StripAsciiWhitespace(header.Cell(i)) == absl::string_view(name.data(), name.size()))
+        return true;
+    }
+    return false;
+  };
   std::size_t count = 0;
   for (absl::StatusOr<bool> more = records.Next(record); more.ok() && *more; more = records.Next(record)) {
     if (record.blank()) continue;
     const absl::StatusOr<bool> has_azimuth = columns->Append(record, batches);
     if (!has_azimuth.ok()) return MustNameALine(has_azimuth.status());
     ++count;
+    const bool by_directions = has_column("beam_azimuth") && has_column("wind_from");
+    if (by_directions) CheckAzimuth(header, record, *has_azimuth, batches);
   }
   ALBTPU_MUST(batches.with_azimuth.size + batches.without_azimuth.size == count);
   for (const PulseBatch* batch : {&batches.with_azimuth, &batches.without_azimuth}) {

@@ -34,22 +34,27 @@ void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
   for (const std::uint64_t start : {header.start_of_evlrs, header.start_of_waveform_packet}) {
     ALBTPU_MUST(start == 0 || (header.end_of_points() <= start && start <= file_size));
   }
-  ALBTPU_MUST(std::isfinite(header.offset_z) && std::isfinite(header.scale_z) && header.scale_z != 0);
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
+    ALBTPU_MUST(std::isfinite(header.offset[axis]) && std::isfinite(header.scale[axis]) &&
+                header.scale[axis] != 0);
+  }
 }
 
-// The result starts with the existing description and ends with our two entries of 192 bytes.
+// The result starts with the existing description and ends with our entries of 192 bytes.
 void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   constexpr std::size_t kEntry = 192, kNameField = 4;
-  const absl::StatusOr<std::string> ours =
-      DescribeUncertainty(kName, described, extra_bytes, Coverage::kTwoSigma);
+  const std::vector<AppendedFloat> appended = AppendedFloats(Coverage::kTwoSigma, true);
+  const absl::StatusOr<std::string> ours = DescribeAppended(kName, described, extra_bytes, appended);
   if (!ours.ok()) return MustExplain(ours.status());
-  ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + 2 * kEntry);
+  ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + appended.size() * kEntry);
   ALBTPU_MUST(ours->size() <= kLargestExtraBytesRecord);
   ALBTPU_MUST(ours->substr(0, described.size()) == described);
-  ALBTPU_MUST(ours->substr(ours->size() - kEntry + kNameField, kTvuName.size()) == kTvuName);
-  ALBTPU_MUST(ours->substr(ours->size() - 2 * kEntry + kNameField, kThuName.size()) == kThuName);
-  const absl::StatusOr<std::string> again =
-      DescribeUncertainty(kName, *ours, extra_bytes + kAppendedBytes, Coverage::kTwoSigma);
+  for (std::size_t i = 0; i < appended.size(); ++i) {
+    const std::size_t entry = ours->size() - (appended.size() - i) * kEntry;
+    ALBTPU_MUST(ours->substr(entry + kNameField, appended[i].name.size()) == appended[i].name);
+  }
+  const std::size_t more = appended.size() * sizeof(float);
+  const absl::StatusOr<std::string> again = DescribeAppended(kName, *ours, extra_bytes + more, appended);
   ALBTPU_MUST(absl::IsInvalidArgument(again.status()));
 }
 

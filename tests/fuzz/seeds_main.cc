@@ -2,6 +2,7 @@
 //
 // Writes FOLDER/TARGET/NUMBER, the inputs with which fuzzing of each target begins. The builders of the tests make
 // them, so they follow the formats.
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -9,12 +10,14 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
 #include "tests/survey/las/las_builder.h"
+#include "tests/survey/trajectories/formats/flight_text.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace {
@@ -56,13 +59,16 @@ checked_pulses = 4
 
 std::vector<std::string> CsvSeeds() {
   const std::string header = "wind_speed,fetch,incidence,azimuth,footprint,depth";
-  return {header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
-          "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
-          "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
-          header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
-          "a;b;c\n1;2;3\n",
-          "incidence,footprint,depth,thu\n1,2,3,4\n",
-          "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
+  return {
+      header + "\n5,inf,12,40,0.5,8\n6,1e4,0,,0.25,0\n",
+      "fetch,incidence,footprint,depth,name\r\n1000,12.5, 0.5 ,8,\"a \"\"b\"\", c\"\r\n\r\n,1,1,1,x\r\n",
+      "\xEF\xBB\xBF\"depth\",\"footprint\",incidence\n\"1\",nan,-1e99\n3,0x10,4",
+      header + ",note\n1,2,3,4,5,6,\"over\ntwo lines\"\n1,2,3,4,5,6,\n",
+      "incidence,depth,beam_azimuth,wind_from,altitude,divergence\n12,8,100,250,400,1.5\n12,8,,250,1e39,-1\n",
+      "incidence,depth,altitude,beam_azimuth,wind_from,azimuth\n12,8,400,1,2,3\n",
+      "a;b;c\n1;2;3\n",
+      "incidence,footprint,depth,thu\n1,2,3,4\n",
+      "incidence,footprint,depth\n1,\"2\"x,3\n\"open"};
 }
 
 std::vector<std::string> LasSeeds() {
@@ -155,6 +161,72 @@ std::vector<std::string> SealSeeds() {
   return seeds;
 }
 
+// Short flights, so that inputs are: 0.1 s is what the check of velocities needs.
+testing::FlightSpec ShortFlight() {
+  testing::FlightSpec spec;
+  spec.lines = 7;
+  spec.decimals = 7;
+  return spec;
+}
+
+std::vector<std::string> SbetSeeds() {
+  std::vector<std::string> seeds;
+  testing::FlightSpec spec = ShortFlight();
+  seeds.push_back(testing::SbetBytes(spec));
+  seeds.push_back(seeds.back().substr(0, 300));
+  spec.start = 604799.95;
+  spec.change = [](testing::FlightLine& line) { line.time = std::fmod(line.time, 604800); };
+  seeds.push_back(testing::SbetBytes(spec));
+  spec.change = [](testing::FlightLine& line) { std::swap(line.latitude, line.longitude); };
+  seeds.push_back(testing::SbetBytes(spec));
+  spec.change = [](testing::FlightLine& line) { line.time = 2 * line.time - 313200; };
+  spec.speed = 100;
+  seeds.push_back(testing::SbetBytes(spec));
+  return seeds;
+}
+
+std::vector<std::string> SmrmsgSeeds() {
+  return {testing::SmrmsgBytes(100, 1), testing::SmrmsgBytes(313200, 6),
+          testing::SmrmsgBytes(604798, 3) + testing::SmrmsgBytes(0, 3),
+          testing::SmrmsgBytes(5, 2) + testing::SmrmsgBytes(90, 2),
+          testing::SmrmsgBytes(5, 2).substr(0, 150)};
+}
+
+std::vector<std::string> AsciiTrajectorySeeds() {
+  std::vector<std::string> seeds;
+  testing::FlightSpec spec = ShortFlight();
+  seeds.push_back(testing::FlightText(spec));
+  spec.separator = ",";
+  spec.header = "time,lon,lat,X,Y,Z,roll,pitch,heading,stdX,stdY,stdZ,stdroll,stdpitch,stdheading\n";
+  seeds.push_back(testing::FlightText(spec));
+  spec = ShortFlight();
+  spec.separator = "\t";
+  spec.columns = 20;
+  spec.header =
+      " TIME, DISTANCE, EASTING\n\n(time in Sec, distance in Meters, position in Meters, lat, long in "
+      "Degrees, "
+      "orientation angles and SD in Degrees, velocity in Meter/Sec, position SD in Meters)\n";
+  seeds.push_back(testing::FlightText(spec));
+  spec = ShortFlight();
+  spec.start = 604799.95;
+  spec.change = [](testing::FlightLine& line) { line.time = std::fmod(line.time, 604800); };
+  seeds.push_back(testing::FlightText(spec));
+  spec.change = [](testing::FlightLine& line) { std::swap(line.latitude, line.longitude); };
+  seeds.push_back(testing::FlightText(spec));
+  seeds.push_back("1 2 3\n");
+  return seeds;
+}
+
+std::vector<std::string> WaterLevelSeeds() {
+  return {
+      "time,water_level\n2016-05-11T14:00:00Z,-23.02\n2016-05-11T14:06:00Z,-23.05\n2016-05-11 18:00Z,-23\n",
+      "time,water_level\n313200,1\n313560.5,1.5\n400000,2\n",
+      "\xEF\xBB\xBFstation,\"water_level\", time \r\nA,1,604500\r\n\r\nB,2e0,300\r\n",
+      "time,water_level\n2016-12-31T23:59:59.5Z,1\n2017-01-01T00:00:00Z,2\n",
+      "time,water_level\n1,x\n",
+      "time,level\n"};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -162,10 +234,18 @@ int main(int argc, char** argv) {
     std::cerr << "albtpu_fuzz_seeds: no folder; give the folder to write to\n";
     return 2;
   }
-  const std::map<std::string, std::vector<std::string>> seeds = {
-      {"campaign", CampaignSeeds()}, {"columns", ColumnSeeds()}, {"csv", CsvSeeds()},
-      {"csv_file", CsvSeeds()},      {"las", LasSeeds()},        {"las_head", LasSeeds()},
-      {"seal", SealSeeds()},         {"table", TableSeeds()}};
+  const std::map<std::string, std::vector<std::string>> seeds = {{"campaign", CampaignSeeds()},
+                                                                 {"columns", ColumnSeeds()},
+                                                                 {"csv", CsvSeeds()},
+                                                                 {"csv_file", CsvSeeds()},
+                                                                 {"las", LasSeeds()},
+                                                                 {"las_head", LasSeeds()},
+                                                                 {"seal", SealSeeds()},
+                                                                 {"table", TableSeeds()},
+                                                                 {"sbet", SbetSeeds()},
+                                                                 {"smrmsg", SmrmsgSeeds()},
+                                                                 {"ascii_trajectory", AsciiTrajectorySeeds()},
+                                                                 {"water_level", WaterLevelSeeds()}};
   for (const auto& [target, inputs] : seeds) {
     const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
     std::filesystem::create_directories(folder);
