@@ -1,9 +1,11 @@
 """`albtpu-query las` from file to file, in its own process and through a server, compared with a plain copy.
 
-Usage: las_bench.py BUILD [--millions N] [--sample IN.las --classes N --water-level Z] [--folder DIR]
+Usage: las_bench.py BUILD [--millions N] [--sample IN.las --flags "FLAGS"] [--folder DIR]
 
-The input repeats the sample, the survey beside the checkout or else a simulated flight. Prints a Markdown table: points
-per second of elapsed time, processor seconds of client and server, and the peak memory of each.
+The input repeats the points of a simulated survey, times included. The beams come from its SBET over the local surface
+of its water returns; with --details, their geometry is written, too. A sample of another survey needs its own flags,
+such as "--trajectory-from-returns --water-level -23.09 --classes 26". Prints a Markdown table: points per second of
+elapsed time, processor seconds of client and server, and the peak memory of each.
 """
 
 import argparse
@@ -21,10 +23,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests" / "e2e"))
 import serving  # noqa: E402
 
-SURVEY = SOURCE.parent / "shared" / "data" / "florida_topobathy_snippet.las"
 PIECE = 64 << 20
-FLAGS = ("--wind-speed", "6.5", "--fetch", "30000", "--altitude", "400", "--divergence", "1.5", "--wind-from", "100",
-         "--flight-direction", "30", "--overwrite")
+FLAGS = ("--wind-speed", "6.5", "--fetch", "30000", "--divergence", "1.5", "--wind-from", "100", "--overwrite")
 
 
 def repeat(sample, target, points):
@@ -95,8 +95,8 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--millions", type=float, default=50)
     parser.add_argument("--sample", type=pathlib.Path)
-    parser.add_argument("--classes", default="26")
-    parser.add_argument("--water-level", default="-23.09")
+    parser.add_argument("--flags", default="", help="that say where the beams of the sample went")
+    parser.add_argument("--details", action="store_true")
     parser.add_argument("--table", type=pathlib.Path, default=SOURCE / "tables" / "shipped" / "survey.h5")
     parser.add_argument("--folder", help="where to write the files, which need three times the size of the input")
     options = parser.parse_args()
@@ -104,13 +104,14 @@ def main():
     points = int(options.millions * 1e6)
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
         folder = pathlib.Path(folder)
-        sample, classes, level = options.sample or SURVEY, options.classes, options.water_level
-        if options.sample is None and not SURVEY.exists():
-            sample, classes, level = folder / "flight.las", "40", "0"
-            subprocess.run([options.build / "tests/survey/albtpu_simulated_flight", sample], check=True)
+        sample, flags = options.sample, options.flags.split()
+        if sample is None:
+            subprocess.run([options.build / "tests/survey/albtpu_simulated_survey", folder, "--seconds", "60"], check=True)
+            sample = folder / "flight.las"
+            flags += ["--trajectory", folder / "sbet.out", "--lever-arm", "0.3,-0.2,0.5", "--water-classes", "41"]
         source, target = folder / "in.las", folder / "out.las"
         repeat(sample, source, points)
-        flags = ("--classes", classes, "--water-level", level, *FLAGS)
+        flags += [*FLAGS, *(["--details"] if options.details else [])]
         query = (programs / "albtpu-query", "las", source, target, *flags)
         print("| what | million points/s | s | CPU s, client | CPU s, server | MB, client | MB, server |\n"
               "|---|---|---|---|---|---|---|")
