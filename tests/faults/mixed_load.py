@@ -34,7 +34,7 @@ from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 from serving import PATIENCE, Server, connect
 
-FLIGHT = ("--water-level", "0", "--wind-speed", "5", "--footprint", "1")
+FLIGHT = ("--scanner", "across-track", "--water-level", "0", "--wind-speed", "5", "--footprint", "1")
 MOST_GROWTH = 1.05
 PAUSES = {"replace_table": 2, "silent_connections": 0.5, "strange_connections": 0.5, "invalid_requests": 0.1}  # s
 FLAT_FROM = 10  # Minutes; a shorter run has too little load of each kind to judge whether memory is flat.
