@@ -9,7 +9,7 @@ source ./packages.sh
 campaign=generator/campaigns/quick.toml
 table=out/tables/quick.h5
 sample=../shared/data/florida_topobathy_snippet.las  # From a real survey; optional, not part of this repository.
-simulated=out/simulated_flight.las
+simulated=out/simulated
 annotated=out/annotated.las
 
 install_packages
@@ -17,7 +17,7 @@ install_packages
 echo "== Building"
 cmake --preset release >/dev/null
 cmake --build --preset release -j "$(nproc)" \
-  --target albtpu-generate albtpu-serve albtpu-query albtpu_simulated_flight
+  --target albtpu-generate albtpu-serve albtpu-query albtpu_simulated_survey
 cmake --install build/release --prefix out >/dev/null
 
 echo "== Making $table by Monte Carlo from $campaign"
@@ -38,20 +38,23 @@ echo "$ready"
 address=${BASH_REMATCH[1]}
 
 echo "== Annotating a flight line through the service"
-conditions=(--wind-speed 5 --footprint 0.6 --s44-order 1b)
+conditions=(--wind-speed 5 --divergence 1 --s44-order 1b --details)
 if [[ -r $sample ]]; then
   input=$sample
-  conditions+=(--classes 26 --water-level -23.09)
+  conditions+=(--trajectory-from-returns --classes 26 --water-level -23.09)
 else
-  echo "$sample is missing; using a simulated flight line."
-  input=$simulated
-  conditions+=(--water-level 0 --wind-from 250 --flight-direction 0)
-  build/release/tests/survey/albtpu_simulated_flight "$input"
+  echo "$sample is missing; using a simulated flight line and its trajectory."
+  input=$simulated/flight.las
+  conditions+=(--trajectory $simulated/sbet.out --lever-arm 0.3,-0.2,0.5 --water-classes 41 --water-level -25
+               --wind-from 250)
+  mkdir -p "$simulated"
+  build/release/tests/survey/albtpu_simulated_survey "$simulated"
 fi
 echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite
 
 echo "== Done"
-echo "$annotated has total_thu and total_tvu at each bathymetric point: 2 sigma, in m, of the sea surface alone."
+echo "$annotated has sea_thu and sea_tvu at each bathymetric point: 2 sigma, in m, of the sea surface alone,"
+echo "and the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
 echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"
