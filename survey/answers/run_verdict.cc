@@ -62,8 +62,7 @@ std::string RunVerdict::DeepNote() const {
   if (LeastDepthWithOtherSign().has_value()) return "";  // status() says more.
   return absl::StrFormat(
       "no %s is shallower than %g m (the least depth is %.1f m); unless the survey is that deep, check the "
-      "water "
-      "level and its vertical datum",
+      "water level and its vertical datum",
       record_, kRarelyAllDeeper, *all_.least_depth);
 }
 

@@ -127,8 +127,7 @@ absl::Status SetAzimuth(const BeamOptions& options, bool details, BeamPlan& plan
   if (plan.azimuth.has_value() && plan.wind_from.has_value()) {
     return UsageError(
         "las: the direction of the beam is given twice; give --azimuth (from downwind), or --wind-from and "
-        "the "
-        "true direction");
+        "the true direction");
   }
   if (plan.has_track()) return absl::OkStatus();
   const bool scanner = std::holds_alternative<AcrossTrackScan>(plan.source);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "survey/beams/file_track.h"
 #include "survey/beams/pair_rays.h"
 
@@ -16,8 +17,13 @@ absl::Status CheckTimes(const LasReader& reader, const BeamPlan& plan) {
   return absl::FailedPreconditionError(absl::StrCat(
       reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
       "), so neither a trajectory nor water levels by time can be used; give --scanner or --incidence and "
-      "one "
-      "--water-level, or a file of another point format"));
+      "one --water-level, or a file of another point format"));
+}
+
+// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in older
+// point formats water (9) and what NOAA used before.
+std::set<int> UsualSurfaceClasses(int point_format) {
+  return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
 }
 
 TrackedFile FileOf(const LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
@@ -63,10 +69,19 @@ absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, 
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
     notes_.push_back(
         "most returns of one pulse do not lie side by side in the file, so that few points have the water "
-        "surface "
-        "of their own pulse; sort the points by GPS time for that");
+        "surface of their own pulse; sort the points by GPS time for that");
   }
   return absl::OkStatus();
+}
+
+void LasBeams::NoteLevel() {
+  if (2 * prescan_.off_level <= prescan_.level_returns) return;
+  notes_.push_back(
+      absl::StrFormat("%d of %d returns from the water surface (by their class) lie more than %g m from "
+                      "--water-level, in the mean at "
+                      "%.2f; check the level, its unit and its vertical datum, or give --water-classes",
+                      prescan_.off_level, prescan_.level_returns, kLevelTolerance,
+                      prescan_.off_level_height / place_.frame.metres_per_z));
 }
 
 absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader,
@@ -91,9 +106,11 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader
                 {.classes = annotation.ClassesOf(reader.header().point_format),
                  .water_classes = plan.water_classes,
                  .pairs = plan.has_track(),
-                 .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt});
+                 .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
+                 .level_classes = UsualSurfaceClasses(reader.header().point_format)});
     if (!prescan.ok()) return prescan.status();
     beams->prescan_ = *std::move(prescan);
+    beams->NoteLevel();
   }
   const WaterHeights water = {
       .surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,

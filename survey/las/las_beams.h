@@ -31,6 +31,7 @@ class LasBeams {
 
  private:
   LasBeams() = default;
+  void NoteLevel();  // Where most returns from the surface lie far from the level.
   absl::Status FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
 
   LasPlace place_;

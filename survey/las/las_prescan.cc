@@ -26,7 +26,8 @@ struct Part {
   std::vector<double> times;
   std::vector<std::uint8_t> classes;
 
-  std::uint64_t chosen = 0, surface_returns = 0;
+  std::uint64_t chosen = 0, surface_returns = 0, level_returns = 0, off_level = 0;
+  double off_level_height = 0;  // Sum, m.
   std::array<double, 3> least, greatest;
   double first_time, last_time;
   SurfaceReturns surface;
@@ -37,15 +38,6 @@ struct Part {
 
 class PrescanWork {
  public:
-  // Two returns of one pulse, of classes that may belong to a pair.
-  void AddPair(const PulseReturn& a, const PulseReturn& b, std::vector<ReturnPair>& pairs) const {
-    const bool a_is_upper = a.position.z() >= b.position.z();
-    const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
-    if (!lower.chosen || upper.position.z() > highest_) return;
-    if ((upper.position - lower.position).norm() < kLeastSeparation) return;
-    pairs.push_back({a.time, upper.position, lower.position});
-  }
-
   PrescanWork(const LasReader& reader, const LocalFrame& frame, const LasPrescanOptions& options)
       : fields_(reader.header()),
         length_(reader.header().record_length),
@@ -55,6 +47,18 @@ class PrescanWork {
                                                  : std::numeric_limits<double>::infinity()) {
     for (const int point_class : options.classes) is_chosen_[point_class] = true;
     for (const int point_class : options.water_classes) is_water_[point_class] = true;
+    if (options.water_level.has_value()) {
+      for (const int point_class : options.level_classes) is_at_level_[point_class] = true;
+    }
+  }
+
+  // Two returns of one pulse, of classes that may belong to a pair.
+  void AddPair(const PulseReturn& a, const PulseReturn& b, std::vector<ReturnPair>& pairs) const {
+    const bool a_is_upper = a.position.z() >= b.position.z();
+    const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
+    if (!lower.chosen || upper.position.z() > highest_) return;
+    if ((upper.position - lower.position).norm() < kLeastSeparation) return;
+    pairs.push_back({a.time, upper.position, lower.position});
   }
 
   absl::Status operator()(Part& part) const {
@@ -66,7 +70,8 @@ class PrescanWork {
       part.classes[i] = static_cast<std::uint8_t>(fields_.Class(record));
       if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
     }
-    part.chosen = part.surface_returns = 0;
+    part.chosen = part.surface_returns = part.level_returns = part.off_level = 0;
+    part.off_level_height = 0;
     part.least.fill(std::numeric_limits<double>::infinity());
     part.greatest.fill(-std::numeric_limits<double>::infinity());
     part.first_time = std::numeric_limits<double>::infinity();
@@ -77,6 +82,7 @@ class PrescanWork {
     part.incomplete.clear();
     for (std::size_t i = 0; i < part.own; ++i) {
       if (is_water_[part.classes[i]]) AddSurface(part, i);
+      if (is_at_level_[part.classes[i]]) CompareWithLevel(part, i);
       if (is_chosen_[part.classes[i]]) AddChosen(part, i);
       if (pairs_ && std::isfinite(part.times[i])) AddPairs(part, i);
     }
@@ -95,6 +101,14 @@ class PrescanWork {
     const Eigen::Vector3d at = PositionOf(Record(part, i));
     part.surface.Add(at.x(), at.y(), part.times[i], at.z());
     ++part.surface_returns;
+  }
+
+  void CompareWithLevel(Part& part, std::size_t i) const {
+    const double height = PositionOf(Record(part, i)).z();
+    ++part.level_returns;
+    if (std::abs(height - highest_) <= kLevelTolerance) return;
+    ++part.off_level;
+    part.off_level_height += height;
   }
 
   void AddChosen(Part& part, std::size_t i) const {
@@ -155,13 +169,16 @@ class PrescanWork {
   std::size_t length_;
   LocalFrame frame_;
   bool pairs_;
-  double highest_;  // m; where the upper return of a pair may lie.
-  std::array<bool, kClassCount> is_chosen_ = {}, is_water_ = {};
+  double highest_;  // m; where the upper return of a pair may lie: the water level, if it is given.
+  std::array<bool, kClassCount> is_chosen_ = {}, is_water_ = {}, is_at_level_ = {};
 };
 
 void Merge(const Part& part, LasPrescan& prescan) {
   prescan.chosen += part.chosen;
   prescan.surface_returns += part.surface_returns;
+  prescan.level_returns += part.level_returns;
+  prescan.off_level += part.off_level;
+  prescan.off_level_height += part.off_level_height;  // The sum, until all parts are there.
   prescan.of_several += part.of_several;
   prescan.alone += part.alone;
   for (std::size_t axis = 0; axis < part.least.size(); ++axis) {
@@ -210,6 +227,7 @@ absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& fr
         return absl::OkStatus();
       });
   if (!status.ok()) return status;
+  if (prescan.off_level > 0) prescan.off_level_height /= static_cast<double>(prescan.off_level);
   if (prescan.surface_returns > 0) prescan.surface = surface.Finish();
   std::vector<ReturnPair> apart;
   for (const std::vector<PulseReturn>& pulse : incomplete.Take()) {

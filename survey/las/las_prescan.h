@@ -22,10 +22,14 @@ struct LasPrescanOptions {
   std::set<int> water_classes;        // Of returns from the water surface.
   bool pairs = false;                 // Look for pairs; needs GPS times.
   std::optional<double> water_level;  // In the file's unit: returns above it make no pair.
+  std::set<int> level_classes = {};   // Of returns that should lie at the water level.
 };
 
 // Records in a file in order of time that belong to one pulse lie at most this far apart.
 inline constexpr std::size_t kPulseReach = 16;
+
+// m; waves of Hs 6 m have three returns in four nearer to the level than this.
+inline constexpr double kLevelTolerance = 2;
 
 struct LasPrescan {
   std::uint64_t chosen = 0;  // Points of the chosen classes.
@@ -34,6 +38,10 @@ struct LasPrescan {
   std::array<double, 3> least, greatest;
   double first_time = std::numeric_limits<double>::infinity(), last_time = -first_time;
   std::uint64_t surface_returns = 0;
+  // Returns of `level_classes`, those of them that lie farther than kLevelTolerance from the water level, and the mean
+  // height [m] of these.
+  std::uint64_t level_returns = 0, off_level = 0;
+  double off_level_height = 0;
   std::optional<LocalWaterSurface> surface;  // If there are surface returns.
   // Two returns of one pulse at least 1 m apart, the lower one of a chosen class, neither of them noise or of the
   // surface: a sample in order of time.

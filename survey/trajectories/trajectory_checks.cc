@@ -169,14 +169,12 @@ absl::Status CheckNearPoints(const std::string& las, const TrajectoryTimeline& t
   if (cause.empty()) {
     cause =
         "another flight, such as one at the same hours of another week, which an SBET does not name, or "
-        "another "
-        "coordinate system";
+        "another coordinate system";
   }
   const GeographicPosition& sample = samples.front();
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s: at the times of its points the trajectory is %s away from them in %s (%s is at latitude %.4f and "
-      "longitude "
-      "%.4f degrees: %s); %s",
+      "longitude %.4f degrees: %s); %s",
       las, std::isfinite(distance) ? absl::StrFormat("%.1f km or more", distance / 1000) : "infinitely far",
       frame.crs_name(), timeline.runs().front().trajectory->name(), DegreesOfRadians(sample.latitude),
       DegreesOfRadians(sample.longitude), cause, remedy));

@@ -68,8 +68,7 @@ absl::Status CheckOverlap(const TimelineRun& a, const TimelineRun& b) {
   if (largest <= kLargestContradiction) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s: contradicts %s: at %.3f s their positions are %.2f m apart (limit %.1f m; two flights, or two "
-      "solutions of "
-      "one); give one trajectory for each time",
+      "solutions of one); give one trajectory for each time",
       b.trajectory->name(), a.trajectory->name(), at - a.offset, largest, kLargestContradiction));
 }
 

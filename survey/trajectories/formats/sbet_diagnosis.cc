@@ -210,8 +210,7 @@ absl::Status CheckHeadings(const std::string& name, std::span<const SbetPair> pa
   if (std::abs(angle) <= limit) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(
       "%s: its headings differ from its courses by %.1f degrees%s%s; give an SBET whose true heading is "
-      "platform "
-      "heading - wander angle",
+      "platform heading - wander angle",
       name, DegreesOfRadians(angle), turn->free_of_wind ? " on opposite courses, which wind does not do" : "",
       is_wander ? absl::StrFormat(" (its wander angle, %.1f degrees, was applied twice or not at all)",
                                   DegreesOfRadians(turn->wander))

@@ -57,6 +57,20 @@ TEST(LasPrescan, FindsPairsOfReturnsOfOnePulse) {
   EXPECT_EQ(prescan.surface_returns, 1u);
 }
 
+TEST(LasPrescan, ComparesReturnsFromTheSurfaceWithTheLevel) {
+  LasSpec spec;
+  spec.points = {Return(1, 0.5, kSurface, 1, 1), Return(2, -20, kSurface, 1, 1), Return(3, -22, kSurface, 1, 1),
+                 Return(4, -30, kBottom, 1, 1)};
+  LasPrescanOptions options = {
+      .classes = {kBottom}, .water_classes = {}, .pairs = true, .water_level = 0, .level_classes = {kSurface}};
+  const LasPrescan prescan = PrescanOf(spec, options);
+  EXPECT_EQ(prescan.level_returns, 3u);
+  EXPECT_EQ(prescan.off_level, 2u);
+  EXPECT_EQ(prescan.off_level_height, -21);
+  options.water_level = std::nullopt;
+  EXPECT_EQ(PrescanOf(spec, options).level_returns, 0u);
+}
+
 TEST(LasPrescan, LeavesReturnsAboveTheWaterLevelOut) {
   LasSpec spec;
   spec.points = {Return(1, 0.5, 1, 1, 2), Return(1, -3, kBottom, 2, 2)};
