@@ -25,8 +25,8 @@ class FittedTrack final : public SensorTrack {
  private:
   RayTrack track_;
   LocalFrame frame_;
-  // The convergence is taken as linear in the local coordinates. It is about (longitude - central meridian) sin(latitude),
-  // so that 15 km from the middle, a file leaves 1e-5 rad of it out.
+  // The convergence is taken as linear in the local coordinates. It is about (longitude - central meridian) times
+  // sin(latitude), so that 15 km from the middle, a file leaves 1e-5 rad of it out.
   double convergence_ = 0;
   Eigen::Vector2d convergence_slope_ = Eigen::Vector2d::Zero();  // rad/m
 };
