@@ -32,8 +32,8 @@ enum class Outcome {
 enum class Side { kBelow, kAbove };
 std::string_view Name(Side side);  // "below", "above"
 
-// The side of `coordinate`, which is outside the nodes of `axis`, the last of which is `last`. None on a folded axis: an
-// azimuth is on no side of the folded nodes. Coordinates compare as in Axis::Locate.
+// The side of `coordinate`, which is outside the nodes of `axis`, the last of which is `last`. None on a folded axis:
+// an azimuth is on no side of the folded nodes. Coordinates compare as in Axis::Locate.
 std::optional<Side> SideOf(const AxisSchema& axis, double last, double coordinate);
 
 // At 2 sigma, as in the table; see coverage.h for 95 %. NaN wherever there is no number.

@@ -5,8 +5,8 @@
 
 namespace albtpu::client {
 
-// x points to grid east, y to grid north, z up in the vertical datum of the points. Horizontal distances are true metres
-// at the origin: the scale of a map projection is divided out.
+// x points to grid east, y to grid north, z up in the vertical datum of the points. Horizontal distances are true
+// metres at the origin: the scale of a map projection is divided out.
 struct LocalFrame {
   double origin_x = 0, origin_y = 0;  // In the horizontal unit of the points.
   double metres_per_x = 1, metres_per_y = 1;

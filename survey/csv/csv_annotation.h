@@ -27,9 +27,9 @@ struct AnnotatedCsv {
 // memory does not grow with the file.
 //
 // Fails and writes nothing when a column is missing and has no fixed number, occurs twice, also has a fixed number
-// (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be appended; when the number of cells in a record differs
-// from the header; when a coordinate is not a number; or when the input is modified meanwhile. Messages name line and
-// column.
+// (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be
+// appended; when the number of cells in a record differs from the header; when a coordinate is not a number; or when
+// the input is modified meanwhile. Messages name line and column.
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const FixedInputs& fixed, AnswerStyle style,

@@ -20,8 +20,8 @@ absl::Status CheckTimes(const LasReader& reader, const BeamPlan& plan) {
       "one --water-level, or a file of another point format"));
 }
 
-// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in older
-// point formats water (9) and what NOAA used before.
+// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
+// older point formats water (9) and what NOAA used before.
 std::set<int> UsualSurfaceClasses(int point_format) {
   return point_format >= kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
 }

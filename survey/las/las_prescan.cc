@@ -153,8 +153,8 @@ class PrescanWork {
     }
   }
 
-  // `after`: records of the same time within reach behind this one. The first records of a chunk do not see those of the
-  // chunk before; what they seem to miss is found twice then, and counts once.
+  // `after`: records of the same time within reach behind this one. The first records of a chunk do not see those of
+  // the chunk before; what they seem to miss is found twice then, and counts once.
   void AddReturnOfSeveral(Part& part, std::size_t i, std::size_t after) const {
     std::size_t equal = after;
     for (std::size_t j = i > kPulseReach ? i - kPulseReach : 0; j < i; ++j)

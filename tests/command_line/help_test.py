@@ -41,7 +41,8 @@ class Help(unittest.TestCase):
         self.assertEqual({(program, command) for program, command, _ in commands() if command},
                          {("albtpu-generate", command)
                           for command in ("table", "merge", "plan", "keys", "point", "validate")} |
-                         {("albtpu-query", command) for command in ("pulse", "csv", "las", "trajectory", "tables", "health")})
+                         {("albtpu-query", command)
+                          for command in ("pulse", "csv", "las", "trajectory", "tables", "health")})
 
     def test_ends_with_two_examples_of_flags_that_exist(self):
         for program, command, text in commands():

@@ -31,7 +31,8 @@ BAD_USAGE = (("albtpu-generate",), ("albtpu-generate", "nonsense"), ("albtpu-gen
              ("albtpu-generate", "plan", "--campaign", "absent.toml"), ("albtpu-generate", "point", "--help"),
              ("albtpu-query",), ("albtpu-query", "nonsense"), ("albtpu-query", "pulse", "--wind-speed", "7"),
              ("albtpu-query", "pulse", "--no-such-flag"), ("albtpu-query", "csv", "absent.csv", "out.csv"),
-             ("albtpu-query", "las", "absent.las", "out.las", "--scanner", "across-track", "--water-level", "0", "--wind-speed", "5"),
+             ("albtpu-query", "las", "absent.las", "out.las", "--scanner", "across-track", "--water-level", "0",
+              "--wind-speed", "5"),
              ("albtpu-query", "tables", "--table", "absent.h5"), ("albtpu-query", "--version"),
              ("albtpu-serve", "--tables", "absent"), ("albtpu-serve", "--listen", "nowhere"),
              ("albtpu-serve", "--no-such-flag"), ("albtpu-serve", "--version"))

@@ -22,7 +22,8 @@ from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 SEED = 20240501
 AXES = ("wind_speed", "incidence", "footprint", "depth")
-FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)  # For a simulated flight.
+# For a simulated flight.
+FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
 
 
 def memory(process, what="VmRSS"):

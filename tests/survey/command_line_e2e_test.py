@@ -181,14 +181,16 @@ class CommandLineTest(programs.Test):
     def test_las_needs_exactly_one_way_to_an_incidence(self):
         files = (make_flight(self.folder / "in.las"), self.folder / "out.las", "--table", self.table)
         rest = ("--water-level", 0, "--wind-speed", 5, "--footprint", 1)
-        ways = {"--trajectory": ("--trajectory", "sbet.out"), "--trajectory-from-returns": ("--trajectory-from-returns",),
+        ways = {"--trajectory": ("--trajectory", "sbet.out"),
+                "--trajectory-from-returns": ("--trajectory-from-returns",),
                 "--scanner": ("--scanner", "across-track"), "--incidence": ("--incidence", 20)}
         self.assert_fails(query("las", *files, *rest), 2, *ways)
         for one in ways:
             for other in ways:
                 if one < other:
                     self.assert_fails(query("las", *files, *rest, *ways[one], *ways[other]), 2, one, other)
-        foreign = {"--trajectory": (("--flight-direction", 1), ("--altitude", 400), ("--beam-azimuth", 1), ("--azimuth", 1)),
+        foreign = {"--trajectory": (("--flight-direction", 1), ("--altitude", 400), ("--beam-azimuth", 1),
+                                    ("--azimuth", 1)),
                    "--trajectory-from-returns": (("--geoid-separation", 25), ("--lever-arm", "0,0,1"),
                                                  ("--trajectory-time", "utc"), ("--flight-direction", 1)),
                    "--scanner": (("--beam-azimuth", 1), ("--water-index", 1.34), ("--crs", "EPSG:26917"),
@@ -197,7 +199,8 @@ class CommandLineTest(programs.Test):
         for way, flags in foreign.items():
             for flag in flags:
                 with self.subTest(way=way, flag=flag):
-                    self.assert_fails(query("las", *files, *rest, *ways[way], *flag), 2, f"{flag[0]} has no effect with {way}")
+                    self.assert_fails(query("las", *files, *rest, *ways[way], *flag), 2,
+                                      f"{flag[0]} has no effect with {way}")
         self.assert_fails(query("las", *files, *rest, "--incidence", 90), 2, "--incidence")
         for index in (1, 3):
             self.assert_fails(query("las", *files, *rest, *ways["--trajectory-from-returns"], "--water-index", index),

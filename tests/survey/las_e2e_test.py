@@ -21,8 +21,9 @@ WIND_FROM, FLIGHT = 100.0, 30.0  # degree
 
 class LasTest(programs.Test):
     def annotate(self, source, target, classes, water_level, *flags):
-        return query("las", source, target, "--table", self.table, "--scanner", "across-track", "--water-level", water_level,
-                     "--classes", classes, "--wind-speed", 6.5, "--fetch", 30000, "--altitude", ALTITUDE,
+        return query("las", source, target, "--table", self.table, "--scanner", "across-track",
+                     "--water-level", water_level, "--classes", classes, "--wind-speed", 6.5, "--fetch", 30000,
+                     "--altitude", ALTITUDE,
                      "--divergence", DIVERGENCE, "--wind-from", WIND_FROM, "--flight-direction", FLIGHT,
                      *flags, check=0)
 
@@ -165,7 +166,8 @@ class LasTest(programs.Test):
         values = LasFile(out / "land.las")
         self.assertTrue(np.all(values.field(values.record_length - 8, "<f4") == -1))
         self.assertIn("no point of class 40", result.stderr)
-        self.assert_fails(query("las", land, *flags, "--overwrite"), 1, "no file has a point of the bathymetric classes")
+        self.assert_fails(query("las", land, *flags, "--overwrite"), 1,
+                          "no file has a point of the bathymetric classes")
         same_name = self.folder / "out" / ".." / "a.las"
         self.assert_fails(query("las", files[0], same_name, *flags), 2, "two inputs are called a.las")
 

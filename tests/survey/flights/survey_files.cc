@@ -32,7 +32,8 @@ void AppendShort(std::string& bytes, int number) {
   bytes += static_cast<char>(number >> 8 & 0xFF);
 }
 
-// OGC GeoTIFF 1.1: a projected (3072) or geographic (2048) system by its code; 4096 vertical system, 4099 unit of heights.
+// OGC GeoTIFF 1.1: a projected (3072) or geographic (2048) system by its code; 4096 vertical system, 4099 unit of
+// heights.
 std::string GeoKeys(const MapGrid& grid, bool orthometric) {
   std::vector<int> keys = {1024, 1, 3072, grid.epsg, 3076, grid.linear_unit, 4099, grid.linear_unit};
   if (!grid.projection.has_value()) keys = {1024, 2, 2048, grid.epsg, 4099, grid.linear_unit};
