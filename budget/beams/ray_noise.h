@@ -31,8 +31,8 @@ struct RayWeight {
 };
 RayWeight WeightOf(const RayNoise& noise, double separation, double square);
 
-// The noise that fits the residuals best, by `steps` steps of expectation-maximization from `start`. `squares` are
-// those of both components together, |r|^2.
+// Fits the noise to residuals by expectation-maximization: `steps` steps, beginning with `start`. `squares` are the
+// squared residuals |r|^2 of both components together [rad^2].
 RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations,
                      const RayNoise& start, int steps);
 

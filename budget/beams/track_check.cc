@@ -127,6 +127,14 @@ void CompareIncidence(std::span<const TrackedRay> tracked, const DisplacementFit
   check.distance = Median(std::move(distances));
 }
 
+// rad, of the rays themselves. At most 1.2, 69 degrees, beyond any scanner: there the limits below would lose meaning,
+// as an offset across the beam turns it by its cosine.
+double MedianIncidence(const std::vector<AirRay>& rays) {
+  std::vector<double> incidences;
+  for (const AirRay& ray : rays) incidences.push_back(std::acos(std::clamp(-ray.direction.z(), 0.0, 1.0)));
+  return std::min(Median(std::move(incidences)), 1.2);
+}
+
 }  // namespace
 
 bool Disagrees(TrackVerdict verdict) {
@@ -150,13 +158,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   CompareIncidence(tracked, offset, check);
 
   // What a beam of the median incidence by the rays changes with each component of the offset.
-  const double incidence = std::clamp(Median([&] {
-                                        std::vector<double> all;
-                                        for (const AirRay& ray : kept)
-                                          all.push_back(std::acos(std::clamp(-ray.direction.z(), 0.0, 1.0)));
-                                        return all;
-                                      }()),
-                                      0.0, 1.2);
+  const double incidence = MedianIncidence(kept);
   const double per_across = std::cos(incidence) / check.range, per_up = std::sin(incidence) / check.range;
   const auto matters = [&](const Correction& c, double per) {
     return Significant(c, options) && std::abs(c.value) * per > options.limit;

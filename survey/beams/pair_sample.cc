@@ -7,17 +7,12 @@
 #include <utility>
 
 namespace albtpu::client {
-namespace {
-
-// The finalizer of SplitMix64 (Steele, Lea and Flood 2014, doi:10.1145/2714064.2660195).
-std::uint64_t HashOf(double time) {
+std::uint64_t HashOfTime(double time) {
   auto bits = std::bit_cast<std::uint64_t>(time) + 0x9E3779B97F4A7C15u;
   bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
   bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
   return bits ^ (bits >> 31);
 }
-
-}  // namespace
 
 void PairSample::Add(const ReturnPair& pair) {
   ++seen_;
@@ -38,7 +33,8 @@ std::vector<ReturnPair> PairSample::Take() {
 void PairSample::Thin(std::size_t most) {
   while (true) {
     const auto key = [this](const ReturnPair& pair) {
-      return std::tuple(std::floor(pair.time / size_.bin), HashOf(pair.time), pair.lower.z(), pair.upper.z());
+      return std::tuple(std::floor(pair.time / size_.bin), HashOfTime(pair.time), pair.lower.z(),
+                        pair.upper.z());
     };
     std::sort(pairs_.begin(), pairs_.end(),
               [&](const ReturnPair& a, const ReturnPair& b) { return key(a) < key(b); });

@@ -9,6 +9,10 @@
 
 namespace albtpu::client {
 
+// A number that decides which pulses a sample keeps: equal for the returns of one pulse, and without order in time. The
+// finalizer of SplitMix64 (Steele, Lea and Flood 2014, doi:10.1145/2714064.2660195).
+std::uint64_t HashOfTime(double time);
+
 struct PairSampleSize {
   double bin = 0.005;              // s; shorter than a turn of a scanner, so that all directions stay.
   std::size_t pairs_per_bin = 50;  // 10 000 pairs a second.

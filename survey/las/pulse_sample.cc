@@ -1,20 +1,13 @@
 #include "survey/las/pulse_sample.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 #include <utility>
 
+#include "survey/beams/pair_sample.h"
+
 namespace albtpu::client {
 namespace {
-
-// The finalizer of SplitMix64 (Steele, Lea and Flood 2014, doi:10.1145/2714064.2660195).
-std::uint64_t HashOf(double time) {
-  auto bits = std::bit_cast<std::uint64_t>(time) + 0x9E3779B97F4A7C15u;
-  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
-  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
-  return bits ^ (bits >> 31);
-}
 
 auto PulseOf(const PulseReturn& a) { return std::tuple(a.time, a.channel, a.count); }
 
@@ -29,7 +22,7 @@ bool IsOnePulse(const std::vector<PulseReturn>& returns) {
 }  // namespace
 
 void PulseSample::Add(const PulseReturn& pulse_return) {
-  if (HashOf(pulse_return.time) > limit_) return;
+  if (HashOfTime(pulse_return.time) > limit_) return;
   returns_.push_back(pulse_return);
   if (returns_.size() >= 2 * most_) Thin();
 }
@@ -37,7 +30,7 @@ void PulseSample::Add(const PulseReturn& pulse_return) {
 void PulseSample::Thin() {
   while (returns_.size() > most_) {
     limit_ /= 2;
-    std::erase_if(returns_, [this](const PulseReturn& a) { return HashOf(a.time) > limit_; });
+    std::erase_if(returns_, [this](const PulseReturn& a) { return HashOfTime(a.time) > limit_; });
     if (limit_ == 0) returns_.clear();  // All of one time.
   }
 }

@@ -102,13 +102,13 @@ absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Open(const std::filesystem::
 absl::StatusOr<std::unique_ptr<SbetFile>> SbetFile::Parse(const std::string& name, MappedFile mapped) {
   const std::size_t bytes = mapped.bytes().size();
   if (bytes % sizeof(SbetRecord) != 0) {
-    return Invalid(name,
-                   absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
-                                ", the size of an SBET record (",
-                                bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
-                                    ? "its size fits an SMRMSG, an error file); give the SBET here, and "
-                                      "error files by --trajectory-errors"
-                                    : "cut short, or another format); get a complete copy of the SBET"));
+    return Invalid(
+        name, absl::StrCat("has ", bytes, " bytes, which is not a multiple of ", sizeof(SbetRecord),
+                           ", the size of an SBET record (",
+                           bytes > 0 && bytes % SmrmsgFile::kRecordSize == 0
+                               ? "its size fits an SMRMSG, an error file); give the SBET here, and "
+                                 "error files by --trajectory-errors, or a complete copy if it was cut short"
+                               : "cut short, or another format); get a complete copy of the SBET"));
   }
   if (bytes < 2 * sizeof(SbetRecord)) {
     return Invalid(name, absl::StrCat("has ", bytes / sizeof(SbetRecord), bytes == 0 ? " records" : " record",
