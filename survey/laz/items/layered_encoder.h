@@ -1,0 +1,25 @@
+// Encodes the chunks of compressor 3, whose parts layered_decoder.h tells.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "survey/laz/coding/arithmetic_encoder.h"
+#include "survey/laz/items/chunk_encoder.h"
+#include "survey/laz/items/laszip_record.h"
+#include "survey/laz/items/layers/layered_point.h"
+
+namespace albtpu::laz {
+
+class LayeredEncoder : public ChunkEncoder {
+ public:
+  explicit LayeredEncoder(const LaszipRecord& record);
+  void Encode(std::string_view records, std::string& chunk) override;
+
+ private:
+  LayeredPoint<ArithmeticEncoder> point_;
+  std::size_t record_length_;
+};
+
+}  // namespace albtpu::laz

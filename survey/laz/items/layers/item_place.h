@@ -1,0 +1,19 @@
+// Where an item after the first lies in the records of formats 6 to 10, and how its points are predicted.
+#pragma once
+
+#include <cstddef>
+
+#include "survey/laz/items/layers/point_contexts.h"
+
+namespace albtpu::laz {
+
+struct ItemPlace {
+  std::size_t offset = 0;
+  bool version3 = true;  // Else 4.
+
+  const ChannelRuns& Runs(const PointContexts& contexts) const {
+    return version3 ? contexts.version3_runs : contexts.runs;
+  }
+};
+
+}  // namespace albtpu::laz

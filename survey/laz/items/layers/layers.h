@@ -1,0 +1,111 @@
+// A layer of a chunk: the stream of one field of all its points but the first, which lies there as it is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "survey/laz/items/layers/point14_fields.h"
+#include "survey/laz/items/layers/point_contexts.h"
+#include "survey/laz/items/layers/record_run.h"
+
+namespace albtpu::laz {
+
+template <typename Coder>
+struct LayerStream {
+  Coder coder;
+  bool present = false;  // Absent when the field is the same in all points of the chunk.
+};
+
+// One layer or several that are coded together. `Coder` is ArithmeticDecoder or ArithmeticEncoder.
+template <typename Coder>
+class Layers {
+ public:
+  using Streams = std::span<LayerStream<Coder>>;
+
+  virtual ~Layers() = default;
+  virtual std::size_t streams() const = 0;
+
+  // Begins a chunk after its first point.
+  virtual void Begin(const char* first_point) = 0;
+
+  // Codes the fields of at most kBatchPoints points. A decoder sets the fields of absent streams too.
+  virtual void Code(Streams streams, const RecordRun<Coder>& points, const PointContexts& contexts) = 0;
+
+  // For an encoder, before the points are coded: sets which streams are needed for these of them, beside those that
+  // are present already.
+  virtual void FindChanges(Streams streams, const RecordRun<Coder>& points) const = 0;
+};
+
+// What a stream knows of each scanner channel. Made when a channel is used first, and used again in later chunks.
+template <typename History>
+class ChannelHistories {
+ public:
+  // Calls forget(history) on all.
+  template <typename Forget>
+  void ForgetAll(const Forget& forget) {
+    for (const auto& history : histories_) {
+      if (history != nullptr) forget(*history);
+    }
+  }
+
+  History& operator[](std::size_t channel) {
+    if (histories_[channel] == nullptr) [[unlikely]]
+      histories_[channel] = std::make_unique<History>();
+    return *histories_[channel];
+  }
+
+ private:
+  std::array<std::unique_ptr<History>, kChannels> histories_;
+};
+
+// A layer of one stream, for a field of its own in the record.
+template <typename Coder, typename Number, std::size_t kOffset>
+class FieldLayer : public Layers<Coder> {
+ public:
+  using typename Layers<Coder>::Streams;
+
+  std::size_t streams() const final { return 1; }
+
+  void Begin(const char* first_point) final {
+    std::memcpy(&first_, first_point + kOffset, sizeof first_);
+    Start(ScannerChannel(static_cast<std::uint8_t>(first_point[kFlagsOffset])), first_);
+  }
+
+  void Code(Streams streams, const RecordRun<Coder>& points, const PointContexts& contexts) final {
+    if (streams[0].present) {
+      Coder coder = std::move(streams[0].coder);
+      CodeField(coder, points, contexts);
+      streams[0].coder = std::move(coder);
+    } else {
+      for (std::size_t i = 0; i < points.count(); ++i) Set(points, i, first_);
+    }
+  }
+
+  void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
+    bool changes = false;
+    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
+    streams[0].present |= changes;
+  }
+
+ protected:
+  // After the first point of a chunk, which has this field.
+  virtual void Start(std::size_t channel, Number first) = 0;
+  virtual void CodeField(Coder& coder, const RecordRun<Coder>& points, const PointContexts& contexts) = 0;
+
+  static Number Known(const RecordRun<Coder>& points, std::size_t i) {
+    return points.template Known<Number>(i, kOffset);
+  }
+  static void Set(const RecordRun<Coder>& points, std::size_t i, Number number) {
+    points.Set(i, kOffset, number);
+  }
+
+ private:
+  Number first_{};
+};
+
+}  // namespace albtpu::laz

@@ -1,0 +1,40 @@
+// Point records of one length that lie one after the other: a decoder fills them, and an encoder reads them.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace albtpu::laz {
+
+template <typename Coder>
+class RecordRun {
+ public:
+  using Byte = std::conditional_t<Coder::kEncodes, const char, char>;
+
+  RecordRun(Byte* first, std::size_t record_length, std::size_t count)
+      : first_(first), record_length_(record_length), count_(count) {}
+
+  std::size_t count() const { return count_; }
+  Byte* operator[](std::size_t i) const { return first_ + i * record_length_; }
+
+  // The number at `offset` of a record, for an encoder to write; 0 for a decoder.
+  template <typename Number>
+  Number Known(std::size_t i, std::size_t offset) const {
+    Number number{};
+    if constexpr (Coder::kEncodes) std::memcpy(&number, (*this)[i] + offset, sizeof number);
+    return number;
+  }
+
+  // What a decoder has read. Changes nothing for an encoder.
+  template <typename Number>
+  void Set(std::size_t i, std::size_t offset, Number number) const {
+    if constexpr (!Coder::kEncodes) std::memcpy((*this)[i] + offset, &number, sizeof number);
+  }
+
+ private:
+  Byte* first_;
+  std::size_t record_length_, count_;
+};
+
+}  // namespace albtpu::laz

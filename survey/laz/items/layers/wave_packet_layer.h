@@ -1,0 +1,63 @@
+// The layer of wave packets of formats 9 and 10.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+#include "survey/laz/items/layers/item_place.h"
+#include "survey/laz/items/layers/layers.h"
+#include "survey/laz/items/layers/point_contexts.h"
+#include "survey/laz/items/layers/record_run.h"
+#include "survey/laz/items/wave_packet_coder.h"
+
+namespace albtpu::laz {
+
+template <typename Coder>
+class WavePacketLayer final : public Layers<Coder> {
+ public:
+  using typename Layers<Coder>::Streams;
+
+  explicit WavePacketLayer(const ItemPlace& place) : place_(place) {}
+
+  std::size_t streams() const override { return 1; }
+
+  void Begin(const char* first_point) override {
+    channels_.ForgetAll([](WavePacketCoder<Coder>& models) { models.Forget(); });
+    std::memcpy(first_.data(), first_point + place_.offset, first_.size());
+    last_.fill(Packet(first_));
+  }
+
+  void Code(Streams streams, const RecordRun<Coder>& points, const PointContexts& contexts) override {
+    for (const ChannelRun& run : place_.Runs(contexts)) {
+      WavePacketCoder<Coder>& models = channels_[run.models];
+      WavePacket packet = last_[run.from];
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        if (streams[0].present) packet = models.Code(streams[0].coder, packet, Packet(Known(points, i)));
+        if constexpr (!Coder::kEncodes) StoreWavePacket(packet, points[i] + place_.offset);
+      }
+      last_[run.to] = packet;
+    }
+  }
+
+  void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
+    bool changes = false;
+    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
+    streams[0].present |= changes;
+  }
+
+ private:
+  using Bytes = std::array<char, kWavePacketSize>;
+
+  static WavePacket Packet(const Bytes& bytes) { return LoadWavePacket({bytes.data(), bytes.size()}); }
+  Bytes Known(const RecordRun<Coder>& points, std::size_t i) const {
+    return points.template Known<Bytes>(i, place_.offset);
+  }
+
+  ItemPlace place_;
+  ChannelHistories<WavePacketCoder<Coder>> channels_;
+  Bytes first_{};
+  std::array<WavePacket, kChannels> last_{};
+};
+
+}  // namespace albtpu::laz
