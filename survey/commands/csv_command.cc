@@ -45,7 +45,7 @@ std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
 }
 
 absl::Status RunCsv(const CsvOptions& options) {
-  const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", ".csv", options.files);
+  const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", {".csv"}, options.files);
   if (!jobs.ok()) return jobs.status();
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
   if (!source.ok()) return source.status();

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,25 @@ std::string ClassHint(const Job& job, const AnnotatedLas& annotated) {
       "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
 }
 
+nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
+  nlohmann::ordered_json json = {{"format", std::string(Name(annotated.input_kind))},
+                                 {"point_format", annotated.point_format},
+                                 {"points", annotated.classes.points()},
+                                 {"points_by_class", annotated.classes.Json()},
+                                 {"geometry", annotated.geometry}};
+  if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
+  return json;
+}
+
 class LasFiles {
  public:
-  LasFiles(const LasOptions& options, const LasAnnotation& annotation, UncertaintySource& source)
-      : options_(options), annotation_(annotation), source_(source) {}
+  LasFiles(const LasOptions& options, const LasAnnotation& annotation, std::optional<LasKind> kind,
+           UncertaintySource& source)
+      : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
 
   absl::StatusOr<AnnotatedFile> Annotate(const Job& job, FileProgress& progress) {
     absl::StatusOr<AnnotatedLas> annotated =
-        AnnotateLas(job.input, job.output, options_.existing, annotation_, source_, progress);
+        AnnotateLas(job.input, job.output, options_.existing, annotation_, source_, progress, kind_);
     if (!annotated.ok()) return annotated.status();
     const std::uint64_t points = annotated->classes.points();
     const std::uint64_t bathymetric = annotated->summary.outcomes().total();
@@ -53,10 +65,8 @@ class LasFiles {
     return AnnotatedFile{
         std::move(annotated->file),
         Findings{.input_bytes = annotated->input_bytes,
-                 .input = {{"point_format", annotated->point_format},
-                           {"points", points},
-                           {"points_by_class", annotated->classes.Json()},
-                           {"geometry", annotated->geometry}},
+                 .input = InputJson(*annotated),
+                 .output = {{"format", std::string(Name(annotated->output_kind))}},
                  .answers = annotated->summary.Json()},
         absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text(),
                      absl::StrJoin(annotated->notes, "", [](std::string* text, const auto& note) {
@@ -77,6 +87,7 @@ class LasFiles {
 
   const LasOptions& options_;
   const LasAnnotation& annotation_;
+  std::optional<LasKind> kind_;  // Of the outputs.
   UncertaintySource& source_;
   bool resolution_noted_ = false;
   std::uint64_t points_ = 0, bathymetric_ = 0;
@@ -111,13 +122,18 @@ CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
 absl::Status RunLas(const LasOptions& options) {
   absl::StatusOr<LasAnnotation> annotation = Annotation(options);
   if (!annotation.ok()) return annotation.status();
-  const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options.files);
+  const absl::StatusOr<std::optional<LasKind>> kind = OutputKind(options);
+  if (!kind.ok()) return kind.status();
+  FileOptions file_options = options.files;
+  if (options.format.has_value()) file_options.output_extension = Extension(*options.format);
+  const absl::StatusOr<std::vector<Job>> jobs =
+      FindJobs("las", {Extension(LasKind::kLas), Extension(LasKind::kLaz)}, file_options);
   if (!jobs.ok()) return jobs.status();
   if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
   if (!source.ok()) return source.status();
   if (options.style.standard_errors) Note(InterpolationErrorNote((*source)->table()));
-  LasFiles files(options, *annotation, **source);
+  LasFiles files(options, *annotation, *kind, **source);
   RunVerdict verdict(ContextOf(annotation->plan, (*source)->table()), "chosen point");
   const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
     const std::string problem = verdict.Add(job.output.string(), answers);
@@ -128,7 +144,7 @@ absl::Status RunLas(const LasOptions& options) {
       *jobs,
       {.command = "las",
        .records = "points",
-       .parameters = Parameters(*annotation),
+       .parameters = Parameters(*annotation, options.format),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
@@ -149,7 +165,7 @@ absl::Status RunLas(const LasOptions& options) {
 void AddLasCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<LasOptions>();
   CLI::App* command = program.add_subcommand(
-      "las", "Copy LAS files (1.2 to 1.4) and append sea_thu and sea_tvu to each point");
+      "las", "Copy LAS and LAZ files (1.0 to 1.4) and append sea_thu and sea_tvu to each point");
   AddLasOptions(*command, *options);
   command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
 }

@@ -11,6 +11,7 @@
 #include "survey/commands/options.h"
 #include "survey/files/file_jobs.h"
 #include "survey/las/las_annotation.h"
+#include "survey/las/las_kind.h"
 
 namespace albtpu::client {
 
@@ -19,6 +20,7 @@ struct LasOptions {
   std::optional<std::set<int>> classes;
   BeamOptions beams;
   bool details = false;
+  std::optional<LasKind> format;  // --format
   Existing existing = Existing::kKeep;
   SourceOptions source;
   AnswerStyle style;
@@ -30,7 +32,11 @@ void AddLasOptions(CLI::App& command, LasOptions& options);
 // IsUsageError if something needed is missing, is given in two ways or has no effect.
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options);
 
-// The same as a summary states it.
-nlohmann::ordered_json Parameters(const LasAnnotation& annotation);
+// The kind that --format or the name of a single output asks for; absent: that of each input. IsUsageError when the two
+// contradict each other.
+absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options);
+
+// Annotation and --format as a summary states them.
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation, std::optional<LasKind> format);
 
 }  // namespace albtpu::client

@@ -1,4 +1,4 @@
-// albtpu-query: the uncertainty of single pulses, of CSV files and of LAS files.
+// albtpu-query: the uncertainty of single pulses, of CSV files and of LAS and LAZ files.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
@@ -28,7 +28,8 @@ int Main(int argc, char** argv) {
       program,
       absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
       "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
-      "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 --divergence 1");
+      "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
+      "--divergence 1");
   Run run;
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);

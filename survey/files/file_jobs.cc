@@ -6,6 +6,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "survey/exit_status.h"
 
 namespace albtpu::client {
@@ -13,8 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool HasExtension(const fs::path& path, const std::string& extension) {
-  return absl::AsciiStrToLower(path.extension().string()) == extension;
+using Extensions = std::vector<std::string>;
+
+bool HasOneOf(const fs::path& path, const Extensions& extensions) {
+  return std::ranges::any_of(extensions, [&](const std::string& each) { return HasExtension(path, each); });
 }
 
 bool IsFolder(const fs::path& path) {
@@ -28,7 +31,7 @@ bool IsSame(const fs::path& a, const fs::path& b) {
 }
 
 // The files in `folder`, and in its subfolders with --recursive, ordered by name.
-absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std::string& extension,
+absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const Extensions& extensions,
                                               const FileOptions& options) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -39,7 +42,7 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std:
       if (!options.recursive || IsSame(entry->path(), options.output_folder)) {
         entry.disable_recursion_pending();
       }
-    } else if (entry->is_regular_file(ignored) && HasExtension(entry->path(), extension)) {
+    } else if (entry->is_regular_file(ignored) && HasOneOf(entry->path(), extensions)) {
       files.push_back(entry->path());
     }
   }
@@ -48,20 +51,33 @@ absl::StatusOr<std::vector<fs::path>> FilesIn(const fs::path& folder, const std:
         absl::StrCat(folder.string(), ": ", error.message(), "; give a folder that can be read"));
   }
   if (files.empty()) {
-    return absl::NotFoundError(absl::StrCat(folder.string(), ": no ", extension, " file in this folder",
-                                            options.recursive ? "" : " (subfolders were not searched)",
-                                            "; give a folder that has some",
-                                            options.recursive ? "" : ", or add --recursive"));
+    return absl::NotFoundError(
+        absl::StrCat(folder.string(), ": no ", absl::StrJoin(extensions, " or "), " file in this folder",
+                     options.recursive ? "" : " (subfolders were not searched)",
+                     "; give a folder that has some", options.recursive ? "" : ", or add --recursive"));
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
+// The name of the output for an input of this name.
+fs::path OutputName(const fs::path& name, const Extensions& extensions, const std::string& output_extension) {
+  if (output_extension.empty() || HasExtension(name, output_extension)) return name;
+  fs::path output = name;
+  if (HasOneOf(name, extensions)) output.replace_extension();
+  return output += output_extension;
+}
+
 }  // namespace
 
-absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std::string& extension,
+bool HasExtension(const fs::path& path, const std::string& extension) {
+  return absl::AsciiStrToLower(path.extension().string()) == extension;
+}
+
+absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const Extensions& extensions,
                                           const FileOptions& options) {
   const std::vector<std::string>& files = options.files;
+  const std::string& extension = extensions.front();
   if (options.output_folder.empty()) {
     if (files.size() != 2 || options.recursive) {
       return UsageError(absl::StrCat(command, ": ", files.size(), " files; give IN", extension, " OUT",
@@ -75,12 +91,14 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std:
   }
   std::vector<Job> jobs;
   std::map<fs::path, fs::path> input_of;
-  const auto add = [&](const fs::path& input, const fs::path& name) -> absl::Status {
+  const auto add = [&](const fs::path& input, const fs::path& input_name) -> absl::Status {
+    const fs::path name = OutputName(input_name, extensions, options.output_extension);
     const auto [other, is_new] = input_of.emplace(name.lexically_normal(), input);
     if (!is_new) {
-      return UsageError(absl::StrCat("--output-dir: two inputs are called ", name.string(), " (",
-                                     other->second.string(), ", ", input.string(),
-                                     "); annotate them one at a time, as IN", extension, " OUT", extension));
+      return UsageError(absl::StrCat(
+          "--output-dir: two ", options.output_extension.empty() ? "inputs are" : "outputs would be",
+          " called ", name.string(), " (", other->second.string(), ", ", input.string(),
+          "); annotate them one at a time, as IN", extension, " OUT", extension));
     }
     jobs.push_back({input, options.output_folder / name, name.has_parent_path()});
     return absl::OkStatus();
@@ -90,7 +108,7 @@ absl::StatusOr<std::vector<Job>> FindJobs(const std::string& command, const std:
       if (absl::Status status = add(file, fs::path(file).filename()); !status.ok()) return status;
       continue;
     }
-    const absl::StatusOr<std::vector<fs::path>> inputs = FilesIn(file, extension, options);
+    const absl::StatusOr<std::vector<fs::path>> inputs = FilesIn(file, extensions, options);
     if (!inputs.ok()) return inputs.status();
     for (const fs::path& input : *inputs) {
       if (absl::Status status = add(input, input.lexically_relative(file)); !status.ok()) return status;

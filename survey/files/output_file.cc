@@ -193,6 +193,18 @@ absl::Status OutputFile::Write(std::string_view bytes) {
   return absl::OkStatus();
 }
 
+absl::Status OutputFile::WriteAt(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        pwrite(temporary_->descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemError(temporary_->path, kMakeRoom);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return absl::OkStatus();
+}
+
 std::uint64_t OutputFile::size() const { return temporary_->size; }
 
 absl::Status OutputFile::Sync() {

@@ -69,6 +69,7 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
   json["input"] = {{"name", job.input.filename().string()}, {"bytes", findings.input_bytes}};
   json["input"].update(findings.input);
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
+  json["output"].update(findings.output);
   json["answers"] = findings.answers;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -29,8 +29,9 @@ struct OutputSettings {
 // What was read and answered.
 struct Findings {
   std::uint64_t input_bytes = 0;
-  nlohmann::ordered_json input;    // Further properties: points, classes.
-  nlohmann::ordered_json answers;  // UncertaintySummary::Json().
+  nlohmann::ordered_json input;                                      // Further properties: points, classes.
+  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // The same: format.
+  nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
 };
 
 // The text of a summary. It states no time, host or path, so that equal runs give equal bytes.

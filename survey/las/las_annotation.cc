@@ -10,31 +10,28 @@
 #include "survey/files/ordered_pipeline.h"
 #include "survey/las/las_beams.h"
 #include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_point_runs.h"
 #include "survey/las/las_prescan.h"
 #include "survey/las/las_reader.h"
 #include "survey/las/las_writer.h"
+#include "survey/laz/items/chunk_encoder.h"
 #include "survey/number_text.h"
 
 namespace albtpu::client {
 namespace {
 
-// The largest chunk, in bytes and in records. A server takes no more pulses than this in one message.
+// The largest chunk of LAS, in bytes and in records. A server takes no more pulses than this in one message.
 constexpr std::size_t kChunkBytes = 8 << 20;
 constexpr std::size_t kChunkRecords = 65536;
 
-// Reads the chunk of `own` records after the first `read` ones, and the records around it that may belong to the same
-// pulses.
-absl::Status ReadChunk(const LasReader& reader, std::uint64_t read, std::uint64_t own,
-                       LasChunkWork::Chunk& chunk) {
-  const LasHeader& header = reader.header();
-  const std::uint64_t length = header.record_length;
-  chunk.own = own;
-  chunk.before = std::min<std::uint64_t>(kPulseReach, read);
-  const std::uint64_t after = std::min<std::uint64_t>(kPulseReach, header.point_count - read - own);
-  chunk.records.resize((chunk.before + own + after) * length);
-  return reader.ReadAt(header.offset_to_points + (read - chunk.before) * length,
-                       std::span<char>(chunk.records));
-}
+// A chunk on its way from file to file.
+struct Passing {
+  LasChunkWork::Chunk chunk;
+  std::unique_ptr<laz::ChunkEncoder> encoder;  // Null for LAS.
+  std::string compressed;
+
+  std::string_view output() const { return encoder != nullptr ? compressed : chunk.annotated; }
+};
 
 // No sensor for bathymetry looks farther aside in the median of its points.
 constexpr float kLargestMedianIncidence = 35;  // degree
@@ -52,35 +49,56 @@ absl::Status CheckIncidence(const LasReader& reader, const LasAnnotation& annota
                       reader.name(), incidence.middle(), kLargestMedianIncidence));
 }
 
-// Copies all points from `reader` to the file of `annotated`, with their uncertainty.
-absl::Status AnnotatePoints(const LasReader& reader, const LasAnnotation& annotation, const LasBeams& beams,
-                            UncertaintySource& source, FileProgress::File& progress,
-                            AnnotatedLas& annotated) {
-  using Chunk = LasChunkWork::Chunk;
+// How much of the file was read for `points` points, compressed ones as if all were equally long.
+std::uint64_t BytesOf(const LasReader& reader, std::uint64_t points) {
   const LasHeader& header = reader.header();
-  const std::uint64_t length = header.record_length;
-  const std::uint64_t most_records = std::clamp<std::uint64_t>(kChunkBytes / length, 1, kChunkRecords);
-  std::uint64_t read_records = 0, written_records = 0;
-  return RunOrderedPipeline(
-      [&] { return Chunk(annotation.style); },
-      [&](Chunk& chunk) -> absl::StatusOr<bool> {
-        const std::uint64_t count = std::min(most_records, header.point_count - read_records);
-        if (count == 0) return false;
-        const absl::Status status = ReadChunk(reader, read_records, count, chunk);
-        read_records += count;
-        if (!status.ok()) return status;
-        return true;
+  if (reader.kind() == LasKind::kLas) return header.offset_to_points + points * header.record_length;
+  const laz::LazExtent& extent = reader.extent();
+  const double part = static_cast<double>(points) / static_cast<double>(header.point_count);
+  return extent.points_begin +
+         static_cast<std::uint64_t>(part * static_cast<double>(extent.points_end - extent.points_begin));
+}
+
+// Copies the file of `reader` to that of `annotated`, with the uncertainty of its points.
+absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const LasAnnotation& annotation,
+                            const LasBeams& beams, UncertaintySource& source, FileProgress::File& progress,
+                            AnnotatedLas& annotated) {
+  const LasHeader& header = reader.header();
+  const std::uint64_t most_records =
+      head.record.has_value()
+          ? head.record->chunk_size
+          : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
+  LasWriter writer(reader, head, annotated.file);
+  absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader, kPulseReach, kPulseReach);
+  if (!runs.ok()) return runs.status();
+  if (absl::Status status = writer.Begin(); !status.ok()) return status;
+  const LasChunkWork work(header, annotation, beams.geometry(), beams.has_surface_returns(), source);
+  std::uint64_t written_records = 0;
+  const absl::Status status = RunOrderedPipeline(
+      [&] {
+        return Passing{.chunk = LasChunkWork::Chunk(annotation.style),
+                       .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
+                       .compressed = {}};
       },
-      LasChunkWork(header, annotation, beams.geometry(), beams.has_surface_returns(), source),
-      [&](Chunk& chunk) {
+      [&](Passing& passing) { return runs->Next(most_records, passing.chunk); },
+      [&](Passing& passing) {
+        absl::Status worked = work(passing.chunk);
+        if (worked.ok() && passing.encoder != nullptr) {
+          passing.encoder->Encode(passing.chunk.annotated, passing.compressed);
+        }
+        return worked;
+      },
+      [&](Passing& passing) {
+        const LasChunkWork::Chunk& chunk = passing.chunk;
         annotated.classes.Merge(chunk.classes);
         annotated.summary.Merge(chunk.summary);
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
         written_records += chunk.own;
-        progress.Reach(header.offset_to_points + written_records * length, written_records);
-        return annotated.file.Write(chunk.annotated);
+        progress.Reach(BytesOf(reader, written_records), written_records);
+        return writer.Write(passing.output(), chunk.own);
       });
+  return status.ok() ? writer.End(runs->tail_begin(), runs->tail_end()) : status;
 }
 
 }  // namespace
@@ -88,12 +106,13 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasAnnotation& annota
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const LasAnnotation& annotation, UncertaintySource& source,
-                                         FileProgress& progress) {
+                                         FileProgress& progress, std::optional<LasKind> kind) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   const absl::StatusOr<LasReader> reader = LasReader::Open(input);
   if (!reader.ok()) return reader.status();
-  const absl::StatusOr<std::string> head =
-      AnnotatedHead(*reader, AppendedFloats(annotation.style.coverage, annotation.details));
+  const LasKind output_kind = kind.value_or(reader->kind());
+  const absl::StatusOr<LasHead> head =
+      AnnotatedHead(*reader, AppendedFloats(annotation.style.coverage, annotation.details), output_kind);
   if (!head.ok()) return head.status();
   FileProgress::File file_progress(progress, input.filename().string());
   const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
@@ -107,6 +126,9 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
 
   AnnotatedLas annotated{.point_format = reader->header().point_format,
                          .input_bytes = reader->file_size(),
+                         .input_kind = reader->kind(),
+                         .output_kind = output_kind,
+                         .copc_index_left_out = HasCopcIndex(*reader),
                          .chosen_classes = annotation.ClassesOf(reader->header().point_format),
                          .classes = {},
                          .summary = UncertaintySummary(annotation.style),
@@ -115,9 +137,8 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                          .geometry = {},
                          .notes = {},
                          .file = *std::move(file)};
-  absl::Status status = annotated.file.Write(*head);
-  if (status.ok()) status = AnnotatePoints(*reader, annotation, **beams, source, file_progress, annotated);
-  if (status.ok()) status = CopyTail(*reader, annotated.file);
+  const absl::Status status =
+      AnnotatePoints(*reader, *head, annotation, **beams, source, file_progress, annotated);
   if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
   if (!status.ok()) return status;
   if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok()) {
@@ -133,6 +154,10 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   if (!annotation.plan.water_classes.empty()) {
     annotated.geometry["water_surface"] = annotated.surface.Json();
     annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
+  }
+  if (annotated.copc_index_left_out) {
+    annotated.notes.push_back(
+        "the index of COPC is left out, as it does not know the new bytes: the output is no COPC");
   }
   return annotated;
 }

@@ -1,8 +1,9 @@
-// Copies a LAS file and appends the uncertainty of each chosen point, and on request the geometry of its beam.
+// Copies a LAS or LAZ file and appends the uncertainty of each chosen point, and on request the geometry of its beam.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
 #include "survey/las/las_chunk.h"
+#include "survey/las/las_kind.h"
 #include "survey/las/las_points.h"
 
 namespace albtpu::client {
@@ -20,6 +22,8 @@ namespace albtpu::client {
 struct AnnotatedLas {
   int point_format = 0;
   std::uint64_t input_bytes = 0;
+  LasKind input_kind = LasKind::kLas, output_kind = LasKind::kLas;
+  bool copc_index_left_out = false;
   std::set<int> chosen_classes;
   LasClassCounts classes;
   UncertaintySummary summary;
@@ -31,12 +35,12 @@ struct AnnotatedLas {
 };
 
 // Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.
-// Reading, querying and writing overlap; memory does not grow with the file. Fails and leaves no output when LasReader,
-// PlaceOf, the track, AnnotatedHead or the source fails, when the output is the input, and when the input is modified
-// meanwhile.
+// `kind` is that of the output; absent: that of the input. Reading, querying and writing overlap; memory does not grow
+// with the file. Fails and leaves no output when LasReader, PlaceOf, the track, AnnotatedHead or the source fails, when
+// the output is the input, and when the input is modified meanwhile.
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const LasAnnotation& annotation, UncertaintySource& source,
-                                         FileProgress& progress);
+                                         FileProgress& progress, std::optional<LasKind> kind = std::nullopt);
 
 }  // namespace albtpu::client

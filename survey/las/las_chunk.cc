@@ -6,9 +6,11 @@
 
 #include "survey/las/las_extra_bytes.h"
 #include "survey/las/las_prescan.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 
 namespace albtpu::client {
+
+using laz::Store;
 
 std::set<int> LasAnnotation::ClassesOf(int point_format) const {
   return classes.has_value() ? *classes : std::set<int>{DefaultClass(point_format)};

@@ -16,6 +16,7 @@
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/point_beams.h"
 #include "survey/las/las_header.h"
+#include "survey/las/las_point_runs.h"
 #include "survey/las/las_points.h"
 
 namespace albtpu::client {
@@ -36,14 +37,10 @@ class LasChunkWork {
   LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, const BeamGeometry& beams,
                bool pulse_surface, UncertaintySource& source);
 
-  // Memory that is reused from chunk to chunk.
-  struct Chunk {
+  // Memory that is reused from chunk to chunk. The input is a run of points; those that are not its own are only
+  // searched for returns of the same pulse.
+  struct Chunk : LasRun {
     explicit Chunk(AnswerStyle style) : summary(style) {}
-
-    // Input: `before` records of the chunk before, `own` records of this chunk, and some of the next one. The others
-    // are only searched for returns of the same pulse.
-    std::string records;
-    std::size_t before = 0, own = 0;
 
     std::string annotated;  // Output: the own records, each followed by the appended bytes.
     LasClassCounts classes;

@@ -8,11 +8,13 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "survey/las/las_vlr.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 #include "survey/number_text.h"
 
 namespace albtpu::client {
 namespace {
+
+using laz::Load;
 
 constexpr std::string_view kProjectionUser = "LASF_Projection";
 constexpr std::uint16_t kWktRecord = 2112;

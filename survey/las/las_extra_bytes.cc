@@ -7,10 +7,13 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 
 namespace albtpu::client {
 namespace {
+
+using laz::Load;
+using laz::Store;
 
 // An entry (LAS Specification 1.4 R15, table 24) has: reserved u16, type u8, options u8, name, unused u32; no-data,
 // min, max, scale and offset of 24 bytes each; description.

@@ -4,21 +4,23 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
+#include "survey/laz/items/laszip_record.h"
 
 namespace albtpu::client {
 namespace {
 
+using laz::Load;
+
 // LAS Specification 1.4 R15, tables 6-17.
 constexpr std::array<std::size_t, kLargestPointFormat + 1> kRecordLengths = {20, 28, 26, 34, 57, 63,
                                                                              30, 36, 38, 59, 67};
-// The last point format that LAS 1.2, 1.3 and 1.4 define.
-constexpr std::array<int, 3> kLastFormats = {3, 5, 10};
-constexpr std::array<std::size_t, 3> kHeaderSizes = {227, 235, 375};
-constexpr int kFirstVersion = 2;
+// By the minor version: the last point format that LAS 1.0 to 1.4 define.
+constexpr std::array<int, 5> kLastFormats = {1, 1, 3, 5, 10};
+constexpr std::array<std::size_t, 5> kHeaderSizes = {227, 227, 227, 235, 375};
 
-// LASzip sets one of the two upper bits of the point format in a compressed file.
-constexpr int kCompressionBits = 0xC0;
+// The other upper bit of the point format, which the first LASzip set.
+constexpr int kOldCompressedFlag = 0x40;
 // Bits of the global encoding.
 constexpr std::uint16_t kAdjustedGpsTime = 0x1;
 constexpr std::uint16_t kWaveformInside = 0x2;
@@ -33,7 +35,7 @@ absl::Status Truncated(const std::string& name, const std::string& message) {
 
 absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
   if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF") {
-    return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las file");
+    return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las or .laz file");
   }
   if (bytes.size() < kHeaderSizes[0]) {
     return Truncated(
@@ -41,11 +43,10 @@ absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
   }
   const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
   const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
-  if (major != 1 || minor < kFirstVersion || minor > 4) {
-    return Invalid(name,
-                   absl::StrCat("is LAS ", major, ".", minor,
-                                " (expected 1.2, 1.3 or 1.4); convert it by `las2las -set_version 1.4` or "
-                                "`pdal translate --writers.las.minor_version=4`"));
+  if (major != 1 || minor > 4) {
+    return Invalid(name, absl::StrCat("is LAS ", major, ".", minor,
+                                      " (expected 1.0 to 1.4); convert it by `las2las -set_version 1.4` or "
+                                      "`pdal translate --writers.las.minor_version=4`"));
   }
   return absl::OkStatus();
 }
@@ -64,7 +65,7 @@ absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_vi
 }
 
 absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
-  const int last_format = kLastFormats[header.version_minor - kFirstVersion];
+  const int last_format = kLastFormats[header.version_minor];
   if (header.point_format > last_format) {
     return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.",
                                       header.version_minor, "; expected 0 to ", last_format));
@@ -84,7 +85,7 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
 }
 
 absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
-  const std::size_t least_header = kHeaderSizes[header.version_minor - kFirstVersion];
+  const std::size_t least_header = kHeaderSizes[header.version_minor];
   if (header.header_size < least_header) {
     return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.",
                                       header.version_minor, " needs ", least_header, " bytes or more"));
@@ -98,6 +99,7 @@ absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std:
     return Truncated(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
                                         ", but the file has only ", file_size, "; get a complete copy"));
   }
+  if (header.compressed) return absl::OkStatus();
   const std::uint64_t room = (file_size - header.offset_to_points) / header.record_length;
   if (header.point_count > room) {
     return Truncated(
@@ -109,18 +111,20 @@ absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std:
 
 // The header must state everything that follows the points: points beyond its count would be lost.
 absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
+  const std::uint64_t end_of_points = header.compressed ? header.offset_to_points : header.end_of_points();
   std::uint64_t next = file_size;
   for (const auto& [start, what] : {std::pair(header.start_of_evlrs, "extended variable length records"),
                                     std::pair(header.start_of_waveform_packet, "waveform packets")}) {
     if (start == 0) continue;
-    if (start < header.end_of_points() || start > file_size) {
-      return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start,
-                                        "; expected between the end of the points, ", header.end_of_points(),
-                                        ", and the end of the file, ", file_size));
+    if (start < end_of_points || start > file_size) {
+      return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start, "; expected between the ",
+                                        header.compressed ? "beginning" : "end", " of the points, ",
+                                        end_of_points, ", and the end of the file, ", file_size));
     }
     next = std::min(next, start);
   }
-  const std::uint64_t uncounted = next - header.end_of_points();
+  if (header.compressed) return absl::OkStatus();
+  const std::uint64_t uncounted = next - end_of_points;
   if (uncounted >= header.record_length) {
     return Invalid(name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted,
                                       " bytes, enough for ", uncounted / header.record_length,
@@ -140,7 +144,7 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   if (absl::Status status = CheckVersion(name, bytes); !status.ok()) return status;
   LasHeader header;
   header.version_minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
-  const std::size_t least_header = kHeaderSizes[header.version_minor - kFirstVersion];
+  const std::size_t least_header = kHeaderSizes[header.version_minor];
   if (bytes.size() < least_header) {
     return Truncated(
         name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
@@ -156,15 +160,19 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
     header.greatest[axis] = Load<double>(bytes, las_field::kBounds + 2 * axis * sizeof(double));
     header.least[axis] = Load<double>(bytes, las_field::kBounds + (2 * axis + 1) * sizeof(double));
   }
-  if ((header.point_format & kCompressionBits) != 0) {
+  if ((header.point_format & kOldCompressedFlag) != 0) {
     return Invalid(name,
-                   "is compressed (LAZ); decompress it first, by `laszip -i IN.laz -o OUT.las` or "
-                   "`pdal translate IN.laz OUT.las`");
+                   "is compressed by a LASzip from before 2.0 (2011); decompress it first, by "
+                   "`laszip -i IN.laz -o OUT.las`");
   }
+  header.compressed = (header.point_format & laz::kCompressedFlag) != 0;
+  header.point_format &= ~laz::kCompressedFlag;
   const absl::StatusOr<std::uint64_t> count = PointCount(name, bytes, header.version_minor);
   if (!count.ok()) return count.status();
   header.point_count = *count;
-  const auto global_encoding = Load<std::uint16_t>(bytes, las_field::kGlobalEncoding);
+  // Before 1.2 these bytes are reserved, and times are seconds of the week.
+  const std::uint16_t global_encoding =
+      header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
   header.adjusted_gps_time = (global_encoding & kAdjustedGpsTime) != 0;
   if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0) {
     header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);

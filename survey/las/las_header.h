@@ -1,5 +1,5 @@
-// The public header block of LAS 1.2 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the sizes of point
-// records.
+// The public header block of LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the sizes of point
+// records. LAZ files have the same header.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace albtpu::client {
 
 // Offsets of the fields in the header, in bytes.
 namespace las_field {
-inline constexpr std::size_t kGlobalEncoding = 6;           // u16
+inline constexpr std::size_t kGlobalEncoding = 6;           // u16, from 1.2
 inline constexpr std::size_t kVersionMajor = 24;            // u8
 inline constexpr std::size_t kVersionMinor = 25;            // u8
 inline constexpr std::size_t kHeaderSize = 94;              // u16
@@ -32,7 +32,7 @@ inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
 inline constexpr std::size_t kPointCount = 247;             // u64, from 1.4
 }  // namespace las_field
 
-inline constexpr std::size_t kLargestLasHeader = 375;  // Bytes in 1.4; 227 in 1.2, 235 in 1.3.
+inline constexpr std::size_t kLargestLasHeader = 375;  // Bytes in 1.4; 227 up to 1.2, 235 in 1.3.
 inline constexpr int kLargestPointFormat = 10;
 
 struct LasHeader {
@@ -41,6 +41,7 @@ struct LasHeader {
   std::uint32_t offset_to_points = 0;
   std::uint32_t vlr_count = 0;
   int point_format = 0;
+  bool compressed = false;  // LAZ.
   std::uint16_t record_length = 0;
   std::uint64_t point_count = 0;
   bool adjusted_gps_time = false;                   // Times are GPS seconds - 1e9, not seconds of the week.
@@ -51,8 +52,10 @@ struct LasHeader {
   std::uint64_t start_of_evlrs = 0;                 // 0: none.
   std::uint32_t evlr_count = 0;
 
-  std::size_t extra_bytes() const;  // In a point record, after the fields of its format.
-  std::uint64_t end_of_points() const { return offset_to_points + point_count * record_length; }
+  std::size_t extra_bytes() const;       // In a point record, after the fields of its format.
+  std::uint64_t end_of_points() const {  // Of LAS.
+    return offset_to_points + point_count * record_length;
+  }
 };
 
 // Whether records of this format have a GPS time: formats 1 and 3 to 10.
@@ -62,8 +65,9 @@ constexpr bool HasGpsTime(int point_format) { return point_format != 0 && point_
 std::size_t MinimumRecordLength(int point_format);
 
 // Reads the header and checks that it is consistent with itself and with the size of the file, so that all its offsets
-// lie inside the file. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
-// begins the messages. InvalidArgument: not LAS, not LAS 1.2-1.4, compressed, or an inconsistent header. DataLoss:
+// lie inside the file. Where the points of LAZ end is not known here: what follows is only known to lie behind their
+// beginning. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
+// begins the messages. InvalidArgument: not LAS, not LAS 1.0-1.4, or an inconsistent header. DataLoss:
 // truncated.
 absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
                                          std::uint64_t file_size);

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "survey/las/las_crs.h"
+#include "survey/las/las_point_runs.h"
 #include "survey/las/las_points.h"
 
 namespace albtpu::client {
@@ -50,7 +51,7 @@ absl::StatusOr<double> MetresPerHeightUnit(const LasReader& reader, const BeamPl
 absl::StatusOr<MapPosition> MiddleOf(const LasReader& reader) {
   const LasHeader& header = reader.header();
   if (header.point_count == 0) return MapPosition();
-  const absl::StatusOr<std::string> record = reader.ReadAt(header.offset_to_points, header.record_length);
+  const absl::StatusOr<std::string> record = FirstRecord(reader);
   if (!record.ok()) return record.status();
   const LasPointFields fields(header);
   const MapPosition first = {fields.X(*record), fields.Y(*record)};

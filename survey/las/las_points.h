@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "survey/las/las_header.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 
 namespace albtpu::client {
 
@@ -35,28 +35,30 @@ class LasPointFields {
   double Y(std::string_view record) const { return Coordinate(record, 1); }
   double Z(std::string_view record) const { return Coordinate(record, 2); }
   int Class(std::string_view record) const {
-    return modern_ ? Load<std::uint8_t>(record, 16) : Load<std::uint8_t>(record, 15) & kLegacyClassMask;
+    return modern_ ? laz::Load<std::uint8_t>(record, 16)
+                   : laz::Load<std::uint8_t>(record, 15) & kLegacyClassMask;
   }
   // Degrees, positive to the right of the flight direction.
   double ScanAngle(std::string_view record) const {
-    return modern_ ? Load<std::int16_t>(record, 18) * kModernScanAngleStep : Load<std::int8_t>(record, 16);
+    return modern_ ? laz::Load<std::int16_t>(record, 18) * kModernScanAngleStep
+                   : laz::Load<std::int8_t>(record, 16);
   }
 
   bool has_gps_time() const { return gps_time_ != 0; }
   // As the file states it. Requires has_gps_time().
-  double GpsTime(std::string_view record) const { return Load<double>(record, gps_time_); }
+  double GpsTime(std::string_view record) const { return laz::Load<double>(record, gps_time_); }
 
   // The number of this return in its pulse, the number of returns of the pulse and the channel of the scanner, which
   // formats 0-5 do not have.
   int ReturnNumber(std::string_view record) const {
-    return Load<std::uint8_t>(record, 14) & (modern_ ? 0xF : 0x7);
+    return laz::Load<std::uint8_t>(record, 14) & (modern_ ? 0xF : 0x7);
   }
   int ReturnCount(std::string_view record) const {
-    const auto returns = Load<std::uint8_t>(record, 14);
+    const auto returns = laz::Load<std::uint8_t>(record, 14);
     return modern_ ? returns >> 4 : returns >> 3 & 0x7;
   }
   int ScannerChannel(std::string_view record) const {
-    return modern_ ? Load<std::uint8_t>(record, 15) >> 4 & 0x3 : 0;
+    return modern_ ? laz::Load<std::uint8_t>(record, 15) >> 4 & 0x3 : 0;
   }
 
   // Whether two records of equal GPS times are returns of one pulse. Some files have times so coarse that several
@@ -69,7 +71,7 @@ class LasPointFields {
 
  private:
   double Coordinate(std::string_view record, std::size_t axis) const {
-    return Load<std::int32_t>(record, axis * sizeof(std::int32_t)) * scale_[axis] + offset_[axis];
+    return laz::Load<std::int32_t>(record, axis * sizeof(std::int32_t)) * scale_[axis] + offset_[axis];
   }
 
   bool modern_;

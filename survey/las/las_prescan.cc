@@ -6,9 +6,10 @@
 #include <utility>
 
 #include "survey/beams/pair_sample.h"
+#include "survey/beams/pulse_sample.h"
 #include "survey/files/ordered_pipeline.h"
+#include "survey/las/las_point_runs.h"
 #include "survey/las/las_points.h"
-#include "survey/las/pulse_sample.h"
 
 namespace albtpu::client {
 namespace {
@@ -20,9 +21,7 @@ constexpr int kLowNoise = 7, kHighNoise = 18;
 
 // What one chunk contributes.
 struct Part {
-  std::uint64_t first = 0;  // Number of the first record in the file.
-  std::string records;      // Some of the next chunk follow.
-  std::size_t own = 0;      // Records that are this chunk's.
+  LasRun run;  // Some records of the next chunk follow.
   std::vector<double> times;
   std::vector<std::uint8_t> classes;
 
@@ -62,7 +61,7 @@ class PrescanWork {
   }
 
   absl::Status operator()(Part& part) const {
-    const std::size_t count = part.records.size() / length_;
+    const std::size_t count = part.run.records.size() / length_;
     part.times.assign(count, 0);
     part.classes.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -80,7 +79,7 @@ class PrescanWork {
     part.pairs.clear();
     part.of_several = part.alone = 0;
     part.incomplete.clear();
-    for (std::size_t i = 0; i < part.own; ++i) {
+    for (std::size_t i = 0; i < part.run.own; ++i) {
       if (is_water_[part.classes[i]]) AddSurface(part, i);
       if (is_at_level_[part.classes[i]]) CompareWithLevel(part, i);
       if (is_chosen_[part.classes[i]]) AddChosen(part, i);
@@ -91,7 +90,7 @@ class PrescanWork {
 
  private:
   std::string_view Record(const Part& part, std::size_t i) const {
-    return std::string_view(part.records).substr(i * length_, length_);
+    return std::string_view(part.run.records).substr(i * length_, length_);
   }
   Eigen::Vector3d PositionOf(std::string_view record) const {
     return frame_.At(fields_.X(record), fields_.Y(record), fields_.Z(record));
@@ -130,7 +129,7 @@ class PrescanWork {
 
   PulseReturn ReturnOf(const Part& part, std::size_t i) const {
     const std::string_view record = Record(part, i);
-    return {.record = part.first + i,
+    return {.record = part.run.first + i,
             .time = part.times[i],
             .position = PositionOf(record),
             .number = static_cast<std::uint8_t>(fields_.ReturnNumber(record)),
@@ -193,9 +192,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
 
 absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& frame,
                                    const LasPrescanOptions& options) {
-  const LasHeader& header = reader.header();
-  const std::uint64_t length = header.record_length;
-  const std::uint64_t most_records = std::max<std::uint64_t>(kChunkBytes / length, 1);
+  const std::uint64_t most_records = std::max<std::uint64_t>(kChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;
   prescan.least.fill(std::numeric_limits<double>::infinity());
   prescan.greatest.fill(-std::numeric_limits<double>::infinity());
@@ -203,22 +200,10 @@ absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& fr
   PairSample pairs;
   PulseSample incomplete;
   const PrescanWork work(reader, frame, options);
-  std::uint64_t read = 0;
+  absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader, 0, kPulseReach, laz::WantedFields::kReturns);
+  if (!runs.ok()) return runs.status();
   const absl::Status status = RunOrderedPipeline(
-      [] { return Part(); },
-      [&](Part& part) -> absl::StatusOr<bool> {
-        part.first = read;
-        part.own = std::min(most_records, header.point_count - read);
-        if (part.own == 0) return false;
-        const std::uint64_t more = std::min<std::uint64_t>(kPulseReach, header.point_count - read - part.own);
-        part.records.resize((part.own + more) * length);
-        const absl::Status bytes =
-            reader.ReadAt(header.offset_to_points + read * length, std::span<char>(part.records));
-        read += part.own;
-        if (!bytes.ok()) return bytes;
-        return true;
-      },
-      work,
+      [] { return Part(); }, [&](Part& part) { return runs->Next(most_records, part.run); }, work,
       [&](Part& part) {
         Merge(part, prescan);
         surface.Merge(std::move(part.surface));

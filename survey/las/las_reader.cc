@@ -9,16 +9,12 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "survey/laz/coding/damage.h"
 
 namespace albtpu::client {
-namespace {
 
-// Programs that compress LAS add this record, even those that do not mark the point format.
-constexpr std::string_view kLaszipUser = "laszip encoded";
-
-}  // namespace
-
-LasReader::LasReader(std::string name, std::FILE* file) : name_(std::move(name)), file_(file) {}
+LasReader::LasReader(std::string name, std::FILE* file)
+    : name_(std::move(name)), file_(std::make_unique<const File>(file)) {}
 
 absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
   // O_NONBLOCK: opening a pipe without a writer returns immediately, and the pipe is refused.
@@ -28,17 +24,17 @@ absl::StatusOr<LasReader> LasReader::Open(const std::filesystem::path& path) {
     const int error = errno;
     return absl::Status(
         absl::ErrnoToStatusCode(error),
-        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a LAS file that can be read"));
+        absl::StrCat(path.string(), ": ", std::strerror(error), "; give a LAS or LAZ file that can be read"));
   }
   LasReader reader(path.string(), file);
-  reader.stamp_ = FileStamp::Of(fileno(file));
-  if (!reader.stamp_.is_regular()) {
+  if (!reader.file_->stamp().is_regular()) {
     return absl::FailedPreconditionError(
-        absl::StrCat(path.string(), ": is not a regular file; give a LAS file"));
+        absl::StrCat(path.string(), ": is not a regular file; give a LAS or LAZ file"));
   }
   if (absl::Status head = reader.ReadHead(); !head.ok()) return head;
   if (absl::Status evlrs = reader.ReadEvlrs(); !evlrs.ok()) return evlrs;
-  posix_fadvise(fileno(file), 0, 0, POSIX_FADV_SEQUENTIAL);
+  if (absl::Status record = reader.ReadLaszipRecord(); !record.ok()) return record;
+  posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
   return reader;
 }
 
@@ -49,12 +45,20 @@ absl::StatusOr<std::string> LasReader::ReadAt(std::uint64_t offset, std::size_t 
 }
 
 absl::Status LasReader::ReadAt(std::uint64_t offset, std::span<char> bytes) const {
+  return Named(file_->ReadAt(offset, bytes));
+}
+
+absl::Status LasReader::Named(const absl::Status& status) const {
+  return status.ok() ? status : absl::Status(status.code(), absl::StrCat(name_, ": ", status.message()));
+}
+
+absl::Status LasReader::File::ReadAt(std::uint64_t offset, std::span<char> bytes) const {
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = pread(fileno(file_.get()), bytes.data() + done, bytes.size() - done,
-                                static_cast<off_t>(offset + done));
+    const ssize_t count =
+        pread(descriptor(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      return absl::DataLossError(absl::StrCat(name_, ": reading failed at byte ", offset + done, " (",
+      return absl::DataLossError(absl::StrCat("reading failed at byte ", offset + done, " (",
                                               count < 0 ? std::strerror(errno) : "the file became shorter",
                                               "); copy the file to a sound disk"));
     }
@@ -63,7 +67,9 @@ absl::Status LasReader::ReadAt(std::uint64_t offset, std::span<char> bytes) cons
   return absl::OkStatus();
 }
 
-absl::Status LasReader::CheckUnchanged() const { return stamp_.CheckUnchanged(name_, fileno(file_.get())); }
+absl::Status LasReader::CheckUnchanged() const {
+  return file_->stamp().CheckUnchanged(name_, file_->descriptor());
+}
 
 absl::Status LasReader::ReadHead() {
   const absl::StatusOr<std::string> beginning =
@@ -78,13 +84,35 @@ absl::Status LasReader::ReadHead() {
   absl::StatusOr<std::vector<VlrEntry>> vlrs = ListVlrs(name_, header_, head_);
   if (!vlrs.ok()) return vlrs.status();
   vlrs_ = *std::move(vlrs);
+  return absl::OkStatus();
+}
+
+// LAZ has one LASzip record, LAS none.
+absl::Status LasReader::ReadLaszipRecord() {
+  std::vector<const VlrEntry*> records;
   for (const VlrEntry& vlr : vlrs_) {
-    if (vlr.user_id == kLaszipUser) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(name_,
-                       ": is compressed (LAZ); decompress it first, by `laszip -i IN.laz -o OUT.las` or "
-                       "`pdal translate IN.laz OUT.las`"));
-    }
+    if (vlr.user_id == laz::kLaszipUser) records.push_back(&vlr);
+  }
+  if (!header_.compressed) {
+    if (records.empty()) return absl::OkStatus();
+    return Named(absl::InvalidArgumentError(absl::StrCat(
+        "has a LASzip record, but its point format is not marked as compressed", laz::kGetAnotherCopy)));
+  }
+  if (records.size() != 1 || !records[0]->Is(laz::kLaszipUser, laz::kLaszipRecordId)) {
+    return Named(absl::InvalidArgumentError(absl::StrCat(
+        "its points are compressed, but it has ", records.size(), " LASzip records (expected one, of number ",
+        laz::kLaszipRecordId, ")", laz::kGetAnotherCopy)));
+  }
+  const VlrEntry& vlr = *records[0];
+  absl::StatusOr<laz::LaszipRecord> record = laz::ParseLaszipRecord(
+      head().substr(vlr.data_offset, vlr.data_size), header_.point_format, header_.record_length);
+  if (!record.ok()) return Named(record.status());
+  extent_ = {.record = *std::move(record),
+             .points_begin = header_.offset_to_points,
+             .point_count = header_.point_count,
+             .points_end = file_size()};
+  for (const std::uint64_t start : {header_.start_of_evlrs, header_.start_of_waveform_packet}) {
+    if (start != 0) extent_->points_end = std::min(extent_->points_end, start);
   }
   return absl::OkStatus();
 }

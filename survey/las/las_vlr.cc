@@ -1,10 +1,13 @@
 #include "survey/las/las_vlr.h"
 
 #include "absl/strings/str_cat.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 
 namespace albtpu::client {
 namespace {
+
+using laz::Load;
+using laz::Store;
 
 // Both kinds begin with the same fields: reserved u16, user id, record id u16, length u16 or u64, description.
 constexpr std::size_t kUserIdField = 2;
@@ -62,9 +65,10 @@ absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view byt
   return entry;
 }
 
-std::string SpecVlrHeader(std::uint16_t record_id, std::uint16_t data_size, std::string_view description) {
+std::string VlrHeader(std::string_view user, std::uint16_t record_id, std::uint16_t data_size,
+                      std::string_view description) {
   std::string bytes(kVlrHeaderSize, '\0');
-  bytes.replace(kUserIdField, kSpecUser.size(), kSpecUser);
+  bytes.replace(kUserIdField, user.size(), user);
   Store(record_id, bytes.data() + kRecordIdField);
   Store(data_size, bytes.data() + kVlrLengthField);
   bytes.replace(kVlrDescriptionField, description.size(), description);

@@ -43,7 +43,8 @@ absl::StatusOr<std::vector<VlrEntry>> ListVlrs(const std::string& name, const La
 absl::StatusOr<VlrEntry> ParseEvlr(const std::string& name, std::string_view bytes, std::uint64_t offset,
                                    std::uint64_t file_size);
 
-// The header of a VLR that the specification defines, for `data_size` bytes of data.
-std::string SpecVlrHeader(std::uint16_t record_id, std::uint16_t data_size, std::string_view description);
+// The header of a VLR for `data_size` bytes of data.
+std::string VlrHeader(std::string_view user, std::uint16_t record_id, std::uint16_t data_size,
+                      std::string_view description);
 
 }  // namespace albtpu::client

@@ -1,28 +1,46 @@
-// Writes a copy of a LAS file with more bytes in each point record: the uncertainties and, on request, the geometry of
-// its beam.
+// Writes a copy of a LAS or LAZ file with more bytes in each point record: the uncertainties and, on request, the
+// geometry of its beam.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
-#include "absl/status/statusor.h"
 #include "survey/files/output_file.h"
-#include "survey/las/las_extra_bytes.h"
+#include "survey/las/annotated_head.h"
 #include "survey/las/las_reader.h"
+#include "survey/laz/chunk_table.h"
 
 namespace albtpu::client {
 
-// All bytes before the points of the output. The Extra Bytes record is extended in place, or added after the last VLR;
-// bytes between the VLRs and the points are kept. In the header only these fields change: offset to points, number of
-// VLRs, record length, start of the EVLRs and, if waveforms are in the file, start of the waveform packet. Fails when a
-// field would overflow, or when DescribeAppended fails.
-absl::StatusOr<std::string> AnnotatedHead(const LasReader& reader,
-                                          const std::vector<AppendedFloat>& appended);
+//   LasWriter writer(reader, *head, output);
+//   status = writer.Begin();
+//   status = writer.Write(records, count);  // As often as there are runs of points.
+//   status = writer.End(tail_begin, tail_end);
+class LasWriter {
+ public:
+  // All must outlive it.
+  LasWriter(const LasReader& reader, const LasHead& head, OutputFile& output)
+      : reader_(reader), head_(head), output_(output) {}
 
-// Copies everything after the points.
-absl::Status CopyTail(const LasReader& reader, OutputFile& output);
+  absl::Status Begin();
+
+  // The records of `points` points; of LAZ, a compressed chunk of them.
+  absl::Status Write(std::string_view bytes, std::uint64_t points);
+
+  // Copies what follows the points in the input, but for EVLRs that are not kept, and completes what the head states of
+  // the file.
+  absl::Status End(std::uint64_t tail_begin, std::uint64_t tail_end);
+
+ private:
+  absl::Status EndPoints();
+  absl::Status Copy(std::uint64_t begin, std::uint64_t end);
+
+  const LasReader& reader_;
+  const LasHead& head_;
+  OutputFile& output_;
+  std::vector<laz::Chunk> chunks_;  // Of LAZ.
+};
 
 }  // namespace albtpu::client

@@ -27,7 +27,7 @@ class FileJobs : public ::testing::Test {
 
   // The outputs, relative to the output folder, or the message of the error.
   std::vector<std::string> Outputs() {
-    const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", ".las", options_);
+    const absl::StatusOr<std::vector<Job>> jobs = FindJobs("las", {".las", ".laz"}, options_);
     status_ = jobs.status();
     if (!jobs.ok()) return {std::string(jobs.status().message())};
     std::vector<std::string> outputs;
@@ -56,6 +56,26 @@ TEST_F(FileJobs, MixesFilesAndFolders) {
   EXPECT_THAT(Outputs(), ElementsAre("c.las", "a.LAS", "b.las"));
 }
 
+TEST_F(FileJobs, TakesFilesOfAllExtensionsInAnyCase) {
+  folder_.Write("in/c.laz", "");
+  folder_.Write("in/d.LAZ", "");
+  folder_.Write("in/a.laz", "");
+  options_.files = {folder_ / "in"};
+  EXPECT_THAT(Outputs(), ElementsAre("a.LAS", "a.laz", "b.las", "c.laz", "d.LAZ"));
+}
+
+TEST_F(FileJobs, ChangesTheExtensionOfOutputs) {
+  folder_.Write("in/c.laz", "");
+  folder_.Write("in/d.LAZ", "");
+  folder_.Write("named.2016", "");
+  options_.output_extension = ".laz";
+  options_.files = {folder_ / "in", folder_ / "named.2016"};
+  EXPECT_THAT(Outputs(), ElementsAre("a.laz", "b.laz", "c.laz", "d.LAZ", "named.2016.laz"));
+  folder_.Write("in/b.laz", "");
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("two outputs would be called b.laz")));
+  EXPECT_TRUE(IsUsageError(status_));
+}
+
 TEST_F(FileJobs, SkipsFilesInTheOutputFolder) {
   options_.output_folder = folder_ / "in/line";
   options_.files = {folder_ / "in"};
@@ -71,7 +91,7 @@ TEST_F(FileJobs, RejectsTwoInputsWithTheSameName) {
 
 TEST_F(FileJobs, SaysWhichArgumentIsWrong) {
   options_.files = {folder_ / "out"};
-  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("out: no .las file in this folder")));
+  EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("out: no .las or .laz file in this folder")));
   EXPECT_FALSE(IsUsageError(status_));
   options_.output_folder = folder_ / "no";
   EXPECT_THAT(Outputs(), ElementsAre(HasSubstr("no is not a folder")));

@@ -24,6 +24,17 @@ TEST(OutputFile, AppearsWhenCommitted) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(OutputFile, ReplacesBytesThatWereWritten) {
+  const TemporaryFolder folder;
+  absl::StatusOr<OutputFile> file = OutputFile::Create(folder / "out", Existing::kKeep);
+  ASSERT_TRUE(file->Write("0000 points").ok());
+  ASSERT_TRUE(file->WriteAt(2, "42").ok());
+  EXPECT_EQ(file->size(), 11u);
+  ASSERT_TRUE(file->Write(", all").ok());
+  ASSERT_TRUE(file->Commit().ok());
+  EXPECT_EQ(ReadFile(folder / "out"), "0042 points, all");
+}
+
 TEST(OutputFile, LeavesNothingBehindUnlessCommitted) {
   const TemporaryFolder folder;
   {

@@ -15,7 +15,7 @@
 #include "survey/las/las_extra_bytes.h"
 #include "survey/las/las_prescan.h"
 #include "survey/las/las_reader.h"
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
@@ -25,6 +25,7 @@ namespace {
 
 using albtpu::testing::LasPoint;
 using albtpu::testing::LasSpec;
+using laz::Load;
 
 constexpr int kBottom = 40, kSurface = 41;
 

@@ -3,14 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::client {
 namespace {
 
+using laz::Store;
 std::string GeoKeys(std::initializer_list<std::pair<int, int>> keys) {
   std::string bytes(8 * (keys.size() + 1), '\0');
   std::size_t at = 8;

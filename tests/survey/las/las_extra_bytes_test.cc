@@ -7,13 +7,14 @@
 #include <cstdint>
 #include <iterator>
 
-#include "survey/las/little_endian.h"
+#include "survey/laz/coding/little_endian.h"
 #include "tests/survey/las/las_builder.h"
 
 namespace albtpu::client {
 namespace {
 
 using albtpu::testing::ExtraBytesEntry;
+using laz::Load;
 using ::testing::HasSubstr;
 
 std::string Describe(const std::string& described, std::size_t extra_bytes) {

@@ -1,4 +1,4 @@
-#include "survey/las/pulse_sample.h"
+#include "survey/beams/pulse_sample.h"
 
 #include <gtest/gtest.h>
 

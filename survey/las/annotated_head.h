@@ -1,0 +1,40 @@
+// Everything before the points of a copy of a LAS or LAZ file with more bytes in each point record.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_reader.h"
+#include "survey/laz/items/laszip_record.h"
+
+namespace albtpu::client {
+
+struct LasHead {
+  std::string bytes;                        // Up to the points.
+  std::optional<laz::LaszipRecord> record;  // How the points are compressed; LAZ only.
+};
+
+// The Extra Bytes record is extended in place, or added after the last VLR; then follows the LASzip record of LAZ. That
+// of the input is left out, and so are records that are not kept (IsKept). Bytes between the VLRs and the points are
+// kept. In the header only these fields change: offset to points, numbers of VLRs and EVLRs, record length, and the
+// mark of compressed points; where EVLRs and waveform packets begin is not known before the points are written
+// (MoveTailStarts). Fails when a field would overflow, or when DescribeAppended fails.
+absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
+                                      LasKind kind);
+
+// Whether a VLR or EVLR of LAZ is as true of the copy. The records of COPC, an index by the places of compressed
+// points, are not.
+bool IsKept(const LasReader& reader, const VlrEntry& entry);
+
+// Whether the file has records of COPC that are not kept.
+bool HasCopcIndex(const LasReader& reader);
+
+// Changes the header at the beginning of `head` when what follows the points, from byte `from` of the input, follows
+// them in the copy from byte `to`, without the EVLRs that are not kept.
+void MoveTailStarts(const LasReader& reader, std::uint64_t from, std::uint64_t to, std::string& head);
+
+}  // namespace albtpu::client
