@@ -19,7 +19,8 @@ targets=("$@")
 
 # The longest input of each target, in bytes: enough for its format and no more, because short inputs run faster.
 declare -A longest=([ascii_trajectory]=1500 [campaign]=2048 [columns]=2400 [csv]=300 [csv_file]=300 [las]=1500
-                    [las_head]=1500 [sbet]=1088 [seal]=600 [smrmsg]=640 [table]=131072 [water_level]=300)
+                    [las_head]=1500 [laz_chunk]=1200 [laz_file]=1500 [laz_records]=1200
+                    [sbet]=1088 [seal]=600 [smrmsg]=640 [table]=131072 [water_level]=300)
 (($# > 0)) || mapfile -t targets < <(printf '%s\n' "${!longest[@]}" | sort)
 for target in "${targets[@]}"; do
   if [[ -z ${longest[$target]-} ]]; then

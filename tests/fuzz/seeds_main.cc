@@ -16,6 +16,7 @@
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
+#include "tests/fuzz/laz/laz_seeds.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/survey/trajectories/formats/flight_text.h"
 #include "tests/tables/synthetic_table.h"
@@ -97,6 +98,12 @@ std::vector<std::string> LasSeeds() {
   feet.points = {{1, 2, -5000, 26, 12}};
   feet.vlrs = {{"LASF_Projection", 2112, "PROJCS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
   seeds.push_back(BuildLas(feet));
+  return seeds;
+}
+
+std::vector<std::string> LasHeadSeeds() {
+  std::vector<std::string> seeds = LasSeeds();
+  for (std::string& file : fuzz::LazFileSeeds()) seeds.push_back(std::move(file));
   return seeds;
 }
 
@@ -239,7 +246,10 @@ int main(int argc, char** argv) {
                                                                  {"csv", CsvSeeds()},
                                                                  {"csv_file", CsvSeeds()},
                                                                  {"las", LasSeeds()},
-                                                                 {"las_head", LasSeeds()},
+                                                                 {"las_head", LasHeadSeeds()},
+                                                                 {"laz_chunk", fuzz::LazChunkSeeds()},
+                                                                 {"laz_file", fuzz::LazFileSeeds()},
+                                                                 {"laz_records", fuzz::LazRecordsSeeds()},
                                                                  {"seal", SealSeeds()},
                                                                  {"table", TableSeeds()},
                                                                  {"sbet", SbetSeeds()},

@@ -1,0 +1,108 @@
+#include "tests/fuzz/laz/chunk_input.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "absl/status/statusor.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/survey/las/las_builder.h"
+
+namespace albtpu::fuzz {
+namespace {
+
+using laz::Compressor;
+using laz::LaszipRecord;
+
+constexpr int kFormats = 11;
+constexpr std::size_t kExtraBytes[] = {0, 1, 2, 7};  // Choices, to keep few decoders.
+enum Flag : std::uint8_t { kOtherVersion = 1, kExactEnd = 2, kCodeAgain = 4 };
+
+// Numbers of points that no chunk of an input has.
+constexpr std::uint64_t kManyPoints[] = {241, 50000, 0x7FFFFFFF, 0xFFFFFFFF, std::uint64_t{1} << 32};
+constexpr std::uint8_t kMostInByte = 240;
+
+// Items of version 4, or all points in one stream, where the format has that.
+LaszipRecord OtherVersion(LaszipRecord record, int point_format) {
+  if (record.compressor == Compressor::kLayeredChunked) {
+    for (laz::Item& item : record.items) item.version = 4;
+  } else {
+    record.compressor = Compressor::kPointwise;
+    record.chunk_size = 0;
+  }
+  const absl::StatusOr<LaszipRecord> parsed =
+      laz::ParseLaszipRecord(laz::LaszipRecordData(record), point_format, record.record_length());
+  ALBTPU_MUST(parsed.ok());
+  return *parsed;
+}
+
+ChunkCoding& CodingFor(int point_format, std::size_t extra, bool other_version) {
+  static std::array<ChunkCoding, kFormats * std::size(kExtraBytes) * 2> all;
+  ChunkCoding& coding =
+      all[(static_cast<std::size_t>(point_format) * std::size(kExtraBytes) + extra) * 2 + other_version];
+  if (coding.decoder == nullptr) {
+    coding.point_format = point_format;
+    coding.standard = laz::RecordFor(point_format, testing::PointSize(point_format) + kExtraBytes[extra],
+                                     laz::kCommonChunkSize);
+    coding.record = other_version ? OtherVersion(coding.standard, point_format) : coding.standard;
+    coding.decoder = laz::ChunkDecoder::For(coding.record);
+    coding.standard_decoder = laz::ChunkDecoder::For(coding.standard);
+    coding.encoder = laz::ChunkEncoder::For(coding.standard);
+  }
+  return coding;
+}
+
+}  // namespace
+
+ChunkInput ParseChunkInput(std::string_view input) {
+  const auto head = [&](std::size_t i) { return static_cast<std::uint8_t>(input[i]); };
+  ChunkInput chunk;
+  chunk.coding = &CodingFor(head(0) % kFormats, head(1) % std::size(kExtraBytes), head(2) & kOtherVersion);
+  chunk.exact = head(2) & kExactEnd;
+  chunk.code_again = head(2) & kCodeAgain;
+  chunk.points = head(3) <= kMostInByte ? std::max<std::uint64_t>(head(3), 1)
+                                        : kManyPoints[(head(3) - kMostInByte) % std::size(kManyPoints)];
+  chunk.decoded = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.points, kMostPoints));
+  chunk.step = 1 + head(4) % kMostPoints;
+  chunk.bytes = input.substr(kChunkHeadSize);
+  return chunk;
+}
+
+std::string ChunkHead(int point_format, std::size_t extra_bytes, std::size_t points, std::size_t step) {
+  const auto* extra = std::find(std::begin(kExtraBytes), std::end(kExtraBytes), extra_bytes);
+  ALBTPU_MUST(extra != std::end(kExtraBytes) && points <= kMostInByte);
+  return {static_cast<char>(point_format), static_cast<char>(extra - std::begin(kExtraBytes)),
+          static_cast<char>(kExactEnd | kCodeAgain), static_cast<char>(points), static_cast<char>(step - 1)};
+}
+
+std::string WithPoints(std::string head, std::size_t points) {
+  ALBTPU_MUST(points >= 1 && points <= kMostInByte);
+  head[3] = static_cast<char>(points);
+  return head;
+}
+
+std::size_t LayerCount(const LaszipRecord& record) {
+  std::size_t count = 0;
+  for (const laz::Item& item : record.items) {
+    switch (item.type) {
+      case laz::ItemType::kPoint14:
+        count += 9;  // Place, height, class, flags, intensity, scan angle, user data, source, time.
+        break;
+      case laz::ItemType::kRgbNir14:
+        count += 2;
+        break;
+      case laz::ItemType::kRgb14:
+      case laz::ItemType::kWavePacket14:
+        count += 1;
+        break;
+      case laz::ItemType::kByte14:
+        count += item.size;
+        break;
+      default:  // Items of chunks that are not layered.
+        break;
+    }
+  }
+  return count;
+}
+
+}  // namespace albtpu::fuzz

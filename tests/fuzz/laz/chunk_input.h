@@ -1,0 +1,54 @@
+// The input of the fuzz targets for chunks: five bytes that choose how a chunk is coded and decoded, then the chunk.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "survey/laz/items/chunk_decoder.h"
+#include "survey/laz/items/chunk_encoder.h"
+#include "survey/laz/items/laszip_record.h"
+
+namespace albtpu::fuzz {
+
+inline constexpr std::size_t kChunkHeadSize = 5;
+inline constexpr std::size_t kMostPoints = 16;  // Decoded of a chunk, so that inputs run fast.
+
+// How the bytes of a chunk are compressed, with a decoder and an encoder that are used again from input to input.
+struct ChunkCoding {
+  int point_format = 0;
+  laz::LaszipRecord record;    // Of the decoder.
+  laz::LaszipRecord standard;  // Of the encoder and its decoder: by RecordFor().
+  std::unique_ptr<laz::ChunkDecoder> decoder, standard_decoder;
+  std::unique_ptr<laz::ChunkEncoder> encoder;
+};
+
+struct ChunkInput {
+  ChunkCoding* coding = nullptr;
+  std::uint64_t points = 0;  // That the chunk is said to have, true or not.
+  std::size_t decoded = 0;   // Of them, the points that are decoded.
+  std::size_t step = 0;      // Points in a step of the second decoding.
+  bool exact = false;        // Whether the end of the chunk is known.
+  bool code_again =
+      false;  // Whether the records are encoded: not always, because that takes as long as the rest.
+  std::string_view bytes;  // Of the chunk, or records that are to be encoded.
+
+  std::size_t record_length() const { return coding->record.record_length(); }
+};
+
+// Requires kChunkHeadSize bytes or more.
+ChunkInput ParseChunkInput(std::string_view input);
+
+// The head of an input: all points (at most 240) are decoded, and the end is known.
+std::string ChunkHead(int point_format, std::size_t extra_bytes, std::size_t points, std::size_t step);
+
+// The same head for a chunk of other points: 1 to 240.
+std::string WithPoints(std::string head, std::size_t points);
+
+// The streams of a layered chunk. Behind its first record lie its number of points and the size of each stream, 4 bytes
+// each, then the streams. 0: the chunk is not layered.
+std::size_t LayerCount(const laz::LaszipRecord& record);
+
+}  // namespace albtpu::fuzz
