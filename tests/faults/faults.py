@@ -42,6 +42,13 @@ def written(process):
         return None
 
 
+def compress(las):
+    """The LAZ file of a LAS file."""
+    laz = las.with_suffix(".laz")
+    subprocess.run([programs.PATHS["laz_copy"], las, laz], check=True)
+    return laz
+
+
 def wait_until(holds, what, patience=serving.PATIENCE):
     end = time.monotonic() + patience
     while not holds():

@@ -13,6 +13,7 @@ import tempfile
 
 import albtpu
 import faults
+import many_files_e2e_test as many_files
 import programs
 import serving
 
@@ -81,12 +82,16 @@ class FullDisk(faults.FaultTest):
         flight = programs.make_flight(self.folder / "flight.las")
         csv = self.folder / "pulses.csv"
         csv.write_text("wind_speed,incidence,footprint,depth\n" + "5,12,0.5,8\n" * 20000)
+        long = many_files.repeat(flight, self.folder / "long.las", 20)
+        laz = faults.compress(long)
+        self.assertGreater(laz.stat().st_size, 2 * ROOM)
         server = self.serve()
         for source in ("--table", self.tables / "survey.h5"), ("--server", server.address):
-            for command, path, flags in (("las", flight, faults.FLAGS), ("csv", csv, ())):
-                with self.subTest(command, source=source[0]):
-                    self.assert_writes_nothing(f"out.{command}", programs.PATHS["query"], command, path,
-                                               self.room / f"out.{command}", *source, *flags)
+            for command, path, flags in (("las", flight, faults.FLAGS), ("las", laz, faults.FLAGS), ("csv", csv, ())):
+                with self.subTest(path.suffix, source=source[0]):
+                    name = f"out{path.suffix}"
+                    self.assert_writes_nothing(name, programs.PATHS["query"], command, path, self.room / name,
+                                               *source, *flags)
         self.assert_drains(server)
 
     def test_leaves_no_table(self):

@@ -4,6 +4,7 @@ Usage: killed_test.py NAME=PATH..., see programs.py
 """
 
 import random
+import shutil
 import signal
 
 import faults
@@ -36,7 +37,7 @@ class Killed(faults.FaultTest):
         return path
 
     def assert_survives_kills_of_the_server(self, command, source, flags):
-        expected, target = (self.folder / name / f"out.{command}" for name in ("expected", "out"))
+        expected, target = (self.folder / name / f"out{source.suffix}" for name in ("expected", "out"))
         for path in (expected, target):
             path.parent.mkdir()
         programs.query(command, source, expected, "--table", self.tables / "survey.h5", *flags, check=0)
@@ -60,6 +61,10 @@ class Killed(faults.FaultTest):
 
     def test_killed_server_does_not_change_las_files(self):
         source = many_files.repeat(self.flight, self.folder / "long.las", 150)
+        self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
+
+    def test_killed_server_does_not_change_laz_files(self):
+        source = faults.compress(many_files.repeat(self.flight, self.folder / "long.las", 100))
         self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
 
     def test_killed_server_does_not_change_csv_files(self):
@@ -92,6 +97,13 @@ class Killed(faults.FaultTest):
         (self.folder / "survey").mkdir()
         for i in range(6):
             many_files.repeat(self.flight, self.folder / "survey" / f"line{i}.las", 20)
+        self.assert_survives_kills_of_the_client("las", faults.FLAGS)
+
+    def test_client_leaves_only_complete_laz_files(self):
+        (self.folder / "survey").mkdir()
+        line = faults.compress(many_files.repeat(self.flight, self.folder / "line.las", 20))
+        for i in range(6):
+            shutil.copy(line, self.folder / "survey" / f"line{i}.laz")
         self.assert_survives_kills_of_the_client("las", faults.FLAGS)
 
     def test_client_leaves_only_complete_csv_files(self):
