@@ -18,7 +18,8 @@ class StreamingMedian {
     const std::int32_t* const kept = &sorted_[replaces_smallest_];
     const std::array<std::int32_t, 4> four = {kept[0], kept[1], kept[2], kept[3]};
     // No branches: whether a number is above the median is hard to predict.
-    replaces_smallest_ = (number > median()) | (!replaces_smallest_ & (number == median()));
+    const unsigned above = number > median(), equal = number == median();
+    replaces_smallest_ = above | (equal & (replaces_smallest_ ^ 1u));
     sorted_[0] = std::min(four[0], number);
     sorted_[1] = std::max(four[0], std::min(four[1], number));
     sorted_[2] = std::max(four[1], std::min(four[2], number));
@@ -28,7 +29,7 @@ class StreamingMedian {
 
  private:
   std::array<std::int32_t, 5> sorted_{};
-  bool replaces_smallest_ = false;
+  unsigned replaces_smallest_ = 0;  // 0 or 1.
 };
 
 }  // namespace albtpu::laz
