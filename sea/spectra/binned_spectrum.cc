@@ -1,0 +1,81 @@
+#include "sea/spectra/binned_spectrum.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace albtpu {
+
+BinnedSpectrum::BinnedSpectrum(std::shared_ptr<const std::vector<double>> centres,
+                               const std::vector<DirectionalEnergy>& bins, std::size_t harmonics,
+                               double trusted_up_to)
+    : centres_(std::move(centres)), harmonics_(harmonics), trusted_up_to_(trusted_up_to) {
+  assert(centres_->size() >= 2 && bins.size() == centres_->size() && harmonics <= kSeaHarmonics);
+  assert(centres_->front() > 0 && trusted_up_to > 0);
+  values_.reserve(bins.size() * (1 + 2 * harmonics));
+  for (const DirectionalEnergy& bin : bins) {
+    assert(bin.energy >= 0);
+    values_.push_back(bin.energy);
+    for (std::size_t n = 0; n < harmonics; ++n) values_.insert(values_.end(), {bin.cosine[n], bin.sine[n]});
+  }
+}
+
+DirectionalEnergy BinnedSpectrum::bin(std::size_t i) const {
+  const double* const values = &values_[i * (1 + 2 * harmonics_)];
+  DirectionalEnergy bin{.energy = values[0]};
+  for (std::size_t n = 0; n < harmonics_; ++n) {
+    bin.cosine[n] = values[1 + 2 * n];
+    bin.sine[n] = values[2 + 2 * n];
+  }
+  return bin;
+}
+
+double BinnedSpectrum::width(std::size_t i) const {
+  const std::vector<double>& f = *centres_;
+  if (i == 0) return f[1] - f[0];
+  if (i + 1 == f.size()) return f[i] - f[i - 1];
+  return 0.5 * (f[i + 1] - f[i - 1]);
+}
+
+DirectionalEnergy BinnedSpectrum::operator()(double f) const {
+  const std::vector<double>& centres = *centres_;
+  if (f < centres.front() || f > centres.back()) return {};
+  const auto above = std::lower_bound(centres.begin() + 1, centres.end(), f);
+  const auto right = static_cast<std::size_t>(above - centres.begin());
+  const double t = (f - centres[right - 1]) / (centres[right] - centres[right - 1]);
+  DirectionalEnergy result;
+  return result.Add(bin(right - 1), 1 - t).Add(bin(right), t);
+}
+
+std::vector<double> BinnedSpectrum::ComparedFrequencies(double lowest, double highest) const {
+  constexpr double kRounding = 1e-9;  // 0.75 * 0.4 is above 0.3 in double precision
+  std::vector<double> compared;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double f = centre(i);
+    if (f >= lowest * (1 - kRounding) && f <= highest * (1 + kRounding) && bin(i).energy > 0)
+      compared.push_back(f);
+  }
+  return compared;
+}
+
+double BinnedSpectrum::significant_wave_height() const {
+  double variance = 0;
+  for (std::size_t i = 0; i < size(); ++i) variance += bin(i).energy * width(i);
+  return 4 * std::sqrt(variance);
+}
+
+double BinnedSpectrum::leading_axis() const {
+  std::size_t peak = 0;
+  for (std::size_t i = 1; i < size(); ++i)
+    if (bin(i).energy > bin(peak).energy) peak = i;
+  return bin(peak).PrincipalAxis();
+}
+
+double BinnedSpectrum::ShortWaveAxis(double f) const {
+  DirectionalEnergy sum;
+  for (const double centre : ComparedFrequencies(0.75 * f, f)) sum.Add((*this)(centre));
+  return sum.energy > 0 ? sum.PrincipalAxis() : leading_axis();
+}
+
+}  // namespace albtpu

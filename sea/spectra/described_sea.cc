@@ -1,0 +1,91 @@
+#include "sea/spectra/described_sea.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "sea/spectra/dispersion.h"
+#include "sea/spectra/elfouhaily_spectrum.h"
+#include "sea/spectra/equilibrium_wind.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kFullyDeveloped = std::numeric_limits<double>::infinity();
+constexpr double kDeep = std::numeric_limits<double>::infinity();
+
+double WindSpeed(const SeaDescription& description, SeaAssumptions& assumed) {
+  if (description.wind_speed_10m) return *description.wind_speed_10m;
+  const auto friction_velocity =
+      description.waves ? EquilibriumFrictionVelocity(*description.waves) : std::nullopt;
+  assumed.wind_speed_from_waves = friction_velocity.has_value();
+  assumed.wind_unknown = !friction_velocity;
+  return WindSpeedOfFrictionVelocity(friction_velocity.value_or(0));
+}
+
+// Where the wind blows to; in a calm where the first waves travel.
+double XAzimuth(const SeaDescription& description, double wind_speed, double tail_from,
+                SeaAssumptions& assumed) {
+  if (wind_speed > 0 && description.wind_from) return *description.wind_from + std::numbers::pi;
+  if (!description.waves) return 0;
+  if (wind_speed == 0) return description.waves->leading_axis();
+  assumed.wind_direction_from_waves = true;
+  return description.waves->ShortWaveAxis(tail_from);
+}
+
+double FullTurn(double azimuth) {
+  const double turned = std::fmod(azimuth, 2 * std::numbers::pi);
+  return turned < 0 ? turned + 2 * std::numbers::pi : turned;
+}
+
+// Scales S(k) by a function of k.
+template <typename Weight>
+HarmonicSpectrum Weighted(HarmonicSpectrum spectrum, const Weight& weight) {
+  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum.s[i] *= weight(spectrum.k[i]);
+  return spectrum;
+}
+
+}  // namespace
+
+DescribedSea Describe(const SeaDescription& description) {
+  const std::vector<double> k = SeaWavenumbers();
+  DescribedSea sea;
+  sea.water_depth = description.water_depth.value_or(kDeep);
+  sea.wind_speed_10m = WindSpeed(description, sea.assumed);
+  if (description.waves) {
+    sea.assumed.tail_from_of_waves = !description.tail_from;
+    sea.tail_from = description.tail_from.value_or(description.waves->trusted_up_to());
+    sea.cutoff = WavenumberOfFrequency(sea.tail_from, sea.water_depth);
+  }
+  sea.x_azimuth = FullTurn(XAzimuth(description, sea.wind_speed_10m, sea.tail_from, sea.assumed));
+
+  std::optional<ElfouhailySpectrum> wind;
+  if (sea.wind_speed_10m > 0) wind.emplace(sea.wind_speed_10m, kFullyDeveloped);
+  if (!description.waves) {
+    sea.resolved = FlatSea(k, kSeaHarmonics);
+    sea.spectrum = wind ? WindWaves(*wind, k) : sea.resolved;
+    return sea;
+  }
+
+  const double last = description.waves->highest_frequency();
+  const double end = std::isinf(last) ? last : WavenumberOfFrequency(last, sea.water_depth);
+  const auto weight = [&](double at) { return at > end ? 1 : TailWeight(at, sea.cutoff); };
+  sea.resolved = Weighted(ByWavenumber(*description.waves, sea.water_depth, sea.x_azimuth, k),
+                          [&](double at) { return 1 - weight(at); });
+  if (!wind || description.tail == TailRule::kNone) {
+    sea.spectrum = sea.resolved;
+    return sea;
+  }
+  const TailLevel level = LevelAtCutoff(*description.waves, *wind, sea.water_depth, sea.tail_from);
+  sea.q = level.q;
+  sea.assumed.level_held = level.held;
+  sea.assumed.level_unknown = level.compared == 0;
+  const HarmonicSpectrum tail = Weighted(WindWaves(*wind, k), [&](double at) {
+    return weight(at) * std::pow(sea.q, LevelPower(description.tail, at, sea.cutoff));
+  });
+  sea.spectrum = WeightedSum(sea.resolved, 1, tail, 1);
+  return sea;
+}
+
+}  // namespace albtpu

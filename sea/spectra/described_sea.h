@@ -1,0 +1,50 @@
+// The sea that resolved waves, a wind and a depth of water make together.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "sea/spectra/frequency_spectrum.h"
+#include "sea/spectra/harmonic_spectrum.h"
+#include "sea/spectra/spectral_tail.h"
+
+namespace albtpu {
+
+// What is known. Directions are of the compass, in rad.
+struct SeaDescription {
+  // Null: none are known, and the wind's spectrum, fully developed, is the whole sea.
+  std::shared_ptr<const FrequencySpectrum> waves = {};
+  // Absent: from the waves, by EquilibriumFrictionVelocity(). 0 is a calm, which has exactly no waves but `waves`.
+  std::optional<double> wind_speed_10m = {};  // m/s, from 0
+  std::optional<double> wind_from = {};       // absent: along the shortest resolved waves
+  std::optional<double> water_depth = {};     // m, above 0; absent or infinity: deep water
+  TailRule tail = TailRule::kRelax;
+  std::optional<double> tail_from = {};  // Hz, above 0; absent: the waves' own trusted_up_to()
+};
+
+// What was taken where the description says nothing.
+struct SeaAssumptions {
+  bool wind_speed_from_waves = false;
+  bool wind_unknown = false;  // the waves do not reach the frequencies that tell the wind: taken as calm
+  bool wind_direction_from_waves = false;
+  bool tail_from_of_waves = false;
+  bool level_held = false;     // q lay outside 0.5 to 2
+  bool level_unknown = false;  // no energy to compare at the cut-off: q is 1
+};
+
+struct DescribedSea {
+  HarmonicSpectrum spectrum;  // at SeaWavenumbers(), in its frame
+  HarmonicSpectrum resolved;  // its part that comes from `waves`
+  double x_azimuth = 0;       // the compass direction [rad, from 0 to 2 pi] of the frame's x axis
+  double wind_speed_10m = 0;  // m/s
+  double water_depth = std::numeric_limits<double>::infinity();  // m
+  double tail_from = 0;                                          // Hz; 0 if there are no resolved waves
+  double cutoff = 0;                                             // rad/m, the wavenumber of tail_from
+  double q = 1;
+  SeaAssumptions assumed;
+};
+
+DescribedSea Describe(const SeaDescription& description);
+
+}  // namespace albtpu

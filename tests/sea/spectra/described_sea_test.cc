@@ -1,0 +1,182 @@
+#include "sea/spectra/described_sea.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "sea/spectra/binned_spectrum.h"
+#include "sea/spectra/dispersion.h"
+#include "sea/spectra/elfouhaily_spectrum.h"
+#include "sea/spectra/equilibrium_wind.h"
+#include "sea/spectra/jonswap.h"
+#include "sea/spectra/sea_error.h"
+#include "sea/spectra/spectrum_moments.h"
+#include "sea/spectra/wind_sea.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kDeep = std::numeric_limits<double>::infinity();
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::shared_ptr<const FrequencySpectrum> Swell(double hs = 1, double towards = 0.5) {
+  return std::make_shared<JonswapSpectrum>(std::vector{JonswapWaves{.significant_wave_height = hs,
+                                                                    .peak_period = 9,
+                                                                    .gamma = 7,
+                                                                    .travels_towards = towards,
+                                                                    .spread = 18 * kDegree}});
+}
+
+// Elfouhaily's fully developed sea, times a factor, in narrow bins up to 0.6 Hz, with its wind from the west.
+std::shared_ptr<const FrequencySpectrum> MeasuredWindSea(double wind_speed, double factor) {
+  const ElfouhailySpectrum wind(wind_speed, kDeep);
+  std::vector<double> centres;
+  std::vector<DirectionalEnergy> bins;
+  for (double f = 0.03; f < 0.6; f += 0.0002) {
+    const double k = WavenumberOfFrequency(f, kDeep);
+    centres.push_back(f);
+    bins.push_back(
+        SymmetricEnergy(factor * wind(k) / FrequencySlope(k, kDeep), {wind.Delta(k) / 2}, 90 * kDegree));
+  }
+  return std::make_shared<BinnedSpectrum>(std::make_shared<const std::vector<double>>(std::move(centres)),
+                                          bins, 1, 0.4);
+}
+
+TEST(DescribedSea, IsTheWindSeaItselfWhereThatWasMeasured) {
+  const HarmonicSpectrum whole = Sampled(ElfouhailySpectrum(8, kDeep), SeaWavenumbers(), 1);
+  for (const TailRule rule : {TailRule::kWind, TailRule::kRelax, TailRule::kLevel}) {
+    const DescribedSea sea = Describe(
+        {.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
+    EXPECT_NEAR(sea.q, 1, 1e-12);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (whole.k[i] < 0.03) continue;  // so steep that straight lines between bins are too high
+      EXPECT_NEAR(sea.spectrum.s[i], whole.s[i], 2e-3 * whole.s[i]) << whole.k[i];
+      EXPECT_NEAR(sea.spectrum.a[0][i], whole.a[0][i], 1e-3) << whole.k[i];
+    }
+  }
+}
+
+TEST(DescribedSea, TakesTheLevelOfTheWavesOrOfTheWindAboveTheCutoff) {
+  const ElfouhailySpectrum wind(8, kDeep);
+  const auto ratio = [&](TailRule rule, double k) {
+    const DescribedSea sea = Describe(
+        {.waves = MeasuredWindSea(8, 1.6), .wind_speed_10m = 8, .wind_from = 270 * kDegree, .tail = rule});
+    const HarmonicSpectrum at = Resampled(sea.spectrum, {sea.cutoff * k});
+    const HarmonicSpectrum of_wind = Resampled(Sampled(wind, SeaWavenumbers(), 1), {sea.cutoff * k});
+    return at.s[0] / of_wind.s[0];
+  };
+  EXPECT_NEAR(ratio(TailRule::kLevel, 30), 1.6, 1e-6);
+  EXPECT_NEAR(ratio(TailRule::kWind, 30), 1, 1e-6);
+  EXPECT_NEAR(ratio(TailRule::kRelax, 30), 1, 1e-6);
+  EXPECT_NEAR(ratio(TailRule::kRelax, std::sqrt(10)), std::sqrt(1.6), 2e-3);
+  EXPECT_EQ(ratio(TailRule::kNone, 30), 0);
+  for (const TailRule rule : {TailRule::kWind, TailRule::kRelax, TailRule::kLevel, TailRule::kNone})
+    EXPECT_NEAR(ratio(rule, 0.3), 1.6, 4e-3);
+}
+
+TEST(DescribedSea, IsExactlyFlatInACalmWithoutSwell) {
+  const DescribedSea sea = Describe({.wind_speed_10m = 0});
+  for (const double s : sea.spectrum.s) EXPECT_EQ(s, 0);
+}
+
+TEST(DescribedSea, HasNothingButTheSwellInACalm) {
+  const DescribedSea sea = Describe({.waves = Swell(), .wind_speed_10m = 0});
+  EXPECT_EQ(sea.spectrum.s, sea.resolved.s);
+  EXPECT_NEAR(sea.x_azimuth, 0.5, 1e-15);  // where the swell travels
+  const HarmonicSpectrum swell = ByWavenumber(*Swell(), kDeep, 0.5, SeaWavenumbers());
+  EXPECT_NEAR(Resampled(sea.spectrum, {0.05}).s[0] / Resampled(swell, {0.05}).s[0], 1, 1e-12);
+  EXPECT_EQ(Resampled(sea.spectrum, {1e3}).s[0], 0);
+}
+
+TEST(DescribedSea, LooksAlongItsFirstWavesInACalmAndAlongItsShortestWhereTheWindIsUnknown) {
+  const auto waves = std::make_shared<JonswapSpectrum>(
+      std::vector{JonswapWaves{.significant_wave_height = 1, .peak_period = 9, .travels_towards = 0.5},
+                  JonswapWaves{.significant_wave_height = 0.4, .peak_period = 3, .travels_towards = 2}});
+  EXPECT_NEAR(Describe({.waves = waves, .wind_speed_10m = 0}).x_azimuth, 0.5, 1e-15);
+  EXPECT_NEAR(Describe({.waves = waves, .wind_speed_10m = 6}).x_azimuth, 2, 1e-15);
+}
+
+TEST(DescribedSea, IsTheFullyDevelopedWindSeaWhereNoWavesAreKnown) {
+  const DescribedSea sea = Describe({.wind_speed_10m = 6, .wind_from = 1});
+  EXPECT_EQ(sea.spectrum.s, Sampled(ElfouhailySpectrum(6, kDeep), SeaWavenumbers(), 1).s);
+  EXPECT_NEAR(sea.x_azimuth, 1 + std::numbers::pi, 1e-15);
+  EXPECT_EQ(MeanSquareSlope(sea.resolved), 0);
+}
+
+// The tail is along the wind: along x, although the waves were measured across it.
+TEST(DescribedSea, RunsItsTailAlongTheWind) {
+  const DescribedSea sea =
+      Describe({.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .wind_from = 0, .water_depth = 20});
+  const HarmonicSpectrum at = Resampled(sea.spectrum, {sea.cutoff / 5, sea.cutoff * 5});
+  EXPECT_LT(at.a[0][0], -0.1);
+  EXPECT_GT(at.a[0][1], 0.05);
+}
+
+TEST(DescribedSea, TakesTheWindFromTheWavesAndSaysSo) {
+  const auto waves = MeasuredWindSea(8, 1);
+  const DescribedSea sea = Describe({.waves = waves});
+  EXPECT_TRUE(sea.assumed.wind_speed_from_waves);
+  EXPECT_TRUE(sea.assumed.wind_direction_from_waves);
+  EXPECT_TRUE(sea.assumed.tail_from_of_waves);
+  EXPECT_NEAR(FrictionVelocity(sea.wind_speed_10m), *EquilibriumFrictionVelocity(*waves), 1e-12);
+  EXPECT_NEAR(sea.x_azimuth, 90 * kDegree, 1e-9);
+  const DescribedSea told = Describe({.waves = waves, .wind_speed_10m = 8, .wind_from = 0, .tail_from = 0.3});
+  EXPECT_FALSE(told.assumed.wind_speed_from_waves || told.assumed.wind_direction_from_waves ||
+               told.assumed.tail_from_of_waves || told.assumed.wind_unknown || told.assumed.level_held);
+  EXPECT_EQ(told.tail_from, 0.3);
+}
+
+TEST(DescribedSea, IsWithoutEnergyToCompareAboveTheLastBin) {
+  const DescribedSea sea = Describe({.waves = MeasuredWindSea(8, 1), .wind_speed_10m = 8, .tail_from = 1});
+  EXPECT_TRUE(sea.assumed.level_unknown);
+  EXPECT_EQ(sea.q, 1);
+  // Above the last bin the tail has its whole weight, so there is no gap.
+  const double gap = 0.5 * (WavenumberOfFrequency(0.6, kDeep) + WavenumberOfFrequency(1, kDeep));
+  EXPECT_NEAR(Resampled(sea.spectrum, {gap}).s[0] / ElfouhailySpectrum(8, kDeep)(gap), 1, 5e-3);
+}
+
+TEST(DescribedSea, TurnsWithWindAndWaves) {
+  const DescribedSea sea = Describe({.waves = Swell(1, 0.5), .wind_speed_10m = 5, .wind_from = 1});
+  const DescribedSea turned =
+      Describe({.waves = Swell(1, 0.5 + 2.1), .wind_speed_10m = 5, .wind_from = 1 + 2.1});
+  for (std::size_t i = 0; i < sea.spectrum.size(); ++i) {
+    EXPECT_NEAR(turned.spectrum.a[0][i], sea.spectrum.a[0][i], 1e-12);
+    EXPECT_NEAR(turned.spectrum.b[0][i], sea.spectrum.b[0][i], 1e-12);
+    EXPECT_EQ(turned.spectrum.s[i], sea.spectrum.s[i]);
+  }
+}
+
+// One bin of width B measured over T: the variance has the relative error sqrt(2 / nu) = 1 / sqrt(B T).
+TEST(ErrorOfSea, IsThatOfItsDegreesOfFreedom) {
+  const std::vector<DirectionalEnergy> bins{{}, {.energy = 1}, {}};
+  const auto waves = std::make_shared<BinnedSpectrum>(
+      std::make_shared<const std::vector<double>>(std::vector{0.09, 0.1, 0.11}), bins, 0, 0.4);
+  const SeaDescription description{.waves = waves, .wind_speed_10m = 0};
+  // Over the triangle of half width 0.01 Hz the mean of f^4 is 1.01 f^4; trapezoids add the rest.
+  const SeaError error = ErrorOfSea(description, 1200, [](double) { return 1.0; });
+  EXPECT_NEAR(error.sampling * std::sqrt(0.01 * 1200), 1, 0.03);
+  EXPECT_EQ(error.tail, 0);
+  EXPECT_EQ(error.total, error.sampling);
+  EXPECT_EQ(ErrorOfSea(description, kDeep, [](double) { return 1.0; }).sampling, 0);
+}
+
+TEST(ErrorOfSea, IsHalfTheDifferenceOfTheTailRules) {
+  SeaDescription description{.waves = MeasuredWindSea(8, 1.6), .wind_speed_10m = 8, .wind_from = 1};
+  const auto below_20 = [](double k) { return k < 20 ? 1.0 : 0.0; };
+  const auto variance = [&](TailRule rule) {
+    description.tail = rule;
+    return MeanSquareSlopeBelow(Describe(description).spectrum, 20);
+  };
+  const double range = variance(TailRule::kLevel) - variance(TailRule::kWind);
+  const double v = variance(TailRule::kRelax);
+  const SeaError error = ErrorOfSea(description, kDeep, below_20);
+  EXPECT_NEAR(error.tail, 0.5 * range / v, 0.01 * error.tail);
+  EXPECT_GT(error.tail, 0.05);
+  EXPECT_EQ(ErrorOfSea({.wind_speed_10m = 8}, 1200, below_20).total, 0);
+}
+
+}  // namespace
+}  // namespace albtpu
