@@ -17,6 +17,7 @@
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
 #include "tests/fuzz/laz/laz_seeds.h"
+#include "tests/fuzz/sea/sea_seeds.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/survey/trajectories/formats/flight_text.h"
 #include "tests/tables/synthetic_table.h"
@@ -241,21 +242,22 @@ int main(int argc, char** argv) {
     std::cerr << "albtpu_fuzz_seeds: no folder; give the folder to write to\n";
     return 2;
   }
-  const std::map<std::string, std::vector<std::string>> seeds = {{"campaign", CampaignSeeds()},
-                                                                 {"columns", ColumnSeeds()},
-                                                                 {"csv", CsvSeeds()},
-                                                                 {"csv_file", CsvSeeds()},
-                                                                 {"las", LasSeeds()},
-                                                                 {"las_head", LasHeadSeeds()},
-                                                                 {"laz_chunk", fuzz::LazChunkSeeds()},
-                                                                 {"laz_file", fuzz::LazFileSeeds()},
-                                                                 {"laz_records", fuzz::LazRecordsSeeds()},
-                                                                 {"seal", SealSeeds()},
-                                                                 {"table", TableSeeds()},
-                                                                 {"sbet", SbetSeeds()},
-                                                                 {"smrmsg", SmrmsgSeeds()},
-                                                                 {"ascii_trajectory", AsciiTrajectorySeeds()},
-                                                                 {"water_level", WaterLevelSeeds()}};
+  std::map<std::string, std::vector<std::string>> seeds = {{"campaign", CampaignSeeds()},
+                                                           {"columns", ColumnSeeds()},
+                                                           {"csv", CsvSeeds()},
+                                                           {"csv_file", CsvSeeds()},
+                                                           {"las", LasSeeds()},
+                                                           {"las_head", LasHeadSeeds()},
+                                                           {"laz_chunk", fuzz::LazChunkSeeds()},
+                                                           {"laz_file", fuzz::LazFileSeeds()},
+                                                           {"laz_records", fuzz::LazRecordsSeeds()},
+                                                           {"seal", SealSeeds()},
+                                                           {"table", TableSeeds()},
+                                                           {"sbet", SbetSeeds()},
+                                                           {"smrmsg", SmrmsgSeeds()},
+                                                           {"ascii_trajectory", AsciiTrajectorySeeds()},
+                                                           {"water_level", WaterLevelSeeds()}};
+  seeds.merge(fuzz::SeaSeeds());
   for (const auto& [target, inputs] : seeds) {
     const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
     std::filesystem::create_directories(folder);

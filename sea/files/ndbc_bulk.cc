@@ -1,0 +1,197 @@
+#include "sea/files/ndbc_bulk.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "sea/files/ndbc_header.h"
+#include "sea/files/sea_limits.h"
+#include "sea/files/text_lines.h"
+#include "sea/spectra/equilibrium_wind.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kSwellGamma = 7;
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSwellSpread = 18 * kDegree;
+
+constexpr std::array<std::string_view, 16> kCompassPoints = {
+    "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+
+// A column by one of its names; npos if there is none.
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+std::size_t Column(const std::vector<std::string_view>& header,
+                   std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+  }
+  return kNone;
+}
+
+struct WaveColumns {
+  std::size_t height, period, direction;
+};
+
+class Reader {
+ public:
+  Reader(std::string_view text, double anemometer_height)
+      : lines_(text), anemometer_height_(anemometer_height) {}
+
+  absl::StatusOr<SeaSeries> Read() {
+    const auto first = lines_.Next();
+    if (!first) return lines_.CutError();
+    ReadHeader(Words(*first));
+    while (const auto line = lines_.Next()) {
+      const std::vector<std::string_view> words = Words(*line);
+      if (words.empty() || words.front().starts_with('#')) continue;
+      if (absl::Status status = ReadRecord(words); !status.ok()) return status;
+    }
+    if (lines_.cut()) return lines_.CutError();
+    if (series_.records.empty())
+      return absl::InvalidArgumentError("none of its records has waves; give another file");
+    SayWhatIsAssumed();
+    SortByTime(series_);
+    return std::move(series_);
+  }
+
+ private:
+  void ReadHeader(const std::vector<std::string_view>& header) {
+    columns_ = header.size();
+    date_ = NdbcDateColumns(header);
+    separated_ = Column(header, {"SwH"}) != kNone;
+    series_.format = separated_ ? "an NDBC summary of spectra" : "NDBC standard meteorological data";
+    series_.record_length = 1200;
+    if (separated_) {
+      waves_ = {{Column(header, {"WWH"}), Column(header, {"WWP"}), Column(header, {"WWD"})},
+                {Column(header, {"SwH"}), Column(header, {"SwP"}), Column(header, {"SwD"})}};
+    } else {
+      waves_ = {{Column(header, {"WVHT"}), Column(header, {"DPD"}), Column(header, {"MWD"})}};
+    }
+    wind_speed_ = Column(header, {"WSPD"});
+    wind_direction_ = Column(header, {"WDIR", "WD"});
+  }
+
+  absl::Status ReadRecord(const std::vector<std::string_view>& words) {
+    const auto time = NdbcTime(words, date_);
+    if (!time) return lines_.Error("does not begin with a date and time; get another copy of the file");
+    if (words.size() != columns_)
+      return lines_.Error("has ", words.size(), " columns (expected ", columns_,
+                          "); get another copy of the file");
+    if (series_.records.size() >= kMostSeaRecords)
+      return lines_.Error("is one record too many (at most ", kMostSeaRecords, "); split the file");
+    SeaRecord record{.time = time};
+    std::vector<JonswapWaves> components;
+    for (std::size_t i = 0; i < waves_.size(); ++i)
+      if (absl::Status status = AddWaves(words, waves_[i], separated_ && i == 1, components); !status.ok())
+        return status;
+    if (absl::Status status = AddWind(words, record); !status.ok()) return status;
+    if (components.empty()) {
+      ++without_waves_;
+      return absl::OkStatus();
+    }
+    record.waves = std::make_shared<const std::vector<JonswapWaves>>(std::move(components));
+    series_.records.push_back(std::move(record));
+    return absl::OkStatus();
+  }
+
+  absl::Status AddWaves(const std::vector<std::string_view>& words, const WaveColumns& columns, bool swell,
+                        std::vector<JonswapWaves>& components) {
+    const auto height = Value(words, columns.height, 99), period = Value(words, columns.period, kLongestPeak);
+    const auto direction = Direction(words, columns.direction);
+    for (const absl::Status& status : {height.status(), period.status(), direction.status()})
+      if (!status.ok()) return status;
+    if (!*height || !*period || **period == 0) return absl::OkStatus();
+    if (**period < kShortestPeak)
+      return lines_.Error("a period is ", **period, " s (expected ", kShortestPeak, " to ", kLongestPeak,
+                          "); get another copy of the file");
+    JonswapWaves waves{.significant_wave_height = **height, .peak_period = **period};
+    if (swell) {
+      waves.gamma = kSwellGamma;
+      waves.spread = kSwellSpread;
+    }
+    if (*direction) {
+      waves.travels_towards = **direction + std::numbers::pi;
+    } else {
+      waves.spread = std::numbers::sqrt2;  // isotropic
+      ++without_direction_;
+    }
+    components.push_back(waves);
+    return absl::OkStatus();
+  }
+
+  absl::Status AddWind(const std::vector<std::string_view>& words, SeaRecord& record) {
+    const auto speed = Value(words, wind_speed_, 99);
+    const auto direction = Direction(words, wind_direction_);
+    if (!speed.ok()) return speed.status();
+    if (!direction.ok()) return direction.status();
+    if (*speed) record.wind_speed_10m = WindSpeedAt10m(**speed, anemometer_height_);
+    record.wind_from = *direction;
+    return absl::OkStatus();
+  }
+
+  // A number from 0; nullopt if the column is absent or its value missing, which is `missing` or more.
+  absl::StatusOr<std::optional<double>> Value(const std::vector<std::string_view>& words, std::size_t column,
+                                              double missing) const {
+    if (column == kNone || words[column] == "MM") return std::nullopt;
+    const auto value = ParseNumber(words[column]);
+    if (!value || *value < 0)
+      return lines_.Error(Quoted(words[column]), " is no such value; get another copy of the file");
+    return *value >= missing ? std::nullopt : value;
+  }
+
+  // rad, from.
+  absl::StatusOr<std::optional<double>> Direction(const std::vector<std::string_view>& words,
+                                                  std::size_t column) const {
+    if (column == kNone) return std::nullopt;
+    const auto point = std::find(kCompassPoints.begin(), kCompassPoints.end(), words[column]);
+    if (point != kCompassPoints.end())
+      return static_cast<double>(point - kCompassPoints.begin()) * 22.5 * kDegree;
+    if (words[column] == "-99" || words[column] == "-") return std::nullopt;
+    const auto degrees = Value(words, column, 999);
+    if (!degrees.ok() || !*degrees) return degrees;
+    if (**degrees > 360)
+      return lines_.Error(Quoted(words[column]), " is no direction; get another copy of the file");
+    return **degrees * kDegree;
+  }
+
+  void SayWhatIsAssumed() {
+    const auto say = [&](auto... parts) { series_.assumed.push_back(absl::StrCat(parts...)); };
+    say("the waves are taken as JONSWAP's of these heights and periods: gamma 3.3 and Mitsuyasu's spreading",
+        separated_ ? ", swell gamma 7 and a spread of 18 degrees" : "");
+    if (!separated_) say("swell and wind waves are not told apart: spectra or a .spec file tell more");
+    if (wind_speed_ != kNone) say("winds are taken as measured ", anemometer_height_, " m above the water");
+    if (without_waves_ > 0) say(without_waves_, " records have no waves and are left out");
+    if (without_direction_ > 0)
+      say(without_direction_, " wave heights have no direction and are taken as isotropic");
+  }
+
+  TextLines lines_;
+  double anemometer_height_;
+  std::size_t columns_ = 0;
+  NdbcDate date_;
+  bool separated_ = false;
+  std::vector<WaveColumns> waves_;
+  std::size_t wind_speed_ = kNone, wind_direction_ = kNone;
+  SeaSeries series_{};
+  std::size_t without_waves_ = 0, without_direction_ = 0;
+};
+
+}  // namespace
+
+bool IsNdbcBulk(std::string_view first_line) {
+  const std::vector<std::string_view> words = Words(first_line);
+  return NdbcDateColumns(words).count > 0 && Column(words, {"WVHT"}) != kNone;
+}
+
+absl::StatusOr<SeaSeries> ReadNdbcBulk(std::string_view text, double anemometer_height) {
+  return Reader(text, anemometer_height).Read();
+}
+
+}  // namespace albtpu

@@ -1,0 +1,30 @@
+// Spectra of NDBC buoys: energy, r2 and alpha2 by frequency.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "sea/files/sea_series.h"
+
+namespace albtpu {
+
+// Where the waves of NDBC's 3 m discus buoys can be trusted to, Hz: above, the hull hardly follows them.
+inline constexpr double kNdbcTrustedUpTo = 0.4;
+
+// s over which NDBC measures waves each hour.
+inline constexpr double kNdbcRecordLength = 1200;
+
+// The texts of the files; absent ones leave the waves isotropic, which `assumed` says.
+struct NdbcTexts {
+  std::string_view energy;                                                            // .data_spec, or w
+  std::optional<std::string_view> spread = {};                                        // r2: .swr2, or k
+  std::optional<std::string_view> direction = {};                                     // alpha2: .swdir2, or i
+  std::string spread_name = "the file of r2", direction_name = "the file of alpha2";  // for messages
+};
+
+// D = (1 + 2 r2 cos 2 (c - alpha2)) / (2 pi): where r2 or alpha2 is missing, a bin is isotropic. Bins without energy
+// are left out; so are records with fewer than two bins.
+absl::StatusOr<SeaSeries> ReadNdbcSpectra(const NdbcTexts& texts);
+
+}  // namespace albtpu

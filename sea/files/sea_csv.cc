@@ -1,0 +1,197 @@
+#include "sea/files/sea_csv.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "sea/files/sea_limits.h"
+#include "sea/files/text_lines.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kMostCsvHarmonics = 32;
+
+std::string_view Trimmed(std::string_view cell) {
+  const std::vector<std::string_view> words = Words(cell);
+  return words.size() == 1 ? words[0] : words.empty() ? std::string_view() : cell;
+}
+
+std::vector<std::string_view> Cells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(Trimmed(line.substr(0, comma)));
+    if (comma == line.npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+bool IsComment(std::string_view line) { return Trimmed(line).empty() || Trimmed(line).front() == '#'; }
+
+// "2020-06-08T03:50Z", with seconds or not.
+std::optional<double> SecondsOfIso(std::string_view text) {
+  if (text.size() != 17 && text.size() != 20) return std::nullopt;
+  constexpr std::string_view kForm = "0000-00-00T00:00:00Z";
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const bool digit = text[i] >= '0' && text[i] <= '9';
+    if (kForm[i] == '0' ? !digit : text[i] != kForm[i]) return std::nullopt;
+  }
+  if (text.back() != 'Z') return std::nullopt;
+  const auto part = [&](std::size_t from, std::size_t size) { return *ParseCount(text.substr(from, size)); };
+  return SecondsOf({.year = part(0, 4),
+                    .month = part(5, 2),
+                    .day = part(8, 2),
+                    .hour = part(11, 2),
+                    .minute = part(14, 2),
+                    .second = text.size() == 20 ? part(17, 2) : 0});
+}
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : lines_(text) {}
+
+  absl::StatusOr<SeaSeries> Read() {
+    std::optional<std::string_view> line;
+    while ((line = lines_.Next()) && IsComment(*line)) {
+    }
+    if (!line) return lines_.CutError();
+    if (absl::Status status = ReadHeader(*line); !status.ok()) return status;
+    while ((line = lines_.Next())) {
+      if (IsComment(*line)) continue;
+      if (absl::Status status = ReadLine(*line); !status.ok()) return status;
+    }
+    if (lines_.cut()) return lines_.CutError();
+    if (absl::Status status = Finish(); !status.ok()) return status;
+    SortByTime(series_);
+    return std::move(series_);
+  }
+
+ private:
+  absl::Status ReadHeader(std::string_view line) {
+    std::vector<std::string_view> names = Cells(line);
+    timed_ = names[0] == "time";
+    if (timed_) names.erase(names.begin());
+    columns_ = names.size();
+    using Names = std::vector<std::string_view>;
+    by_frequency_ = names == Names{"f", "E"} || names == Names{"f", "E", "r2", "alpha2"};
+    bool by_wavenumber = !timed_ && columns_ >= 4 && columns_ % 2 == 0 &&
+                         columns_ <= 2 + 2 * kMostCsvHarmonics && names[0] == "k" && names[1] == "S";
+    for (std::size_t i = 2; by_wavenumber && i < columns_; ++i)
+      by_wavenumber = names[i] == absl::StrCat(i % 2 == 0 ? "a" : "b", i / 2 * 2);
+    if (!by_frequency_ && !by_wavenumber)
+      return lines_.Error("has the columns ", Quoted(line),
+                          " (expected f,E,r2,alpha2 or k,S,a2,b2,a4,b4...); "
+                          "name them so");
+    series_.format = by_frequency_ ? "a CSV file of a sea by frequency" : "a CSV file of a sea by wavenumber";
+    whole_.a.resize(columns_ / 2 - 1);
+    whole_.b.resize(columns_ / 2 - 1);
+    return absl::OkStatus();
+  }
+
+  absl::Status ReadLine(std::string_view line) {
+    std::vector<std::string_view> cells = Cells(line);
+    if (cells.size() != columns_ + (timed_ ? 1 : 0))
+      return lines_.Error("has ", cells.size(), " cells (expected ", columns_ + (timed_ ? 1 : 0),
+                          "); complete it");
+    if (++values_ > kMostSeaValues / 16) return lines_.Error("is one line too many; split the file");
+    if (timed_) {
+      const auto time = SecondsOfIso(cells[0]);
+      if (!time) return lines_.Error(Quoted(cells[0]), " is no time such as 2020-06-08T03:50Z");
+      if (!axis_.empty() && time != time_)
+        if (absl::Status status = Finish(); !status.ok()) return status;
+      time_ = time;
+      cells.erase(cells.begin());
+    }
+    std::vector<std::optional<double>> numbers;
+    for (const std::string_view cell : cells) {
+      numbers.push_back(ParseNumber(cell));
+      if (!numbers.back() && !(cell.empty() && by_frequency_ && numbers.size() > 2))
+        return lines_.Error(Quoted(cell), " is no number; correct it");
+    }
+    const double at = *numbers[0];
+    const double lowest = by_frequency_ ? kLowestFrequency : 1e-6,
+                 highest = by_frequency_ ? kHighestFrequency : 1e6;
+    if (!(at >= lowest && at <= highest))
+      return lines_.Error(by_frequency_ ? "f" : "k", " is ", at, " (expected ", lowest, " to ", highest,
+                          "); correct it");
+    if (!axis_.empty() && at <= axis_.back())
+      return lines_.Error(by_frequency_ ? "f" : "k", " is ", at,
+                          " (expected more than the line before); sort the lines");
+    if (axis_.size() == kMostFrequencies)
+      return lines_.Error("is one line too many (at most ", kMostFrequencies, ")");
+    if (!(*numbers[1] >= 0 && *numbers[1] < 1e12))
+      return lines_.Error(by_frequency_ ? "E" : "S", " is ", *numbers[1],
+                          " (expected 0 or more); correct it");
+    axis_.push_back(at);
+    return by_frequency_ ? AddBin(numbers) : AddSample(numbers);
+  }
+
+  absl::Status AddBin(const std::vector<std::optional<double>>& numbers) {
+    const bool directional = numbers.size() == 4 && numbers[2] && numbers[3];
+    if (directional && !(*numbers[2] >= 0 && *numbers[2] <= 1))
+      return lines_.Error("r2 is ", *numbers[2], " (expected 0 to 1); divide hundredths by 100");
+    if (directional && !(std::abs(*numbers[3]) <= 360))
+      return lines_.Error("alpha2 is ", *numbers[3], " (expected 0 to 360 degrees); correct it");
+    bins_.push_back(directional ? SymmetricEnergy(*numbers[1], {*numbers[2]}, *numbers[3] * kDegree)
+                                : DirectionalEnergy{.energy = *numbers[1]});
+    return absl::OkStatus();
+  }
+
+  absl::Status AddSample(const std::vector<std::optional<double>>& numbers) {
+    whole_.s.push_back(*numbers[1]);
+    for (std::size_t n = 0; n < whole_.a.size(); ++n) {
+      const double a = *numbers[2 + 2 * n], b = *numbers[3 + 2 * n];
+      if (!(std::hypot(a, b) <= 1 + 1e-6))
+        return lines_.Error("harmonic ", 2 * n + 2, " is ", a, ", ", b,
+                            " (expected a length up to 1); divide by S");
+      whole_.a[n].push_back(a);
+      whole_.b[n].push_back(b);
+    }
+    return absl::OkStatus();
+  }
+
+  // Ends the record whose lines were read.
+  absl::Status Finish() {
+    if (axis_.size() < 2)
+      return lines_.Error("ends a sea of ", axis_.size(),
+                          " lines (expected at least 2); give a sea with more");
+    SeaRecord record{.time = time_};
+    if (by_frequency_) {
+      const double last = axis_.back();
+      record.waves = std::make_shared<const BinnedSpectrum>(
+          std::make_shared<const std::vector<double>>(std::exchange(axis_, {})), std::exchange(bins_, {}), 1,
+          last);
+    } else {
+      whole_.k = std::exchange(axis_, {});
+      record.waves = std::make_shared<const HarmonicSpectrum>(std::move(whole_));
+    }
+    series_.records.push_back(std::move(record));
+    return absl::OkStatus();
+  }
+
+  TextLines lines_;
+  bool timed_ = false, by_frequency_ = false;
+  std::size_t columns_ = 0, values_ = 0;
+  std::optional<double> time_;
+  std::vector<double> axis_;
+  std::vector<DirectionalEnergy> bins_;
+  HarmonicSpectrum whole_;
+  SeaSeries series_{};
+};
+
+}  // namespace
+
+bool IsSeaCsv(std::string_view first_line) {
+  const std::string_view first = Cells(first_line)[0];
+  return first_line.find(',') != first_line.npos && (first == "f" || first == "k" || first == "time");
+}
+
+absl::StatusOr<SeaSeries> ReadSeaCsv(std::string_view text) { return Reader(text).Read(); }
+
+}  // namespace albtpu

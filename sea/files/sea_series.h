@@ -1,0 +1,56 @@
+// What a file says of the sea: states of it at times and places, however they were measured or computed.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sea/spectra/binned_spectrum.h"
+#include "sea/spectra/described_sea.h"
+#include "sea/spectra/harmonic_spectrum.h"
+#include "sea/spectra/jonswap.h"
+
+namespace albtpu {
+
+using BinnedWaves = std::shared_ptr<const BinnedSpectrum>;
+using WaveComponents = std::shared_ptr<const std::vector<JonswapWaves>>;  // at least one
+using WholeSea = std::shared_ptr<const HarmonicSpectrum>;
+
+struct SeaRecord {
+  std::optional<double> time = {};            // s since 1970-01-01T00:00:00Z, without leap seconds
+  std::size_t point = 0;                      // of SeaSeries::points
+  std::optional<double> water_depth = {};     // m
+  std::optional<double> wind_speed_10m = {};  // m/s
+  std::optional<double> wind_from = {};       // compass direction, rad
+  std::variant<BinnedWaves, WaveComponents, WholeSea> waves = {};
+
+  double significant_wave_height() const;  // m
+};
+
+struct SeaPoint {
+  std::string name;                                     // may be empty
+  std::optional<double> latitude = {}, longitude = {};  // degrees
+};
+
+struct SeaSeries {
+  std::string format;  // "an NDBC file of spectra", for messages
+  std::vector<SeaPoint> points = {{}};
+  std::vector<SeaRecord> records = {};    // at least one; times increase at each point
+  std::vector<std::string> assumed = {};  // sentences on what the file left open and what was left out
+  double record_length = std::numeric_limits<double>::infinity();  // s, of a measurement; infinity for models
+};
+
+// The sea of a record. What `told` has, counts more than what the record has; its `waves` are not used.
+DescribedSea Describe(const SeaRecord& record, SeaDescription told = {});
+
+// What Describe() above hands to Describe() of sea/spectra. Not for a WholeSea, which is complete.
+SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription told = {});
+
+// Sorts records by point and time. Of records for the same point and time the first one stays; `assumed` says so.
+void SortByTime(SeaSeries& series);
+
+}  // namespace albtpu

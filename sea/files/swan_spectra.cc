@@ -1,0 +1,228 @@
+#include "sea/files/swan_spectra.h"
+
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "sea/files/sea_limits.h"
+#include "sea/files/spectral_grid.h"
+#include "sea/files/word_stream.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSwanWeight = 1025 * 9.81;  // N/m^3, by which SWAN turns variance into energy
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : words_(text) {}
+
+  absl::StatusOr<SeaSeries> Read() {
+    series_.format = "SWAN spectra";
+    series_.points.clear();
+    if (absl::Status status = ReadHeader(); !status.ok()) return status;
+    absl::Status status = ReadSpectra();
+    if (!status.ok()) return status;
+    if (words_.lines().cut()) return words_.lines().CutError();
+    if (series_.records.empty()) return absl::InvalidArgumentError("it has no spectrum; give another file");
+    series_.assumed.push_back(
+        "waves are taken from the model up to its highest frequency; there is no current");
+    if (without_data_ > 0)
+      series_.assumed.push_back(absl::StrCat(without_data_, " spectra have no data and are left out"));
+    SortByTime(series_);
+    return std::move(series_);
+  }
+
+ private:
+  absl::Status ReadHeader() {
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    if (keyword_ != "SWAN") return Unexpected("SWAN");
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    if (keyword_ == "TIME") {
+      const auto option = Count(1);
+      if (!option.ok()) return option.status();
+      timed_ = true;
+      if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    }
+    if (absl::Status status = ReadLocations(); !status.ok()) return status;
+    if (absl::Status status = ReadGrid(); !status.ok()) return status;
+    return ReadQuantity();
+  }
+
+  absl::Status ReadLocations() {
+    const bool geographic = keyword_ == "LONLAT";
+    if (!geographic && keyword_ != "LOCATIONS") return Unexpected("LONLAT or LOCATIONS");
+    const auto count = Count(kMostSeaRecords);
+    if (!count.ok()) return count.status();
+    for (std::size_t i = 0; i < *count; ++i) {
+      const auto line = words_.NextLine();
+      if (!line) return words_.lines().CutError();
+      const std::vector<std::string_view> words = Words(*line);
+      const auto x = ParseNumber(words[0]), y = words.size() > 1 ? ParseNumber(words[1]) : std::nullopt;
+      if (!x || !y) return words_.lines().Error("has no two coordinates; get another copy of the file");
+      SeaPoint point{.name = words.size() > 2 ? std::string(words[2]) : std::string()};
+      if (geographic) {
+        point.longitude = *x;
+        point.latitude = *y;
+      }
+      series_.points.push_back(std::move(point));
+    }
+    return NextKeyword();
+  }
+
+  absl::Status ReadGrid() {
+    if (keyword_ != "AFREQ" && keyword_ != "RFREQ") return Unexpected("AFREQ or RFREQ");
+    auto frequencies = ReadAxis("a frequency");
+    if (!frequencies.ok()) return frequencies.status();
+    const bool cartesian = keyword_ == "CDIR";
+    if (keyword_ == "QUANT")
+      return words_.lines().Error("the spectra have no directions; write them by SPECOUT with SPEC2D");
+    if (!cartesian && keyword_ != "NDIR") return Unexpected("NDIR or CDIR");
+    auto directions = ReadAxis("a direction");
+    if (!directions.ok()) return directions.status();
+    for (double& direction : *directions) direction = (cartesian ? 90 - direction : direction) * kDegree;
+    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*std::move(frequencies), *std::move(directions));
+    if (!grid.ok()) return words_.lines().Error(grid.status().message());
+    grid_ = *std::move(grid);
+    return absl::OkStatus();
+  }
+
+  // The numbers behind a keyword, one on each line; then comes the next keyword.
+  absl::StatusOr<std::vector<double>> ReadAxis(std::string_view what) {
+    const auto count = Count(kMostFrequencies);
+    if (!count.ok()) return count.status();
+    std::vector<double> axis;
+    for (std::size_t i = 0; i < *count; ++i) {
+      const auto line = words_.NextLine();
+      if (!line) return words_.lines().CutError();
+      const auto number = ParseNumber(Words(*line)[0]);
+      if (!number) return words_.lines().Error(Quoted(*line), " is not ", std::string(what));
+      axis.push_back(*number);
+    }
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    return axis;
+  }
+
+  absl::Status ReadQuantity() {
+    if (keyword_ != "QUANT") return Unexpected("QUANT");
+    const auto count = Count(1);
+    if (!count.ok()) return count.status();
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    const std::string quantity = keyword_;
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    const bool energy = quantity == "EnDens", variance = quantity == "VaDens";
+    if (!(energy && keyword_ == "J/m2/Hz/degr") && !(variance && keyword_ == "m2/Hz/degr"))
+      return words_.lines().Error(
+          "states ", Quoted(quantity), " in ", Quoted(keyword_),
+          " (expected VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr); write spectra of variance");
+    unit_ = (energy ? 1 / kSwanWeight : 1) / kDegree;
+    const auto exception = words_.Numbers(1, "an exception value");
+    if (!exception.ok()) return exception.status();
+    exception_ = exception->front();
+    return absl::OkStatus();
+  }
+
+  // Every spectrum to the end of the text.
+  absl::Status ReadSpectra() {
+    while (const auto line = words_.NextLine()) {
+      std::optional<double> time;
+      std::string_view first = Words(*line)[0];
+      if (timed_) {
+        if (first.size() == 15 && first[8] == '.')
+          time = SecondsOfDigits(first.substr(0, 8), first.substr(9));
+        if (!time)
+          return words_.lines().Error(Quoted(*line),
+                                      " is no date and time such as 20161011.000000; get another copy");
+      }
+      for (std::size_t point = 0; point < series_.points.size(); ++point) {
+        if (timed_ || point > 0) {
+          const auto next = words_.NextLine();
+          if (!next) return words_.lines().CutError();
+          first = Words(*next)[0];
+        }
+        if (absl::Status status = ReadSpectrum(first, point, time); !status.ok()) return status;
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status ReadSpectrum(std::string_view keyword, std::size_t point, std::optional<double> time) {
+    if (keyword == "NODATA") {
+      ++without_data_;
+      return absl::OkStatus();
+    }
+    SeaRecord record{.time = time, .point = point};
+    if (keyword == "ZERO") {
+      record.waves = grid_->NoWaves();
+    } else if (keyword == "FACTOR") {
+      const auto factor = words_.Numbers(1, "a factor");
+      if (!factor.ok()) return factor.status();
+      auto densities = words_.Numbers(grid_->size(), "a spectral density");
+      if (!densities.ok()) return densities.status();
+      for (double& density : *densities) {
+        if (density == exception_) {
+          ++without_data_;
+          return absl::OkStatus();
+        }
+        density *= factor->front() * unit_;
+      }
+      absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*densities, SpectralGrid::Order::kDirectionFirst);
+      if (!waves.ok()) return words_.lines().Error(waves.status().message());
+      record.waves = *std::move(waves);
+    } else {
+      return words_.lines().Error(Quoted(keyword),
+                                  " is none of FACTOR, ZERO and NODATA; get another copy of the file");
+    }
+    values_ += 16 + std::get<BinnedWaves>(record.waves)->size() * (1 + 2 * kSeaHarmonics);
+    if (values_ > kMostSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
+    series_.records.push_back(std::move(record));
+    return absl::OkStatus();
+  }
+
+  // The first word of the next line that is no comment.
+  absl::Status NextKeyword() {
+    do {
+      const auto line = words_.NextLine();
+      if (!line) return words_.lines().CutError();
+      keyword_ = Words(*line)[0];
+    } while (keyword_.starts_with('$'));
+    return absl::OkStatus();
+  }
+
+  // A number of things from 1 to `most` on a line of its own.
+  absl::StatusOr<std::size_t> Count(std::size_t most) {
+    if (absl::Status status = NextKeyword(); !status.ok()) return status;
+    const auto count = ParseCount(keyword_);
+    if (!count || *count < 1 || static_cast<std::size_t>(*count) > most)
+      return words_.lines().Error("states ", Quoted(keyword_), " (expected ",
+                                  most == 1 ? "1" : absl::StrCat("1 to ", most),
+                                  "); write the file otherwise");
+    return static_cast<std::size_t>(*count);
+  }
+
+  absl::Status Unexpected(std::string_view expected) const {
+    return words_.lines().Error("begins with ", Quoted(keyword_), " (expected ", std::string(expected),
+                                "); get another copy of the file");
+  }
+
+  WordStream words_;
+  std::string keyword_;
+  bool timed_ = false;
+  std::optional<SpectralGrid> grid_;
+  double unit_ = 1, exception_ = 0;  // unit_: to m^2/Hz/rad
+  std::size_t values_ = 0, without_data_ = 0;
+  SeaSeries series_{};
+};
+
+}  // namespace
+
+bool IsSwanSpectra(std::string_view first_line) {
+  const std::vector<std::string_view> words = Words(first_line);
+  return !words.empty() && words[0] == "SWAN";
+}
+
+absl::StatusOr<SeaSeries> ReadSwanSpectra(std::string_view text) { return Reader(text).Read(); }
+
+}  // namespace albtpu

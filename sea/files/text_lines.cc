@@ -1,0 +1,126 @@
+#include "sea/files/text_lines.h"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace albtpu {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\f\v";
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Days since 1970-01-01 in the Gregorian calendar, for years from 1900.
+int DaysSince1970(int year, int month, int day) {
+  constexpr int kBefore[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  const int last = month > 2 ? year : year - 1;  // whose leap day has passed
+  const int leap_days = last / 4 - last / 100 + last / 400;
+  return 365 * (year - 1970) + leap_days - 477 + kBefore[month - 1] + day - 1;
+}
+
+int DaysOf(int month, int year) {
+  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  return month == 2 && leap ? 29 : kDays[month - 1];
+}
+
+}  // namespace
+
+std::optional<std::string_view> TextLines::Next() {
+  if (rest_.empty()) return std::nullopt;
+  ++number_;
+  const std::size_t end = rest_.find('\n');
+  std::string_view line = rest_.substr(0, end);
+  if (end == std::string_view::npos) {
+    rest_ = {};
+    cut_ = !IsWhole(line);
+    return cut_ ? std::nullopt : std::optional(line);
+  }
+  rest_.remove_prefix(end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  before_ = line;
+  return line;
+}
+
+bool TextLines::IsWhole(std::string_view last) const {
+  if (last_line_ == LastLine::kIsCut || last.empty() || last.size() > before_.size()) return false;
+  const auto is_blank = [&](std::size_t i) { return kBlanks.find(before_[i]) != kBlanks.npos; };
+  return !is_blank(last.size() - 1) && (last.size() == before_.size() || is_blank(last.size()));
+}
+
+absl::Status TextLines::CutError() const {
+  return absl::InvalidArgumentError(cut_ ? absl::StrCat("its last line, ", number_,
+                                                        ", has no end (the file was cut); get another copy "
+                                                        "of the file, or end the line if it is whole")
+                                         : absl::StrCat("it ends within a record, after line ", number_,
+                                                        " (the file was cut); get another copy of the file"));
+}
+
+std::vector<std::string_view> Words(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return words;
+    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    line.remove_prefix(end);
+  }
+}
+
+std::optional<double> ParseNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.empty() || !(IsDigit(word.back()) || word.back() == '.')) return std::nullopt;  // no inf, no nan
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::result_out_of_range)
+    return word.find_first_of("eE") != word.npos && word.find("-") != word.npos ? std::optional(0.0)
+                                                                                : std::nullopt;
+  if (error != std::errc()) return std::nullopt;
+  const std::string_view rest(end, word.data() + word.size() - end);
+  if (rest.empty()) return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  int exponent = 0;
+  const char* const digits = rest.data() + (rest.front() == '+' ? 1 : 0);
+  if (rest.size() != 4 || (rest.front() != '-' && rest.front() != '+')) return std::nullopt;
+  if (std::from_chars(digits, rest.data() + 4, exponent).ptr != rest.data() + 4) return std::nullopt;
+  value *= std::pow(10.0, exponent);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<int> ParseCount(std::string_view word) {
+  int value = 0;
+  if (word.empty() || !IsDigit(word.front())) return std::nullopt;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<double> SecondsOf(const CivilTime& time) {
+  if (time.year < 1900 || time.year > 2200 || time.month < 1 || time.month > 12) return std::nullopt;
+  if (time.day < 1 || time.day > DaysOf(time.month, time.year)) return std::nullopt;
+  if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59 || time.second < 0 ||
+      time.second > 59)
+    return std::nullopt;
+  return 86400.0 * DaysSince1970(time.year, time.month, time.day) + 3600.0 * time.hour + 60.0 * time.minute +
+         time.second;
+}
+
+std::optional<double> SecondsOfDigits(std::string_view date, std::string_view time_of_day) {
+  if (date.size() != 8 || time_of_day.size() != 6) return std::nullopt;
+  const auto day = ParseCount(date), second = ParseCount(time_of_day);
+  if (!day || !second) return std::nullopt;
+  return SecondsOf({.year = *day / 10000,
+                    .month = *day / 100 % 100,
+                    .day = *day % 100,
+                    .hour = *second / 10000,
+                    .minute = *second / 100 % 100,
+                    .second = *second % 100});
+}
+
+std::string Quoted(std::string_view word) {
+  std::string quoted = "'";
+  for (const char c : word.substr(0, 24)) quoted += c >= ' ' && c <= '~' ? c : '?';
+  return quoted + (word.size() > 24 ? "...'" : "'");
+}
+
+}  // namespace albtpu

@@ -1,0 +1,71 @@
+// The lines of a text in memory, and the numbers and times in them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+
+namespace albtpu {
+
+class TextLines {
+ public:
+  // What a last line without an end is. Texts of fixed columns often have one.
+  enum class LastLine {
+    kIsCut,
+    kMayEndAtColumn,  // whole if a word of the line before ends at the same column
+  };
+
+  explicit TextLines(std::string_view text, LastLine last_line = LastLine::kIsCut)
+      : rest_(text), last_line_(last_line) {}
+
+  // The next line without its end; nullopt after the last one. A last line that was cut is not given: cut() is true.
+  std::optional<std::string_view> Next();
+
+  std::size_t number() const { return number_; }  // of the line that Next() gave, from 1
+  bool cut() const { return cut_; }
+
+  // "line 7: " before the parts.
+  template <typename... Parts>
+  absl::Status Error(const Parts&... parts) const {
+    return absl::InvalidArgumentError(absl::StrCat("line ", number_, ": ", parts...));
+  }
+
+  // For the end of a text that lacks something.
+  absl::Status CutError() const;
+
+ private:
+  bool IsWhole(std::string_view last) const;
+
+  std::string_view rest_, before_;
+  LastLine last_line_;
+  std::size_t number_ = 0;
+  bool cut_ = false;
+};
+
+// The words of a line, separated by blanks and tabs.
+std::vector<std::string_view> Words(std::string_view line);
+
+// A finite number in decimal digits. Fortran leaves out the E before exponents of three digits: "0.261-104".
+std::optional<double> ParseNumber(std::string_view word);
+
+// A whole number of digits alone.
+std::optional<int> ParseCount(std::string_view word);
+
+struct CivilTime {
+  int year, month, day, hour = 0, minute = 0, second = 0;
+};
+
+// s since 1970-01-01T00:00:00Z, without leap seconds; nullopt if there is no such date or time of day.
+std::optional<double> SecondsOf(const CivilTime& time);
+
+// The same of eight digits of a date and six of a time of day, as WAVEWATCH III and SWAN write them.
+std::optional<double> SecondsOfDigits(std::string_view date, std::string_view time_of_day);
+
+// A word of the file for messages: short, and printable.
+std::string Quoted(std::string_view word);
+
+}  // namespace albtpu

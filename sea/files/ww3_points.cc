@@ -1,0 +1,143 @@
+#include "sea/files/ww3_points.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "sea/files/directional_bins.h"
+#include "sea/files/sea_limits.h"
+#include "sea/files/spectral_grid.h"
+#include "sea/files/word_stream.h"
+
+namespace albtpu {
+namespace {
+
+constexpr std::string_view kTitle = "'WAVEWATCH III SPECTRA'";
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Numbers of fixed width, which may touch where the next one is negative.
+std::vector<double> TouchingNumbers(std::string_view line) {
+  std::string separated;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '-' && i > 0 && line[i - 1] >= '0' && line[i - 1] <= '9') separated += ' ';
+    separated += line[i];
+  }
+  std::vector<double> numbers;
+  for (const std::string_view word : Words(separated)) {
+    const auto number = ParseNumber(word);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : words_(text) {}
+
+  absl::StatusOr<SeaSeries> Read() {
+    series_.format = "point output of WAVEWATCH III";
+    series_.points.clear();
+    if (absl::Status status = ReadHeader(); !status.ok()) return status;
+    while (const auto line = words_.NextLine())
+      if (absl::Status status = ReadTime(*line); !status.ok()) return status;
+    if (words_.lines().cut()) return words_.lines().CutError();
+    if (series_.records.empty())
+      return absl::InvalidArgumentError("it has a header and no record; get another copy of the file");
+    series_.assumed.push_back(
+        "waves are taken from the model up to its highest frequency; currents are left out");
+    SortByTime(series_);
+    return std::move(series_);
+  }
+
+ private:
+  absl::Status ReadHeader() {
+    const auto line = words_.NextLine();
+    if (!line) return words_.lines().CutError();
+    if (!IsWw3Points(*line)) return words_.lines().Error("is not the title of WAVEWATCH III's point output");
+    const std::vector<std::string_view> counts = Words(line->substr(line->find(kTitle) + kTitle.size()));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto count = i < counts.size() ? ParseCount(counts[i]) : std::nullopt;
+      if (!count || *count < 1 ||
+          static_cast<std::size_t>(*count) > (i == 2 ? kMostSeaRecords : kMostFrequencies))
+        return words_.lines().Error(
+            "states no numbers of frequencies, directions and points; get another copy");
+      (i == 0 ? frequencies_ : i == 1 ? directions_ : points_) = static_cast<std::size_t>(*count);
+    }
+    const auto frequencies = words_.Numbers(frequencies_, "a frequency");
+    if (!frequencies.ok()) return frequencies.status();
+    const auto directions = words_.Numbers(directions_, "a direction");
+    if (!directions.ok()) return directions.status();
+    absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*frequencies, *directions);
+    if (!grid.ok()) return words_.lines().Error(grid.status().message());
+    grid_ = *std::move(grid);
+    return absl::OkStatus();
+  }
+
+  absl::Status ReadTime(std::string_view line) {
+    const std::vector<std::string_view> words = Words(line);
+    const auto time = words.size() == 2 ? SecondsOfDigits(words[0], words[1]) : std::nullopt;
+    if (!time)
+      return words_.lines().Error(Quoted(line), " is no date and time; get another copy of the file");
+    for (std::size_t i = 0; i < points_; ++i)
+      if (absl::Status status = ReadPoint(*time); !status.ok()) return status;
+    return absl::OkStatus();
+  }
+
+  absl::Status ReadPoint(double time) {
+    const auto line = words_.NextLine();
+    if (!line) return words_.lines().CutError();
+    const std::size_t open = line->find('\''), close = line->find('\'', open + 1);
+    if (open == line->npos || close == line->npos)
+      return words_.lines().Error(Quoted(*line), " is no point's name; get another copy of the file");
+    const std::vector<double> numbers = TouchingNumbers(line->substr(close + 1));
+    if (numbers.size() < 5 || !(numbers[2] > 0 && numbers[2] <= kDeepestWater) ||
+        !(numbers[3] >= 0 && numbers[3] <= kStrongestWind) || !(std::abs(numbers[4]) <= 360))
+      return words_.lines().Error(
+          "lacks latitude, longitude, depth, wind speed or wind direction, or has one that cannot be; get "
+          "another copy");
+    const std::string name(Words(line->substr(open + 1, close - open - 1)).empty()
+                               ? std::string_view()
+                               : line->substr(open + 1, close - open - 1));
+    SeaRecord record{
+        .time = time,
+        .point = PointNamed(name.substr(0, name.find_last_not_of(' ') + 1), numbers[0], numbers[1]),
+        .water_depth = numbers[2],
+        .wind_speed_10m = numbers[3],
+        .wind_from = numbers[4] * kDegree};
+    const auto density = words_.Numbers(frequencies_ * directions_, "a spectral density");
+    if (!density.ok()) return density.status();
+    absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*density, SpectralGrid::Order::kFrequencyFirst);
+    if (!waves.ok()) return words_.lines().Error(waves.status().message());
+    record.waves = *std::move(waves);
+    values_ += frequencies_ * (1 + 2 * kSeaHarmonics);
+    if (values_ > kMostSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
+    series_.records.push_back(std::move(record));
+    return absl::OkStatus();
+  }
+
+  std::size_t PointNamed(const std::string& name, double latitude, double longitude) {
+    const auto [found, added] =
+        numbers_.emplace(std::tuple(name, latitude, longitude), series_.points.size());
+    if (added) series_.points.push_back({.name = name, .latitude = latitude, .longitude = longitude});
+    return found->second;
+  }
+
+  WordStream words_;
+  std::size_t frequencies_ = 0, directions_ = 0, points_ = 0, values_ = 0;
+  std::optional<SpectralGrid> grid_;
+  std::map<std::tuple<std::string, double, double>, std::size_t> numbers_;
+  SeaSeries series_{};
+};
+
+}  // namespace
+
+bool IsWw3Points(std::string_view first_line) { return first_line.find(kTitle) != first_line.npos; }
+
+absl::StatusOr<SeaSeries> ReadWw3Points(std::string_view text) { return Reader(text).Read(); }
+
+}  // namespace albtpu

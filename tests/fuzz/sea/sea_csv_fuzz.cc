@@ -1,0 +1,15 @@
+// Arbitrary text as a CSV file of a sea is rejected with a message, or is a sea.
+#include <string>
+
+#include "sea/files/sea_csv.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/sea/sea_promises.h"
+
+using namespace albtpu;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data),
+                         size);  // A copy: sanitizers see reads beyond it.
+  fuzz::MustBeASea(ReadSeaCsv(text), fuzz::IsDescribed(size));
+  return 0;
+}

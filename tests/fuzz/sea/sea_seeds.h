@@ -1,0 +1,13 @@
+// The inputs with which fuzzing of the readers in sea/files begins.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace albtpu::fuzz {
+
+// By target.
+std::map<std::string, std::vector<std::string>> SeaSeeds();
+
+}  // namespace albtpu::fuzz

@@ -1,0 +1,15 @@
+// Arbitrary text as a file of a sea of any kind is rejected with a message, or is a sea.
+#include <string>
+
+#include "sea/files/sea_file.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/sea/sea_promises.h"
+
+using namespace albtpu;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data),
+                         size);  // A copy: sanitizers see reads beyond it.
+  fuzz::MustBeASea(ReadSeaText(text), fuzz::IsDescribed(size));
+  return 0;
+}

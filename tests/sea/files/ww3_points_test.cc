@@ -1,0 +1,131 @@
+#include "sea/files/ww3_points.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+const std::string kHeader =
+    "'WAVEWATCH III SPECTRA'      2     8     1 'spectral resolution for points'\n"
+    " 0.100E+00 0.200E+00\n"
+    "  0.157E+01  0.785E+00  0.000E+00  0.550E+01  0.471E+01  0.393E+01  0.314E+01\n"
+    "  0.236E+01\n";
+
+// All energy at 0.2 Hz, towards 0.785 rad of the compass: 0.6 m^2/Hz/rad.
+const std::string kRecord =
+    "20220912 060000\n"
+    "'44097     '  40.98 -71.12      46.6   1.45 225.6   0.18  94.1\n"
+    "  0.000E+00  0.000E+00  0.000E+00  0.600E+00  0.000E+00  0.000E+00  0.000E+00\n"
+    "  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00  0.000E+00\n"
+    "  0.000E+00  0.000E+00\n";
+
+const BinnedSpectrum& Bins(const SeaRecord& record) { return *std::get<BinnedWaves>(record.waves); }
+std::string ErrorOf(const std::string& text) { return std::string(ReadWw3Points(text).status().message()); }
+
+std::string Replaced(std::string text, std::string_view what, std::string_view with) {
+  return text.replace(text.find(what), what.size(), with);
+}
+
+// Densities per rad, frequency after frequency for each direction, and directions in rad: read otherwise, the energy
+// would be 57 times less, at another frequency, or along another axis.
+TEST(Ww3Points, HasDensitiesPerRadAndDirectionsInRad) {
+  const auto series = ReadWw3Points(kHeader + kRecord);
+  ASSERT_TRUE(series.ok()) << series.status();
+  const BinnedSpectrum& bins = Bins(series->records[0]);
+  EXPECT_EQ(bins.bin(0).energy, 0);
+  EXPECT_NEAR(bins.bin(1).energy, 0.6 * 2 * std::numbers::pi / 8, 1e-12);
+  EXPECT_NEAR(bins.bin(1).PrincipalAxis(), 0.785, 1e-12);
+  EXPECT_EQ(bins.trusted_up_to(), 0.2);
+}
+
+TEST(Ww3Points, HasPlaceTimeDepthAndWind) {
+  const auto series = ReadWw3Points(kHeader + kRecord);
+  ASSERT_TRUE(series.ok());
+  EXPECT_EQ(series->points[0].name, "44097");
+  EXPECT_EQ(series->points[0].latitude, 40.98);
+  EXPECT_EQ(series->points[0].longitude, -71.12);
+  const SeaRecord& record = series->records[0];
+  EXPECT_EQ(record.time, 1662962400);
+  EXPECT_EQ(record.water_depth, 46.6);
+  EXPECT_EQ(record.wind_speed_10m, 1.45);
+  EXPECT_NEAR(*record.wind_from, 225.6 * kDegree, 1e-12);
+}
+
+// Waves towards 0.785 rad with a wind from the opposite direction run along the frame's x axis.
+TEST(Ww3Points, HasWavesTowardsAndWindFrom) {
+  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "225.6", "225.0"));
+  ASSERT_TRUE(series.ok());
+  const HarmonicSpectrum spectrum = Describe(series->records[0], {.tail = TailRule::kNone}).spectrum;
+  std::size_t i = 0;
+  while (spectrum.s[i] == 0) ++i;
+  EXPECT_NEAR(spectrum.a[0][i], 1, 1e-6);
+  EXPECT_NEAR(spectrum.b[0][i], 0, 2e-3);
+}
+
+TEST(Ww3Points, MayHaveNumbersThatTouch) {
+  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "40.98 -71.12", "40.98-171.12"));
+  ASSERT_TRUE(series.ok()) << series.status();
+  EXPECT_EQ(series->points[0].longitude, -171.12);
+  EXPECT_EQ(series->records[0].water_depth, 46.6);
+}
+
+TEST(Ww3Points, MayHaveExponentsOfThreeDigits) {
+  const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "0.000E+00\n", "0.123-104\n"));
+  EXPECT_TRUE(series.ok()) << series.status();
+}
+
+TEST(Ww3Points, TellsItsPointsApart) {
+  std::string text = Replaced(kHeader, "8     1", "8     2");
+  const std::string second = Replaced(kRecord.substr(kRecord.find('\'')), "44097", "44098");
+  text += kRecord + second + Replaced(kRecord, "060000", "050000") + second;
+  const auto series = ReadWw3Points(text);
+  ASSERT_TRUE(series.ok()) << series.status();
+  ASSERT_EQ(series->points.size(), 2u);
+  ASSERT_EQ(series->records.size(), 4u);
+  EXPECT_EQ(series->points[1].name, "44098");
+  EXPECT_EQ(series->records[0].point, 0u);
+  EXPECT_LT(series->records[0].time, series->records[1].time);
+  EXPECT_EQ(series->records[3].point, 1u);
+}
+
+TEST(Ww3Points, IsRefusedWhereItWasCut) {
+  const std::string text = kHeader + kRecord + Replaced(kRecord, "060000", "070000");
+  const std::size_t first = (kHeader + kRecord).size();
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    const auto series = ReadWw3Points(std::string_view(text).substr(0, size));
+    // The end of the last line alone may be missing: its last number ends where one of the line before does.
+    const bool whole = size == first || size == first - 1 || size == text.size() - 1;
+    EXPECT_EQ(series.ok(), whole) << size << ": " << series.status();
+  }
+}
+
+TEST(Ww3Points, RefusesWhatIsDamaged) {
+  EXPECT_THAT(ErrorOf(Replaced(kHeader, "8     1", "0     1") + kRecord),
+              HasSubstr("line 1: states no numbers of"));
+  EXPECT_THAT(ErrorOf(Replaced(kHeader, "2     8", "9999999 8") + kRecord),
+              HasSubstr("line 1: states no numbers of"));
+  EXPECT_THAT(ErrorOf(Replaced(kHeader, "0.200E+00", "0.100E+00") + kRecord),
+              HasSubstr("frequencies do not increase"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "20220912", "20221312")),
+              HasSubstr("line 5: '20221312 060000' is no"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")), HasSubstr("line 6: lacks"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")), HasSubstr("line 6: lacks"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "-.600E+00")), HasSubstr("a density of -0.6"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "NaN")),
+              HasSubstr("'NaN' is not a spectral density"));
+  EXPECT_THAT(ErrorOf(kHeader), HasSubstr("a header and no record"));
+}
+
+}  // namespace
+}  // namespace albtpu
