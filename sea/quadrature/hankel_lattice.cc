@@ -1,0 +1,85 @@
+#include "sea/quadrature/hankel_lattice.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "sea/spectra/harmonic_spectrum.h"
+
+namespace albtpu {
+namespace {
+
+constexpr int kSamples = 16;  // of a step, for the means
+constexpr double kFarthest =
+    400;  // beyond it, twenty radians a step, the means of Bessel functions are taken as 0
+
+double OneMinusJ0(double x) {
+  const double q = x * x / 4;
+  return x < 0.1 ? q * (1 - q / 4 * (1 - q / 9)) : 1 - ::j0(x);
+}
+
+// The share that cubic interpolation (Keys 1981, doi:10.1109/TASSP.1981.1163711) gives a sample `u` steps away.
+double Share(double u) {
+  u = std::abs(u);
+  if (u < 1) return 1 + u * u * (1.5 * u - 2.5);
+  return u < 2 ? 2 + u * (-4 + u * (2.5 - 0.5 * u)) : 0;
+}
+
+// The means of f(exp(u)) about u = start + i step, with the weight Share.
+template <typename Function>
+Eigen::ArrayXf Means(double start, double step, int count, const Function& f) {
+  Eigen::ArrayXd fine((count + 3) * kSamples + 1);
+  for (Eigen::Index i = 0; i < fine.size(); ++i) {
+    fine[i] = f(std::exp(start + step * (static_cast<double>(i) / kSamples - 2)));
+  }
+  Eigen::ArrayXf means(count);
+  for (int i = 0; i < count; ++i) {
+    double sum = 0;
+    for (int j = -2 * kSamples + 1; j < 2 * kSamples; ++j) {
+      sum += Share(static_cast<double>(j) / kSamples) * fine[(i + 2) * kSamples + j];
+    }
+    means[i] = static_cast<float>(sum / kSamples);
+  }
+  return means;
+}
+
+}  // namespace
+
+HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
+    : wavenumbers_(Eigen::Map<const Eigen::ArrayXd>(wavenumbers.data(), wavenumbers.size())),
+      step_(std::log(wavenumbers.back() / wavenumbers.front()) / (wavenumbers.size() - 1.0)) {
+  const int count = size() + static_cast<int>(std::log(kLongestLag / kShortestLag) / step_) + 1;
+  const double start = std::log(wavenumbers.front() * kShortestLag);
+  for (int order = 0; order < kOrders; ++order) {
+    bessel_.push_back(Means(start, step_, count, [order](double x) {
+      if (x > kFarthest) return 0.0;
+      return order == 0 ? ::j0(x) : ::jn(2 * order, x);
+    }));
+  }
+  one_minus_bessel_ =
+      Means(start, step_, count, [](double x) { return x > kFarthest ? 1.0 : OneMinusJ0(x); });
+}
+
+const HankelLattice& HankelLattice::Shared() {
+  static const HankelLattice lattice(SeaWavenumbers());
+  return lattice;
+}
+
+double HankelLattice::Lag(int j) const { return kShortestLag * std::exp(j * step_); }
+
+double HankelLattice::IndexOfLag(double lag) const { return std::log(lag / kShortestLag) / step_; }
+
+HankelLattice::Kernel HankelLattice::Bessel(int order, int first, int count, int stride) const {
+  return KernelOf(bessel_[order], first, count, stride);
+}
+
+HankelLattice::Kernel HankelLattice::OneMinusBessel(int first, int count, int stride) const {
+  return KernelOf(one_minus_bessel_, first, count, stride);
+}
+
+HankelLattice::Kernel HankelLattice::KernelOf(const Eigen::ArrayXf& means, int first, int count,
+                                              int stride) const {
+  assert(first >= 0 && first + (count - 1) * stride + size() <= means.size());
+  return Kernel(means.data() + first, count, size(), Eigen::OuterStride<>(stride));
+}
+
+}  // namespace albtpu

@@ -1,0 +1,46 @@
+// Wavenumbers and lags in equal steps of the logarithm, and the Bessel functions that take a spectrum from one to the
+// other. On such a lattice the function of wavenumber times lag depends on the sum of the two indices alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace albtpu {
+
+// Immutable; one serves all seas and beams.
+class HankelLattice {
+ public:
+  static constexpr int kOrders = 10;            // J_0, J_2, ... J_18
+  static constexpr double kShortestLag = 1e-3;  // m
+  static constexpr double kLongestLag = 100;    // m
+
+  // On the wavenumbers SeaWavenumbers().
+  static const HankelLattice& Shared();
+
+  int size() const { return static_cast<int>(wavenumbers_.size()); }
+  const Eigen::ArrayXd& wavenumbers() const { return wavenumbers_; }  // rad/m
+  double step() const { return step_; }                               // of ln k and of ln lag
+  double Lag(int j) const;                                            // m
+  double IndexOfLag(double lag) const;                                // the inverse, between lags too
+
+  // The rows are lags, `stride` steps apart from the lag `first` on; the columns are wavenumbers. Elements are means of
+  // J_(2 order) over the wavenumbers about k_i, with the share that cubic interpolation in ln k gives to the sample
+  // there: where a step is longer than a period they vanish, as they should. Single precision is enough, because no
+  // element loses digits.
+  using Kernel = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
+                            Eigen::OuterStride<>>;
+  Kernel Bessel(int order, int first, int count, int stride) const;
+  // Of 1 - J_0, without cancellation at short lags.
+  Kernel OneMinusBessel(int first, int count, int stride) const;
+
+ private:
+  explicit HankelLattice(const std::vector<double>& wavenumbers);
+  Kernel KernelOf(const Eigen::ArrayXf& means, int first, int count, int stride) const;
+
+  Eigen::ArrayXd wavenumbers_;
+  double step_;
+  std::vector<Eigen::ArrayXf> bessel_;  // by the sum of the indices of wavenumber and lag
+  Eigen::ArrayXf one_minus_bessel_;
+};
+
+}  // namespace albtpu

@@ -1,0 +1,75 @@
+#include "sea/response/sea_response.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "sea/response/effective_gains.h"
+#include "sea/response/height_slope_covariance.h"
+#include "sea/response/lag_covariances.h"
+#include "sea/response/refraction.h"
+#include "sea/response/slope_covariance.h"
+
+namespace albtpu {
+namespace {
+
+// Of (tangent along, tangent across, secant) per depth.
+Eigen::Matrix3d RayCovariance(const EffectiveGains& gains, double incidence, const Eigen::Matrix2d& slopes,
+                              const Eigen::Matrix3d& pairs) {
+  const double tau = std::tan(incidence);
+  const Eigen::Matrix2d first = slopes + MeanOfSquares(tau * tau, pairs);
+  Eigen::Matrix3d covariance = gains.gain * first * gains.gain.transpose();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double second = 0.5 * MeanOfForms(gains.curvature[i], gains.curvature[j], pairs);
+      covariance(i, j) += second;
+      if (j != i) covariance(j, i) += second;
+    }
+  }
+  return covariance;
+}
+
+}  // namespace
+
+SeaResponse::SeaResponse(const HarmonicSpectrum& spectrum, double refractive_index)
+    : spectrum_(spectrum), refractive_index_(refractive_index), slopes_(spectrum_.Covariance()) {}
+
+BeamResponse SeaResponse::operator()(const BeamOptions& beam) const {
+  assert(std::isinf(beam.source_height));
+  return AlongDirection(beam.incidence, beam.azimuth, {FootprintKernel(beam.profile, beam.footprint)})
+      .front();
+}
+
+std::vector<BeamResponse> SeaResponse::AlongDirection(double incidence, double azimuth,
+                                                      const std::vector<FootprintKernel>& footprints) const {
+  const Eigen::Vector2d along(std::cos(azimuth), std::sin(azimuth));
+  const Eigen::Matrix2d axes =
+      (Eigen::Matrix2d() << along, Eigen::Vector2d(-along.y(), along.x())).finished();
+  const EffectiveGains gains =
+      EffectiveGainsOf(incidence, refractive_index_, axes.transpose() * slopes_ * axes);
+  const BeamSpectrum spectrum = spectrum_.AcrossBeam(incidence, azimuth);
+  Eigen::Index lags = 0;
+  for (const FootprintKernel& footprint : footprints) lags = std::max(lags, footprint.overlap().size());
+  const LagCovariances covariances(spectrum, static_cast<int>(lags));
+  const LagProducts products = ProductsOf(covariances);
+
+  // The reported position is that of still water, and the reported depth the path times cos(refracted). Errors are what
+  // the ray does, with the opposite sign.
+  const double refracted = StillWaterRefraction(incidence, refractive_index_);
+  Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();
+  errors.topLeftCorner<2, 2>() = -axes;
+  errors(2, 2) = -std::cos(refracted);
+  const Eigen::Vector3d still(std::tan(refracted), 0, 1 / std::cos(refracted));
+  std::vector<BeamResponse> responses;
+  for (const FootprintKernel& footprint : footprints) {
+    const Eigen::Matrix3d ray = RayCovariance(gains, incidence, FootprintSlopes(spectrum, footprint),
+                                              SlopePairs(products, incidence, footprint));
+    const Eigen::Matrix3d at_surface =
+        gains.gain * HeightSlopeCovariance(spectrum, covariances, footprint) * gains.gain.transpose();
+    responses.push_back({errors * ray * errors.transpose(), errors * at_surface * errors.transpose(),
+                         errors * (gains.mean - still), along});
+  }
+  return responses;
+}
+
+}  // namespace albtpu

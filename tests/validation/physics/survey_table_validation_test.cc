@@ -1,0 +1,180 @@
+// The response theory against the table of Apel's seas that ships.
+//
+// It tries every fifth sea of the table, with all winds and fetches, or all of them, which takes twice as long:
+// ALBTPU_EVERY_SEA=1 survey_table_validation_test
+//
+// The nodes of the table are balanced (generator/campaign/node_balance.h), which mixes the values of neighbours and
+// amplifies their random errors. The balance is inverted first.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "generator/campaign/node_balance.h"
+#include "sea/angle.h"
+#include "sea/response/compiled_sea.h"
+#include "sea/response/refraction.h"
+#include "sea/wave_state.h"
+#include "tables/file/table_io.h"
+#include "validation/studies/closed_form_ratio.h"
+
+namespace albtpu {
+namespace {
+
+// The values of all quantities by the theory, in the layout of the table: NaN in the seas that are not tried, of which
+// there are `stride` - 1 between two that are.
+std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::Axes& axes,
+                                                        std::size_t stride) {
+  const auto radians = [&](AxisId id) {
+    std::vector<double> angles = axes[Index(id)].nodes();
+    for (double& angle : angles) angle = RadiansOfDegrees(angle);
+    return angles;
+  };
+  const BeamGrid grid(radians(AxisId::kIncidence), radians(AxisId::kAzimuth),
+                      axes[Index(AxisId::kFootprint)].nodes(), BeamProfile::kUniform);
+  const std::vector<double>& winds = axes[Index(AxisId::kWindSpeed)].nodes();
+  const std::vector<double>& fetches = axes[Index(AxisId::kFetch)].nodes();
+  const std::vector<double>& depths = axes[Index(AxisId::kDepth)].nodes();
+  const std::size_t seas = winds.size() * fetches.size();
+  std::array<std::vector<float>, kQuantityCount> values;
+  std::array<std::size_t, kQuantityCount> next;
+  for (const Quantity quantity : kQuantities)
+    values[Index(quantity)].assign(ValueCount(axes, quantity), std::numeric_limits<float>::quiet_NaN());
+  const auto add = [&](Quantity quantity, double value) {
+    values[Index(quantity)][next[Index(quantity)]++] = static_cast<float>(value);
+  };
+  for (std::size_t s = 0; s < seas; s += stride) {
+    for (const Quantity quantity : kQuantities)
+      next[Index(quantity)] = values[Index(quantity)].size() / seas * s;
+    const WindSea waves{.wind_speed_10m = winds[s / fetches.size()], .fetch = fetches[s % fetches.size()]};
+    const HarmonicSpectrum spectrum = Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 1);
+    const CompiledSea sea(SeaResponse(spectrum, kRefractiveIndex), grid);
+    for (std::size_t i = 0; i < grid.incidences().size(); ++i) {
+      for (std::size_t a = 0; a < grid.azimuths().size(); ++a) {
+        for (std::size_t f = 0; f < grid.footprints().size(); ++f) {
+          const BeamResponse& beam = sea.At(i, a, f);
+          add(Quantity::kRefractionAlongWind, DegreesOfRadians(beam.refraction_along_wind()));
+          add(Quantity::kRefractionCrossWind, DegreesOfRadians(beam.refraction_cross_wind()));
+          for (const double depth : depths) {
+            add(Quantity::kThu, beam.Thu(depth));
+            add(Quantity::kTvu, beam.Tvu(depth));
+            add(Quantity::kBiasAlongBeam, beam.BiasAlongBeam(depth));
+            add(Quantity::kBiasVertical, beam.BiasVertical(depth));
+          }
+        }
+      }
+    }
+  }
+  return values;
+}
+
+// The values before they were balanced, by Richardson's iteration with Chebyshev's steps. Balancing multiplies
+// variations between nodes by 1, if they are long, to (4/3)^5 = 4.2, if they are the shortest on all five axes, and by
+// a little more where nodes are not equidistant. The steps divide the error of all factors within kLeast and kMost, the
+// ends widened, by cosh(kSteps acosh((kMost + kLeast) / (kMost - kLeast))) = 4300.
+std::vector<float> Unbalanced(const UncertaintyTable::Axes& axes, Quantity quantity,
+                              const std::vector<float>& balanced) {
+  constexpr double kLeast = 0.9, kMost = 5;
+  constexpr int kSteps = 10;
+  std::vector<float> guess = balanced;
+  for (int i = 0; i < kSteps; ++i) {
+    const double factor =
+        (kMost + kLeast) / 2 + (kMost - kLeast) / 2 * std::cos(std::numbers::pi * (i + 0.5) / kSteps);
+    std::vector<float> again = guess;
+    BalanceNodes(axes, quantity, again);
+    for (std::size_t j = 0; j < guess.size(); ++j)
+      guess[j] += static_cast<float>((balanced[j] - again[j]) / factor);
+  }
+  return guess;
+}
+
+// Relative errors of the standard deviations that are traced: of patch and rays, for which half a per cent and three
+// quarters of a per cent of the variance are allowed (generator/surface/discretization.cc), and of the steps of the
+// grid in wavenumber and direction, as measured on a finer grid. The biases are in proportion to variances.
+constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
+constexpr double kGridOfAngles = 0.006, kGridOfThu = 0.0018, kGridAtSurface = 0.03;
+// What the theory leaves out of TVU under a footprint some times longer than the waves (sea_response.h).
+constexpr double kLeftOutOfTvu = 0.02;
+
+struct Bound {
+  double least;  // values from which on the relative error counts, per metre of depth or in degrees
+  double rms;    // relative, of all nodes, besides standard errors
+  double each;   // relative, of one node, besides standard errors
+};
+
+Bound BoundOf(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kRefractionAlongWind:
+    case Quantity::kRefractionCrossWind:
+      return {0.2, kPatchAndRays, kPatchAndRays + kGridOfAngles};
+    case Quantity::kThu:
+      return {0.0035, kPatchAndRays, kPatchAndRays + kGridOfThu};
+    case Quantity::kTvu:
+      return {0.0005, kPatchAndRays, kPatchAndRays + kLeftOutOfTvu};
+    case Quantity::kBiasAlongBeam:
+      return {0.0035, 2 * kPatchAndRays, 2 * kPatchAndRays};
+    case Quantity::kBiasVertical:
+      return {0.0005, 2 * kPatchAndRays, 2 * kPatchAndRays};
+  }
+  return {};
+}
+
+// The errors at the depth 0 are products of height and slope, at most 4.2 mm.
+constexpr Bound kAtSurface = {0.0005, kGridAtSurface, kGridAtSurface + 2 * kPatchAndRays};
+
+TEST(SurveyTable, IsReproducedByTheResponseTheory) {
+  const absl::StatusOr<UncertaintyTable> table =
+      ReadTable(std::filesystem::path(TABLES_FOLDER) / "survey.h5");
+  ASSERT_TRUE(table.ok()) << table.status();
+  if (table->provenance().campaign.find("elfouhaily") != std::string::npos) {
+    GTEST_SKIP() << "survey.h5 is of another sea";
+  }
+  const std::size_t stride = std::getenv("ALBTPU_EVERY_SEA") != nullptr ? 1 : 5;
+  const std::array<std::vector<float>, kQuantityCount> theory = TheoryOn(table->axes(), stride);
+  const std::vector<double>& depths = table->axis(AxisId::kDepth).nodes();
+  const double k = StandardErrorsFor(1'000'000);
+  for (const Quantity quantity : kQuantities) {
+    const std::vector<float>& ours = theory[Index(quantity)];
+    const Variable& variable = *table->variable(quantity);
+    ASSERT_EQ(ours.size(), variable.values.size());
+    const std::vector<float> traced = Unbalanced(table->axes(), quantity, variable.values);
+    const bool over_depth = Describe(quantity).over_last_axis;
+    const std::size_t columns = over_depth ? depths.size() : 1;
+    for (std::size_t d = 0; d < columns; ++d) {
+      const bool at_surface = over_depth && depths[d] == 0;
+      if (at_surface && quantity != Quantity::kThu) continue;  // within a millimetre
+      const Bound bound = at_surface ? kAtSurface : BoundOf(quantity);
+      const double least = over_depth && !at_surface ? bound.least * depths[d] : bound.least;
+      double squares = 0, variances = 0, worst = 0;
+      int count = 0, beyond = 0;
+      for (std::size_t i = d; i < ours.size(); i += columns) {
+        if (std::isnan(ours[i])) continue;
+        if (std::abs(traced[i]) < std::max(least, over_depth ? 0.0005 : 0)) continue;
+        const double error = std::abs(ours[i] / traced[i] - 1);
+        const double standard_error = variable.standard_errors[i] / std::abs(traced[i]);
+        beyond += error > bound.each + k * standard_error;
+        squares += error * error;
+        variances += standard_error * standard_error;
+        worst = std::max(worst, error);
+        ++count;
+      }
+      ASSERT_GT(count, 1000);
+      const double rms = std::sqrt(squares / count), stated = std::sqrt(variances / count);
+      std::printf("%-22s depth %4g m: rms %.2f %%, worst %.2f %%, standard error %.2f %%, %d nodes\n",
+                  std::string(Describe(quantity).name).c_str(), depths[d], 100 * rms, 100 * worst,
+                  100 * stated, count);
+      EXPECT_LT(rms, std::hypot(bound.rms, stated)) << Describe(quantity).name << " at " << depths[d] << " m";
+      EXPECT_EQ(beyond, 0) << Describe(quantity).name << " at " << depths[d] << " m";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace albtpu
