@@ -260,7 +260,7 @@ class Run:
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("programs", nargs=4, metavar="NAME=PATH")
+    parser.add_argument("programs", nargs="+", metavar="NAME=PATH")
     parser.add_argument("--minutes", type=float, default=0.5)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
