@@ -49,8 +49,8 @@ class ChannelRuns {
   std::size_t count_ = 0;
 };
 
-// Bits of the symbol that tells what differs from the last point of the channel. The lowest two tell how the number of
-// the return does.
+// Bits of the symbol that states which fields differ from those of the last point of the channel. The lowest two bits
+// state how the return number differs.
 inline constexpr std::uint32_t kSameNumber = 0, kNextNumber = 1, kNumberBefore = 2, kOtherNumber = 3;
 inline constexpr std::uint32_t kCountChanges = 1 << 2, kAngleChanges = 1 << 3, kTimeChanges = 1 << 4,
                                kSourceChanges = 1 << 5, kChannelChanges = 1 << 6;
