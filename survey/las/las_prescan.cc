@@ -1,5 +1,7 @@
 #include "survey/las/las_prescan.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -213,7 +215,6 @@ absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& fr
       });
   if (!status.ok()) return status;
   if (prescan.off_level > 0) prescan.off_level_height /= static_cast<double>(prescan.off_level);
-  if (prescan.surface_returns > 0) prescan.surface = surface.Finish();
   std::vector<ReturnPair> apart;
   for (const std::vector<PulseReturn>& pulse : incomplete.Take()) {
     for (std::size_t i = 0; i < pulse.size(); ++i) {
@@ -225,7 +226,10 @@ absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& fr
   }
   for (const ReturnPair& pair : apart) pairs.Add(pair);
   prescan.pair_count = pairs.seen();
-  prescan.pairs = pairs.Take();
+  tbb::parallel_invoke([&] { prescan.pairs = pairs.Take(); },
+                       [&] {
+                         if (prescan.surface_returns > 0) prescan.surface = surface.Finish();
+                       });
   return prescan;
 }
 

@@ -156,8 +156,9 @@ absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRe
     table.end = table.begin + kHeadSize;
     return found;
   }
+  ByteWindow window;
   ArithmeticDecoder decoder;
-  decoder.Begin(file, table.begin + kHeadSize, size);
+  decoder.Begin(window, file, table.begin + kHeadSize, size);
   absl::StatusOr<std::vector<Chunk>> chunks =
       ReadChunks(decoder, record, *count, first, table.begin, point_count);
   if (!chunks.ok()) return chunks.status();

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 
 #include "survey/laz/coding/byte_window.h"
 #include "survey/laz/coding/symbol_model.h"
@@ -14,19 +13,20 @@ namespace albtpu::laz {
 
 // Invariant: value_ < length_, whatever the bytes are, so that no bytes lead outside of a model.
 //
-// Each symbol waits for the one before it. Hot loops therefore move the decoder into a local variable, whose members
-// stay in registers as long as all that codes with it is inlined, and move it back at the end.
+// Each symbol waits for the one before it. Hot loops therefore work on a copy in a local variable, whose members stay
+// in registers as long as all that codes with it is inlined, and store it at the end.
 class ArithmeticDecoder {
  public:
   static constexpr bool kEncodes = false;
   template <int kMost>
   using Model = SymbolModel<kMost, true>;
 
-  // Decodes the bytes from `begin` to `end` of the source, which must outlive the decoding. Has at most `piece_size` of
-  // them in memory.
-  void Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
+  // Decodes the bytes from `begin` to `end` of the source through the window, both of which must outlive the decoding.
+  // Has at most `piece_size` of them in memory.
+  void Begin(ByteWindow& window, const ByteSource& source, std::uint64_t begin, std::uint64_t end,
              std::size_t piece_size = ByteWindow::kPieceSize) {
-    piece_ = window_->Begin(source, begin, end, piece_size);
+    window_ = &window;
+    Take(window.Begin(source, begin, end, piece_size));
     length_ = 0xFFFFFFFFu;
     value_ = Peek();
     Skip(4);
@@ -42,9 +42,10 @@ class ArithmeticDecoder {
     const std::uint32_t symbol = model.SymbolAt(value_ / part);
     const std::uint32_t below = model.Below(symbol) * part;
     value_ -= below;
-    // The last symbol has the rest of the interval.
-    length_ = symbol == model.last_symbol() ? length_ - below
-                                            : (model.Below(symbol + 1) - model.Below(symbol)) * part;
+    // The last symbol has the rest of the interval. No branch: which symbol it is cannot be predicted.
+    const std::uint32_t is_last = symbol == model.last_symbol() ? ~0u : 0;
+    const std::uint32_t share = (model.Below(symbol + 1) - model.Below(symbol)) * part;
+    length_ = ((length_ - below) & is_last) | (share & ~is_last);
     Renormalize();
     model.Count(symbol);
     return symbol;
@@ -77,7 +78,7 @@ class ArithmeticDecoder {
   }
 
   // Behind the last byte that was read, in the source.
-  std::uint64_t position() const { return window_->position(piece_.next); }
+  std::uint64_t position() const { return window_->position(next_); }
   // Bytes that were missing at the end.
   std::uint64_t missing() const { return position() > window_->end() ? position() - window_->end() : 0; }
   const absl::Status& status() const { return window_->status(); }
@@ -92,29 +93,33 @@ class ArithmeticDecoder {
 
   // Shifts bytes into the interval until it is at least 2^24 long. Requires that it is not empty.
   [[gnu::always_inline]] void Renormalize() {
-    const std::uint32_t bytes =
-        std::uint32_t{length_ < 1u << 24} + (length_ < 1u << 16) + (length_ < 1u << 8);
-    value_ = static_cast<std::uint32_t>(((std::uint64_t{value_} << 32) | Peek()) << 8 * bytes >> 32);
-    length_ <<= 8 * bytes;
-    Skip(bytes);
+    const int bits = __builtin_clz(length_) & 24;  // std::countl_zero() would look whether it is 0.
+    value_ = static_cast<std::uint32_t>(((std::uint64_t{value_} << 32) | Peek()) << bits >> 32);
+    length_ <<= bits;
+    Skip(static_cast<std::uint32_t>(bits) / 8);
   }
 
   // The next four bytes, of which the first is the most significant.
   std::uint32_t Peek() const {
     std::uint32_t bytes;
-    std::memcpy(&bytes, piece_.next, sizeof bytes);
+    std::memcpy(&bytes, next_, sizeof bytes);
     return __builtin_bswap32(bytes);
   }
 
   void Skip(std::uint32_t count) {
-    piece_.next += count;
-    if (piece_.next > piece_.last) [[unlikely]]
-      piece_ = window_->Continue(piece_.next);
+    next_ += count;
+    if (next_ > last_) [[unlikely]]
+      Take(window_->Continue(next_));
+  }
+
+  void Take(const ByteWindow::Piece& piece) {
+    next_ = piece.next;
+    last_ = piece.last;
   }
 
   std::uint32_t value_ = 0, length_ = 0xFFFFFFFFu;
-  ByteWindow::Piece piece_;
-  std::unique_ptr<ByteWindow> window_ = std::make_unique<ByteWindow>();
+  const std::uint8_t *next_ = nullptr, *last_ = nullptr;  // As in ByteWindow::Piece.
+  ByteWindow* window_ = nullptr;
 };
 
 }  // namespace albtpu::laz

@@ -53,7 +53,8 @@ class IntegerCoder {
         difference = difference << lower | decoder.Bits(lower);
       }
       // 2^size numbers: below zero down to -(2^size - 1), and above it from 2^(size-1) + 1 on.
-      difference += difference >= 1u << (size_ - 1) ? 1 : 1 - (1u << size_);
+      const std::uint32_t is_below = difference >> (size_ - 1) == 0 ? 1 : 0;
+      difference += 1 - (is_below << size_);
     } else {
       difference = 1u << 31;  // The only one of 32 bits.
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "survey/laz/coding/integer_coder.h"
@@ -63,6 +64,30 @@ class GpsTimeCoder {
   // After as many multiples that are 0 or at the limits, the step is taken to have changed.
   static constexpr std::uint32_t kMostExtremes = 3;
 
+  // Of a symbol of multiples_ that is a multiple.
+  struct Multiplier {
+    std::int16_t multiple;
+    std::uint8_t context;  // Of differences_.
+    bool extreme;          // The multiple is 0 or at a limit.
+  };
+  static constexpr Multiplier MultiplierOf(int symbol) {
+    const int multiple = symbol <= kLargest ? symbol : kLargest - symbol;
+    const bool extreme = multiple == 0 || multiple == kLargest || multiple == kSmallest;
+    const int context = multiple == 1           ? 1
+                        : multiple == 0         ? 7
+                        : multiple == kSmallest ? 6
+                        : multiple < 0          ? 5
+                        : multiple == kLargest  ? 4
+                        : multiple < 10         ? 2
+                                                : 3;
+    return {static_cast<std::int16_t>(multiple), static_cast<std::uint8_t>(context), extreme};
+  }
+  static constexpr std::array<Multiplier, kMultiples> kMultipliers = [] {
+    std::array<Multiplier, kMultiples> multipliers{};
+    for (std::size_t i = 0; i < kMultiples; ++i) multipliers[i] = MultiplierOf(static_cast<int>(i));
+    return multipliers;
+  }();
+
   struct Sequence {
     std::uint64_t time = 0;
     std::int32_t step = 0;
@@ -107,30 +132,13 @@ class GpsTimeCoder {
 
   [[gnu::always_inline]] std::int32_t CodeStep(Coder& coder, Sequence& sequence, std::uint32_t symbol,
                                                std::uint64_t difference) {
-    std::int32_t multiple = static_cast<std::int32_t>(symbol);
-    std::uint32_t context;
-    bool extreme = false;
-    if (multiple == 1) {
-      context = 1;
-      sequence.extremes = 0;
-    } else if (multiple == 0) {
-      context = 7;
-      extreme = true;
-    } else if (multiple < kLargest) {
-      context = multiple < 10 ? 2 : 3;
-    } else {
-      extreme = multiple == kLargest;
-      context = extreme ? 4 : 5;
-      if (!extreme) multiple = kLargest - multiple;
-      if (multiple == kSmallest) {
-        extreme = true;
-        context = 6;
-      }
-    }
-    const auto predicted = static_cast<std::uint32_t>(multiple) * static_cast<std::uint32_t>(sequence.step);
+    const Multiplier& multiplier = kMultipliers[symbol];
+    const auto step_before = static_cast<std::uint32_t>(sequence.step);
+    const std::uint32_t predicted = static_cast<std::uint32_t>(multiplier.multiple) * step_before;
     const std::int32_t step = differences_.Code(coder, static_cast<std::int32_t>(predicted),
-                                                static_cast<std::int32_t>(difference), context);
-    if (extreme && ++sequence.extremes > kMostExtremes) {
+                                                static_cast<std::int32_t>(difference), multiplier.context);
+    sequence.extremes = multiplier.multiple == 1 ? 0 : sequence.extremes + (multiplier.extreme ? 1 : 0);
+    if (sequence.extremes > kMostExtremes) [[unlikely]] {
       sequence.step = step;
       sequence.extremes = 0;
     }

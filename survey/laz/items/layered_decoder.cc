@@ -22,6 +22,7 @@ LayeredDecoder::LayeredDecoder(const LaszipRecord& record, WantedFields wanted)
       wanted_(wanted),
       record_length_(record.record_length()),
       head_(record_length_ + kNumberSize * (1 + point_.streams().size())),
+      windows_(point_.streams().size()),
       stream_ends_(point_.streams().size()),
       piece_size_(
           std::clamp(kPieceBytes / point_.streams().size(), kLeastPieceSize, ByteWindow::kPieceSize)) {}
@@ -46,7 +47,7 @@ absl::Status LayeredDecoder::Begin(const ByteSource& source, std::uint64_t begin
       return Damaged("its layer ", i + 1, " ends ", size - (end - layer), " bytes behind it");
     }
     streams[i].present = size > 0 && (wanted_ == WantedFields::kAll || point_.TellsReturns(i));
-    if (streams[i].present) streams[i].coder.Begin(source, layer, layer + size, piece_size_);
+    if (streams[i].present) streams[i].coder.Begin(windows_[i], source, layer, layer + size, piece_size_);
     stream_ends_[i] = layer += size;
   }
   if (points > 1 && !streams[0].present) {

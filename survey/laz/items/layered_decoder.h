@@ -36,6 +36,7 @@ class LayeredDecoder : public ChunkDecoder {
   WantedFields wanted_;
   std::size_t record_length_;
   std::vector<char> head_;                  // What lies before the layers.
+  std::vector<ByteWindow> windows_;         // Of each stream.
   std::vector<std::uint64_t> stream_ends_;  // In the source.
   std::size_t piece_size_;                  // Bytes of each layer in memory.
   std::uint64_t layers_end_ = 0, end_ = 0;

@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cstring>
-#include <utility>
 
 #include "survey/laz/coding/damage.h"
 
@@ -19,7 +18,7 @@ absl::Status PointwiseDecoder::Begin(const ByteSource& source, std::uint64_t beg
   first_.resize(record_length_);
   if (absl::Status status = source.ReadAt(begin, first_); !status.ok()) return status;
   items_.Begin(first_.data());
-  decoder_.Begin(source, begin + record_length_, end);
+  decoder_.Begin(window_, source, begin + record_length_, end);
   return CheckBytes();
 }
 
@@ -32,9 +31,9 @@ absl::Status PointwiseDecoder::Decode(std::span<char> records) {
     first_.clear();
     record += record_length_;
   }
-  ArithmeticDecoder decoder = std::move(decoder_);  // Its state stays in registers here.
+  ArithmeticDecoder decoder = decoder_;  // Its state stays in registers here.
   for (; record != end; record += record_length_) items_.Code(decoder, record);
-  decoder_ = std::move(decoder);
+  decoder_ = decoder;
   return CheckBytes();
 }
 

@@ -27,6 +27,7 @@ class PointwiseDecoder : public ChunkDecoder {
   std::uint64_t begin_ = 0, end_ = 0;  // Of the chunk.
   std::vector<char> first_;            // The first record, until it is asked for.
   PointwiseItems<ArithmeticDecoder> items_;
+  ByteWindow window_;
   ArithmeticDecoder decoder_;
 };
 

@@ -1,10 +1,9 @@
 // The median of the recent numbers of a sequence, approximately and without a search.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace albtpu::laz {
 
@@ -15,19 +14,23 @@ class StreamingMedian {
   std::int32_t median() const { return sorted_[2]; }
 
   void Add(std::int32_t number) {
-    const std::int32_t* const kept = &sorted_[replaces_smallest_];
-    const std::array<std::int32_t, 4> four = {kept[0], kept[1], kept[2], kept[3]};
-    // No branches: whether a number is above the median is hard to predict.
+    // Four numbers at a time and no branches: where a number belongs is hard to predict.
+    const std::int32_t* const first_kept = &sorted_[replaces_smallest_];
+    const std::int32_t greatest = first_kept[3];
+    const Four kept = {first_kept[0], first_kept[1], first_kept[2], greatest};
+    const Four numbers = {number, number, number, number};
+    const Four below = kept < numbers ? kept : numbers;
+    const Four next_below = {below[0], kept[0], kept[1], kept[2]};
+    const Four sorted = below > next_below ? below : next_below;
     const unsigned above = number > median(), equal = number == median();
     replaces_smallest_ = above | (equal & (replaces_smallest_ ^ 1u));
-    sorted_[0] = std::min(four[0], number);
-    sorted_[1] = std::max(four[0], std::min(four[1], number));
-    sorted_[2] = std::max(four[1], std::min(four[2], number));
-    sorted_[3] = std::max(four[2], std::min(four[3], number));
-    sorted_[4] = std::max(four[3], number);
+    std::memcpy(sorted_.data(), &sorted, sizeof sorted);
+    sorted_[4] = number > greatest ? number : greatest;
   }
 
  private:
+  using Four [[gnu::vector_size(16)]] = std::int32_t;
+
   std::array<std::int32_t, 5> sorted_{};
   unsigned replaces_smallest_ = 0;  // 0 or 1.
 };

@@ -47,9 +47,9 @@ class RgbLayer final : public Layers<Coder> {
   // LASzip keeps the stream also where a colour that is not grey is the same everywhere.
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
     const bool grey = first_ == Rgb{first_[0], first_[1], first_[0], first_[1], first_[0], first_[1]};
-    bool changes = !grey && points.count() > 0;
-    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
-    streams[0].present |= changes;
+    streams[0].present |= points.Any([&](const char* point) {
+      return !grey || std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0;
+    });
   }
 
  private:
@@ -97,9 +97,9 @@ class InfraredLayer final : public Layers<Coder> {
   }
 
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
-    bool changes = false;
-    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
-    streams[0].present |= changes;
+    streams[0].present |= points.Any([&](const char* point) {
+      return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0;
+    });
   }
 
  private:

@@ -39,11 +39,11 @@ class ExtraBytesLayers final : public Layers<Coder> {
 
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
     for (std::size_t b = 0; b < bytes_.size(); ++b) {
-      bool changes = false;
-      for (std::size_t i = 0; i < points.count(); ++i) {
-        changes |= Known(points, i, b) != bytes_[b].first;
-      }
-      streams[b].present |= changes;
+      const std::size_t offset = place_.offset + b;
+      const auto differs = [&](const char* point) {
+        return static_cast<std::uint8_t>(point[offset]) != bytes_[b].first;
+      };
+      streams[b].present |= points.Any(differs);
     }
   }
 
@@ -87,10 +87,6 @@ class ExtraBytesLayers final : public Layers<Coder> {
       for (std::size_t b = 0; b < kCount; ++b) bytes[b].last[run.to] = last[b];
     }
     for (std::size_t b = 0; b < kCount; ++b) stream[b].coder = std::move(coders[b]);
-  }
-
-  std::uint8_t Known(const RecordRun<Coder>& points, std::size_t i, std::size_t byte) const {
-    return points.template Known<std::uint8_t>(i, place_.offset + byte);
   }
 
   ItemPlace place_;

@@ -11,13 +11,14 @@
 #include "survey/laz/items/laszip_record.h"
 #include "survey/laz/items/layers/color_layers.h"
 #include "survey/laz/items/layers/extra_bytes_layers.h"
-#include "survey/laz/items/layers/integer_layers.h"
+#include "survey/laz/items/layers/field_layers.h"
+#include "survey/laz/items/layers/integer_fields.h"
 #include "survey/laz/items/layers/layers.h"
 #include "survey/laz/items/layers/point_contexts.h"
 #include "survey/laz/items/layers/record_run.h"
 #include "survey/laz/items/layers/returns_layer.h"
-#include "survey/laz/items/layers/symbol_layers.h"
-#include "survey/laz/items/layers/time_layer.h"
+#include "survey/laz/items/layers/symbol_fields.h"
+#include "survey/laz/items/layers/time_field.h"
 #include "survey/laz/items/layers/wave_packet_layer.h"
 
 namespace albtpu::laz {
@@ -77,18 +78,18 @@ class LayeredPoint {
     layers_.push_back(std::make_unique<Layer<Coder>>(arguments...));
   }
 
+  template <template <typename> typename... Fields>
+  void AddFields() {
+    layers_.push_back(std::make_unique<FieldLayers<Coder, Fields<Coder>...>>());
+  }
+
   void AddLayers(const Item& item, std::size_t offset) {
     const ItemPlace place = {.offset = offset, .version3 = item.version < 4};
     switch (item.type) {
       case ItemType::kPoint14:
-        Add<HeightLayer>();  // Stream 1: TellsReturns() counts them.
-        Add<ClassLayer>();
-        Add<FlagsLayer>();
-        Add<IntensityLayer>();
-        Add<AngleLayer>();
-        Add<UserDataLayer>();
-        Add<SourceLayer>();
-        Add<TimeLayer>();
+        AddFields<HeightField, ClassField, FlagsField,
+                  IntensityField>();  // Stream 1: TellsReturns() counts them.
+        AddFields<AngleField, UserDataField, SourceField, TimeField>();
         break;
       case ItemType::kRgb14:
         Add<RgbLayer>(place);

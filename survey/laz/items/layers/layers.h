@@ -63,49 +63,4 @@ class ChannelHistories {
   std::array<std::unique_ptr<History>, kChannels> histories_;
 };
 
-// A layer of one stream, for a field of its own in the record.
-template <typename Coder, typename Number, std::size_t kOffset>
-class FieldLayer : public Layers<Coder> {
- public:
-  using typename Layers<Coder>::Streams;
-
-  std::size_t streams() const final { return 1; }
-
-  void Begin(const char* first_point) final {
-    std::memcpy(&first_, first_point + kOffset, sizeof first_);
-    Start(ScannerChannel(static_cast<std::uint8_t>(first_point[kFlagsOffset])), first_);
-  }
-
-  void Code(Streams streams, const RecordRun<Coder>& points, const PointContexts& contexts) final {
-    if (streams[0].present) {
-      Coder coder = std::move(streams[0].coder);
-      CodeField(coder, points, contexts);
-      streams[0].coder = std::move(coder);
-    } else {
-      for (std::size_t i = 0; i < points.count(); ++i) Set(points, i, first_);
-    }
-  }
-
-  void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
-    bool changes = false;
-    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
-    streams[0].present |= changes;
-  }
-
- protected:
-  // After the first point of a chunk, which has this field.
-  virtual void Start(std::size_t channel, Number first) = 0;
-  virtual void CodeField(Coder& coder, const RecordRun<Coder>& points, const PointContexts& contexts) = 0;
-
-  static Number Known(const RecordRun<Coder>& points, std::size_t i) {
-    return points.template Known<Number>(i, kOffset);
-  }
-  static void Set(const RecordRun<Coder>& points, std::size_t i, Number number) {
-    points.Set(i, kOffset, number);
-  }
-
- private:
-  Number first_{};
-};
-
 }  // namespace albtpu::laz

@@ -18,6 +18,15 @@ class RecordRun {
   std::size_t count() const { return count_; }
   Byte* operator[](std::size_t i) const { return first_ + i * record_length_; }
 
+  // Whether the condition holds for one of the records, up to which they are looked at.
+  template <typename Condition>
+  bool Any(const Condition& holds) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (holds((*this)[i])) return true;
+    }
+    return false;
+  }
+
   // The number at `offset` of a record, for an encoder to write; 0 for a decoder.
   template <typename Number>
   Number Known(std::size_t i, std::size_t offset) const {

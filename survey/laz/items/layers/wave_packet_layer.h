@@ -41,9 +41,9 @@ class WavePacketLayer final : public Layers<Coder> {
   }
 
   void FindChanges(Streams streams, const RecordRun<Coder>& points) const override {
-    bool changes = false;
-    for (std::size_t i = 0; i < points.count(); ++i) changes |= Known(points, i) != first_;
-    streams[0].present |= changes;
+    streams[0].present |= points.Any([&](const char* point) {
+      return std::memcmp(point + place_.offset, first_.data(), first_.size()) != 0;
+    });
   }
 
  private:

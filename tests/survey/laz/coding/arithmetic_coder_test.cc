@@ -45,8 +45,9 @@ TEST(ArithmeticCoder, DecodesWhatWasEncodedAndReadsAllBytes) {
     }
     const std::string bytes = "before" + encoder.Finish() + "after";
     const MemorySource source(bytes);
+    ByteWindow window;
     ArithmeticDecoder decoder;
-    decoder.Begin(source, 6, bytes.size() - 5);
+    decoder.Begin(window, source, 6, bytes.size() - 5);
     Mixture<ArithmeticDecoder> decoded;
     bits.Forget();
     for (int i = 0; i < count; ++i) {
@@ -82,8 +83,9 @@ TEST(ArithmeticCoder, CarriesIntoBytesThatAreWrittenAlready) {
     encoder.Bits(32, 0xFFFFFFFF);
     const std::string bytes = encoder.Finish();
     const MemorySource source(bytes);
+    ByteWindow window;
     ArithmeticDecoder decoder;
-    decoder.Begin(source, 0, bytes.size());
+    decoder.Begin(window, source, 0, bytes.size());
     ArithmeticDecoder::Model<256> same;
     for (const std::uint32_t symbol : symbols) ASSERT_EQ(decoder.Symbol(same), symbol) << run;
     ASSERT_EQ(decoder.Bits(32), 0xFFFFFFFF) << run;
@@ -93,8 +95,9 @@ TEST(ArithmeticCoder, CarriesIntoBytesThatAreWrittenAlready) {
 TEST(ArithmeticDecoder, CountsTheBytesThatAreMissing) {
   const std::string bytes = "\x80\x40";
   const MemorySource source(bytes);
+  ByteWindow window;
   ArithmeticDecoder decoder;
-  decoder.Begin(source, 0, 2);
+  decoder.Begin(window, source, 0, 2);
   EXPECT_EQ(decoder.missing(), 2u);
   decoder.Bits(32);
   EXPECT_EQ(decoder.missing(), 6u);
@@ -109,8 +112,9 @@ TEST(ArithmeticDecoder, GivesSymbolsOfTheModelWhateverTheBytesAre) {
       for (char& byte : bytes) byte = static_cast<char>(random() % 4 == 0 ? 0xFF : random());
     }
     const MemorySource source(bytes);
+    ByteWindow window;
     ArithmeticDecoder decoder;
-    decoder.Begin(source, 0, bytes.size());
+    decoder.Begin(window, source, 0, bytes.size());
     ArithmeticDecoder::Model<256> five(5);
     ArithmeticDecoder::Model<516> many;
     BitModel bits;
@@ -132,8 +136,9 @@ class FailingSource : public ByteSource {
 };
 
 TEST(ArithmeticDecoder, KeepsTheFailureOfItsSource) {
+  ByteWindow window;
   ArithmeticDecoder decoder;
-  decoder.Begin(FailingSource(), 0, 1000);
+  decoder.Begin(window, FailingSource(), 0, 1000);
   EXPECT_EQ(decoder.Bits(8), 0u);
   EXPECT_EQ(decoder.status(), absl::UnavailableError("no disk"));
 }

@@ -28,8 +28,9 @@ void ExpectRoundTrip(const std::vector<Prediction>& integers) {
   }
   const std::string bytes = encoder.Finish();
   const MemorySource source(bytes);
+  ByteWindow window;
   ArithmeticDecoder decoder;
-  decoder.Begin(source, 0, bytes.size());
+  decoder.Begin(window, source, 0, bytes.size());
   const auto decoded = std::make_unique<IntegerCoder<ArithmeticDecoder, kBits, kContexts>>();
   for (std::size_t i = 0; i < integers.size(); ++i) {
     ASSERT_EQ(decoded->Code(decoder, integers[i].predicted, 0, integers[i].context), integers[i].actual) << i;
