@@ -11,6 +11,9 @@ namespace {
 constexpr int kSamples = 16;  // of a step, for the means
 constexpr double kFarthest =
     400;  // beyond it, twenty radians a step, the means of Bessel functions are taken as 0
+// Means below this are taken as 0: it is far below the last digit of a sum in single precision, and products of it with
+// spectra do not become denormal numbers, which are slow.
+constexpr double kLeast = 1e-14;
 
 double OneMinusJ0(double x) {
   const double q = x * x / 4;
@@ -37,7 +40,7 @@ Eigen::ArrayXf Means(double start, double step, int count, const Function& f) {
     for (int j = -2 * kSamples + 1; j < 2 * kSamples; ++j) {
       sum += Share(static_cast<double>(j) / kSamples) * fine[(i + 2) * kSamples + j];
     }
-    means[i] = static_cast<float>(sum / kSamples);
+    means[i] = std::abs(sum) < kLeast * kSamples ? 0 : static_cast<float>(sum / kSamples);
   }
   return means;
 }
@@ -52,7 +55,7 @@ HankelLattice::HankelLattice(const std::vector<double>& wavenumbers)
   for (int order = 0; order < kOrders; ++order) {
     bessel_.push_back(Means(start, step_, count, [order](double x) {
       if (x > kFarthest) return 0.0;
-      return order == 0 ? ::j0(x) : ::jn(2 * order, x);
+      return ::jn(order, x);
     }));
   }
   one_minus_bessel_ =

@@ -10,7 +10,7 @@ namespace albtpu {
 // Immutable; one serves all seas and beams.
 class HankelLattice {
  public:
-  static constexpr int kOrders = 10;            // J_0, J_2, ... J_18
+  static constexpr int kOrders = 20;            // J_0, J_1, ... J_19
   static constexpr double kShortestLag = 1e-3;  // m
   static constexpr double kLongestLag = 100;    // m
 
@@ -24,7 +24,7 @@ class HankelLattice {
   double IndexOfLag(double lag) const;                                // the inverse, between lags too
 
   // The rows are lags, `stride` steps apart from the lag `first` on; the columns are wavenumbers. Elements are means of
-  // J_(2 order) over the wavenumbers about k_i, with the share that cubic interpolation in ln k gives to the sample
+  // J_order over the wavenumbers about k_i, with the share that cubic interpolation in ln k gives to the sample
   // there: where a step is longer than a period they vanish, as they should. Single precision is enough, because no
   // element loses digits.
   using Kernel = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,

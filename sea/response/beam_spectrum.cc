@@ -17,7 +17,7 @@ constexpr int kAddedHarmonics = 2;
 }  // namespace
 
 SlopeSpectrum::SlopeSpectrum(const HarmonicSpectrum& spectrum)
-    : harmonics_(std::min<int>(spectrum.harmonics(), HankelLattice::kOrders - 1 - kAddedHarmonics)) {
+    : harmonics_(std::min<int>(spectrum.harmonics(), HankelLattice::kOrders / 2 - 1 - kAddedHarmonics)) {
   assert(spectrum.size() >= 2);
   const HankelLattice& lattice = HankelLattice::Shared();
   power_ = Eigen::MatrixXd::Zero(lattice.size(), 2 * harmonics_ + 1);

@@ -12,6 +12,16 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// Weights that take a function at six lags about the edge of a disc to its value there, and to its derivative by ln s
+// (Lagrange's polynomial). `weight` is 2 pi |dp|.
+struct LagRing {
+  static constexpr int kLags = 6;
+
+  int first;  // lag
+  Eigen::Matrix<double, kLags, 1> value, slope;
+  double weight;
+};
+
 // The ring about the lag `s` [m] on every `stride`th lag of the lattice. Rings within the shortest lags, over which no
 // surface varies, have no weight.
 LagRing RingAt(double s, double weight, int stride) {
@@ -67,10 +77,27 @@ std::vector<LagRing> IrradianceRings(BeamProfile profile, double diameter) {
   return rings;
 }
 
+// A wave's D' is 1 - W cos(kappa . s), whose harmonics are 1 - W J_0 and -(-1)^l W J_2l; BeamSpectrum is kappa^2 times
+// the elevation's.
+SpectrumRing OnSpectrum(const LagRing& ring, const Eigen::ArrayXd& average) {
+  const HankelLattice& lattice = HankelLattice::Shared();
+  const Eigen::ArrayXd filter = average / lattice.wavenumbers().square();
+  SpectrumRing on{Eigen::MatrixXd(lattice.size(), HankelLattice::kOrders / 2), {}, ring.weight};
+  on.slope = on.value;
+  for (int l = 0; l < HankelLattice::kOrders / 2; ++l) {
+    const HankelLattice::Kernel kernel = l == 0 ? lattice.OneMinusBessel(ring.first, LagRing::kLags, 1)
+                                                : lattice.Bessel(2 * l, ring.first, LagRing::kLags, 1);
+    const Eigen::MatrixXd about = kernel.cast<double>().transpose() * (l % 2 == 0 && l > 0 ? -1 : 1);
+    on.value.col(l) = filter * (about * ring.value).array();
+    on.slope.col(l) = filter * (about * ring.slope).array();
+  }
+  on.value.col(0).array() += (1 - average) / lattice.wavenumbers().square();
+  return on;
+}
+
 }  // namespace
 
-FootprintKernel::FootprintKernel(BeamProfile profile, double diameter)
-    : overlap_rings_(OverlapRings(profile, diameter)) {
+FootprintKernel::FootprintKernel(BeamProfile profile, double diameter) {
   const HankelLattice& lattice = HankelLattice::Shared();
   const double reach = profile == BeamProfile::kUniform ? diameter : 2.2 * diameter;
   assert(HankelLattice::kShortestLag < 0.1 * diameter && reach < 0.8 * HankelLattice::kLongestLag);
@@ -79,7 +106,7 @@ FootprintKernel::FootprintKernel(BeamProfile profile, double diameter)
     average_[i] = FootprintAverage({.footprint = diameter, .profile = profile}, lattice.wavenumbers()[i], 0);
   }
   for (const LagRing& ring : IrradianceRings(profile, diameter))
-    irradiance_rings_.push_back(OnSpectrum(ring));
+    irradiance_rings_.push_back(OnSpectrum(ring, average_));
   const int lags = static_cast<int>(lattice.IndexOfLag(reach) / kLagStride) + 5;
   overlap_.resize(lags);
   for (int j = 0; j < lags; ++j) {
@@ -89,24 +116,11 @@ FootprintKernel::FootprintKernel(BeamProfile profile, double diameter)
     overlap_[j] =
         2 * kPi * s * s * steps * 4 / (kPi * diameter * diameter) * FootprintOverlap(profile, s / diameter);
   }
-}
-
-// A wave's D' is 1 - W cos(kappa . s), whose harmonics are 1 - W J_0 and -(-1)^l W J_2l; BeamSpectrum is kappa^2 times
-// the elevation's.
-SpectrumRing FootprintKernel::OnSpectrum(const LagRing& ring) const {
-  const HankelLattice& lattice = HankelLattice::Shared();
-  const Eigen::ArrayXd filter = average_ / lattice.wavenumbers().square();
-  SpectrumRing on{Eigen::MatrixXd(lattice.size(), HankelLattice::kOrders), {}, ring.weight};
-  on.slope = on.value;
-  for (int l = 0; l < HankelLattice::kOrders; ++l) {
-    const HankelLattice::Kernel kernel = l == 0 ? lattice.OneMinusBessel(ring.first, LagRing::kLags, 1)
-                                                : lattice.Bessel(l, ring.first, LagRing::kLags, 1);
-    const Eigen::MatrixXd about = kernel.cast<double>().transpose() * (l % 2 == 0 && l > 0 ? -1 : 1);
-    on.value.col(l) = filter * (about * ring.value).array();
-    on.slope.col(l) = filter * (about * ring.slope).array();
+  overlap_edge_ = overlap_edge_slope_ = Eigen::ArrayXd::Zero(lags);
+  for (const LagRing& ring : OverlapRings(profile, diameter)) {
+    overlap_edge_.segment<LagRing::kLags>(ring.first) += ring.weight * ring.value.array();
+    overlap_edge_slope_.segment<LagRing::kLags>(ring.first) += ring.weight * ring.slope.array();
   }
-  on.value.col(0).array() += (1 - average_) / lattice.wavenumbers().square();
-  return on;
 }
 
 }  // namespace albtpu

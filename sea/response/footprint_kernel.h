@@ -10,23 +10,14 @@
 namespace albtpu {
 
 // A weight p that falls with the distance s, such as the irradiance of a footprint, is a mixture of even discs. By
-// partial integration, with f_0 and f_1 the means of f and f exp(2 i beta) over the circle of the radius s,
-//     integral of p (d_xx + d_yy) f             = sum of weight * d f_0 / d ln s,
-//     integral of p (d_xx - d_yy + 2 i d_xy) f  = sum of weight * (2 f_1 + d f_1 / d ln s)
-// over the edges of the discs, the weight being 2 pi |dp|. Each of the next two is such an edge.
+// partial integration, with <> the mean over the directions beta of a circle of the radius s, and n = (cos beta,
+// sin beta),
+//     integral of p d_a f      = sum of weight * <s f n_a>,
+//     integral of p d_a d_b f  = sum of weight * (<f (2 n_a n_b - delta_ab)> + d <f n_a n_b> / d ln s)
+// over the edges of the discs, the weight being 2 pi |dp|.
 
-// Weights that take a function at six lags about the edge to its value there, and to its derivative by ln s (Lagrange's
-// polynomial).
-struct LagRing {
-  static constexpr int kLags = 6;
-
-  int first;  // lag
-  Eigen::Matrix<double, kLags, 1> value, slope;
-  double weight;
-};
-
-// The column l takes the harmonic l of a BeamSpectrum to that of D' on the edge, and to its derivative by ln s, where
-// D' is the height difference of LagCovariances averaged over the footprint at one of its two points.
+// Such an edge. The column l takes the harmonic l of a BeamSpectrum to that of D' on the edge, and to its derivative by
+// ln s, where D' is the height difference of LagCovariances averaged over the footprint at one of its two points.
 struct SpectrumRing {
   Eigen::MatrixXd value, slope;
   double weight;
@@ -49,16 +40,17 @@ class FootprintKernel {
   // overlap()[j] times a function at the lag j, averaged over directions, sums up to the integral.
   const Eigen::ArrayXd& overlap() const { return overlap_; }
 
-  // The edges of the discs whose mixture is a, among the lags of overlap(), and of those whose mixture is the
-  // irradiance, whose integral over the plane is 1.
-  const std::vector<LagRing>& overlap_rings() const { return overlap_rings_; }
+  // The sums over the edges of the discs whose mixture is a: that of overlap_edge()[j] times a function at the lag j
+  // is the sum of weight times the function, that of overlap_edge_slope()[j] times it the sum of weight times its
+  // derivative by ln s. Functions are interpolated by polynomials through six lags.
+  const Eigen::ArrayXd& overlap_edge() const { return overlap_edge_; }
+  const Eigen::ArrayXd& overlap_edge_slope() const { return overlap_edge_slope_; }
+
+  // The edges of the discs whose mixture is the irradiance, whose integral over the plane is 1.
   const std::vector<SpectrumRing>& irradiance_rings() const { return irradiance_rings_; }
 
  private:
-  SpectrumRing OnSpectrum(const LagRing& ring) const;
-
-  Eigen::ArrayXd average_, overlap_;
-  std::vector<LagRing> overlap_rings_;
+  Eigen::ArrayXd average_, overlap_, overlap_edge_, overlap_edge_slope_;
   std::vector<SpectrumRing> irradiance_rings_;
 };
 

@@ -4,20 +4,16 @@
 #include <cmath>
 #include <complex>
 
+#include "sea/response/slope_covariance.h"
+
 namespace albtpu {
 namespace {
 
 using Complex = std::complex<double>;
 
-// d_xx + d_yy and d_xx - d_yy + 2 i d_xy.
-struct Derivatives {
-  double trace = 0;
-  Complex difference = 0;
-};
-
-// Adds the part of a ring to the integrals of p and the derivatives of f^2, by the harmonics of f on the ring and of
-// its derivative by ln s.
-void AddRing(double weight, const Eigen::VectorXcd& f, const Eigen::VectorXcd& slope, Derivatives& sum) {
+// The second derivatives d_xx, d_xy and d_yy of the square of f, of which a ring has the part that is added: by the
+// harmonics of f on the ring and of its derivative by ln s.
+Eigen::Array3d RingOfSquare(const Eigen::VectorXcd& f, const Eigen::VectorXcd& slope) {
   // The means over a turn of f^2 and f^2 exp(2 i beta).
   double mean_slope = 2 * f[0].real() * slope[0].real();
   Complex turned = 0, turned_slope = 0;
@@ -26,42 +22,38 @@ void AddRing(double weight, const Eigen::VectorXcd& f, const Eigen::VectorXcd& s
     turned += 2.0 * f[l] * std::conj(f[l + 1]);
     turned_slope += 2.0 * (slope[l] * std::conj(f[l + 1]) + f[l] * std::conj(slope[l + 1]));
   }
-  sum.trace += weight * mean_slope;
-  sum.difference += weight * (2.0 * turned + turned_slope);
+  const Complex difference = 2.0 * turned + turned_slope;  // d_xx - d_yy + 2 i d_xy
+  return {(mean_slope + difference.real()) / 2, difference.imag() / 2, (mean_slope - difference.real()) / 2};
 }
 
 }  // namespace
 
-Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagCovariances& lags,
+Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagProducts& products,
                                       const FootprintKernel& footprint) {
-  const HankelLattice& lattice = HankelLattice::Shared();
-  Derivatives of_pairs, of_points;
-  for (const LagRing& ring : footprint.overlap_rings()) {
-    const auto about = lags.height.middleRows(ring.first, LagRing::kLags);
-    AddRing(ring.weight, about.transpose() * ring.value, about.transpose() * ring.slope, of_pairs);
-  }
+  const auto squares = products.squared_heights.topRows(footprint.overlap().size());
+  const Eigen::Array3d on_edge = squares.transpose() * footprint.overlap_edge().matrix();
+  const double difference = on_edge[0] - on_edge[2];
+  const Eigen::Array3d of_pairs =
+      Eigen::Array3d(difference, 2 * on_edge[1], -difference) +
+      Eigen::Array3d(squares.transpose() * footprint.overlap_edge_slope().matrix());
+
+  Eigen::Array3d of_points = Eigen::Array3d::Zero();
   const Eigen::Index harmonics = spectrum.slope.cols();
   for (const SpectrumRing& ring : footprint.irradiance_rings()) {
     const auto at = [&](const Eigen::MatrixXd& kernel) {
       return Eigen::VectorXcd(
           kernel.leftCols(harmonics).cwiseProduct(spectrum.slope).colwise().sum().transpose());
     };
-    AddRing(ring.weight, at(ring.value), at(ring.slope), of_points);
+    of_points += ring.weight * RingOfSquare(at(ring.value), at(ring.slope));
   }
 
-  const Eigen::ArrayXd elevation = spectrum.slope.col(0).real().array() / lattice.wavenumbers().square();
-  const double mean_difference = (elevation * (1 - footprint.average().square())).sum();  // D"
-  const Eigen::VectorXcd slopes =
-      spectrum.slope.leftCols(2).transpose() * footprint.average().square().matrix();
-  const double trace = -0.5 * of_pairs.trace + of_points.trace - mean_difference * slopes[0].real();
-  const Complex difference =
-      -0.5 * of_pairs.difference + of_points.difference - mean_difference * std::conj(slopes[1]);
   const double cosine = std::cos(spectrum.incidence);
-  const double along = 0.5 * (trace + difference.real()) * cosine * cosine;
-  const double across = 0.5 * (trace - difference.real()), both = 0.5 * difference.imag() * cosine;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(
-      (Eigen::Matrix2d() << along, both, both, across).finished());
+  const Eigen::Array3d sum = (of_points - 0.5 * of_pairs) * Eigen::Array3d(cosine * cosine, cosine, 1);
+  const Eigen::Matrix2d covariance =
+      (Eigen::Matrix2d() << sum[0], sum[1], sum[1], sum[2]).finished() -
+      HeightDifference(spectrum, footprint) * FootprintSlopes(spectrum, footprint);
   // Under long waves the three means cancel to within the errors of their quadrature.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
          solver.eigenvectors().transpose();
 }

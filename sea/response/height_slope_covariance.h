@@ -18,7 +18,7 @@ namespace albtpu {
 // which changes nothing, the autocorrelation a and the irradiance w of the footprint, D' = w * D and D" the mean of D
 // over a,
 //     E[q_a q_b] = -1/2 integral of a d_a d_b D^2 + integral of w d_a d_b D'^2 - D" V_ab.
-Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagCovariances& lags,
+Eigen::Matrix2d HeightSlopeCovariance(const BeamSpectrum& spectrum, const LagProducts& products,
                                       const FootprintKernel& footprint);
 
 }  // namespace albtpu

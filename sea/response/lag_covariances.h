@@ -7,25 +7,40 @@
 
 namespace albtpu {
 
-// In the coordinates across a beam, at the lags 0, FootprintKernel::kLagStride, ... of the lattice. Harmonics l in the
-// direction beta of the lag: a function is the sum over all l of its harmonic times exp(2 i l beta).
+// In the coordinates across a beam: one row for each of the lags 0, FootprintKernel::kLagStride, ... of the lattice,
+// one column for each of `directions`.
 //
-// Derivation: with P and its harmonics e_m as in BeamSpectrum, the integral of P cos(kappa s cos(psi - beta)) d(psi) is
-// the sum over m of (-1)^m e_m J_2m(kappa s) exp(2 i m beta).
+// Derivation: with P as in BeamSpectrum and g the harmonics of P kappa_a kappa_b, the integral of P kappa_a kappa_b
+// cos(kappa s cos(psi - beta)) d(psi) is the sum over all l of (-1)^l g_l J_2l(kappa s) exp(2 i l beta). With h the
+// factors of exp(i (2 l + 1) psi) in P kappa_c, that of P kappa_c sin(kappa s cos(psi - beta)) is the sum over all l of
+// (-1)^l h_l J_(2l+1)(kappa s) exp(i (2 l + 1) beta).
 struct LagCovariances {
   LagCovariances(const BeamSpectrum& spectrum, int lags);
 
-  // R_xx + R_yy of the slopes: l from 0; the harmonic -l is the conjugate.
-  Eigen::MatrixXcd trace;
-  // R_xx - R_yy + 2 i R_xy: l from 0, and -l from 0.
-  Eigen::MatrixXcd difference, difference_of_negative;
-  // Half the mean square of the difference of two heights, m^2: the variance less the covariance of heights.
-  Eigen::MatrixXcd height;
+  // The directions beta of the lag from the azimuth, rad: evenly over half a turn, as many as means over all directions
+  // of products of two of the following need.
+  Eigen::ArrayXd directions;
+  // R_xx, R_xy and R_yy of the slopes.
+  Eigen::ArrayXXd along, both, across;
+  // Half the mean square of the difference of two heights, D, m^2: the variance less the covariance of heights.
+  Eigen::ArrayXXd height;
+  // dD/dx and dD/dy, times the lag, m^2.
+  Eigen::ArrayXXd height_along, height_across;
 };
 
-// Means over all directions of the lag of products of the elements R of the slopes' covariance, one row per lag:
-// |T|^2, |Z|^2, Re T Z, Im T Z, Re Z Z, Im Z Z, with T the trace and Z the difference above.
-using LagProducts = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-LagProducts ProductsOf(const LagCovariances& covariances);
+// Means over all directions beta of the lag of products, one row per lag. Slopes are in the order (along, along),
+// (along, across), (across, across).
+struct LagProducts {
+  explicit LagProducts(const LagCovariances& covariances);
+
+  // R_ab R_cd in the order 0-0, 0-1, 0-2, 1-1, 1-2, 2-2 of slopes.
+  Eigen::MatrixXd slope_pairs;
+  // D^2 n_a n_b, with n = (cos(beta), sin(beta)), in the order of slopes.
+  Eigen::MatrixXd squared_heights;
+  // R_ab and D R_ab, and both times cos(2 beta).
+  Eigen::MatrixXd slopes, turned_slopes, height_slopes, turned_height_slopes;
+  // s dD/dx R_ab cos(beta), then s dD/dy R_ab cos(beta).
+  Eigen::MatrixXd gradient_slopes;
+};
 
 }  // namespace albtpu

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sea/response/effective_gains.h"
+#include "sea/response/footprint_shift.h"
 #include "sea/response/height_slope_covariance.h"
 #include "sea/response/lag_covariances.h"
 #include "sea/response/refraction.h"
@@ -15,10 +16,16 @@ namespace {
 
 // Of (tangent along, tangent across, secant) per depth.
 Eigen::Matrix3d RayCovariance(const EffectiveGains& gains, double incidence, const Eigen::Matrix2d& slopes,
-                              const Eigen::Matrix3d& pairs) {
+                              const Eigen::Matrix3d& pairs, const FootprintShift& shift) {
   const double tau = std::tan(incidence);
-  const Eigen::Matrix2d first = slopes + MeanOfSquares(tau * tau, pairs);
-  Eigen::Matrix3d covariance = gains.gain * first * gains.gain.transpose();
+  const Eigen::Matrix2d first =
+      slopes + tau * tau * (Eigen::Matrix2d(pairs.topLeftCorner<2, 2>()) + shift.spread);
+  Eigen::Matrix<double, 3, 2> bent;  // the rows H_i contracted with the drift
+  for (int i = 0; i < 3; ++i) {
+    bent.row(i) = shift.drift[0] * gains.curvature[i].col(0) + shift.drift[1] * gains.curvature[i].col(1);
+  }
+  const Eigen::Matrix3d cross = -tau * gains.gain * bent.transpose();
+  Eigen::Matrix3d covariance = gains.gain * first * gains.gain.transpose() + cross + cross.transpose();
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
       const double second = 0.5 * MeanOfForms(gains.curvature[i], gains.curvature[j], pairs);
@@ -50,8 +57,7 @@ std::vector<BeamResponse> SeaResponse::AlongDirection(double incidence, double a
   const BeamSpectrum spectrum = spectrum_.AcrossBeam(incidence, azimuth);
   Eigen::Index lags = 0;
   for (const FootprintKernel& footprint : footprints) lags = std::max(lags, footprint.overlap().size());
-  const LagCovariances covariances(spectrum, static_cast<int>(lags));
-  const LagProducts products = ProductsOf(covariances);
+  const LagProducts products(LagCovariances(spectrum, static_cast<int>(lags)));
 
   // The reported position is that of still water, and the reported depth the path times cos(refracted). Errors are what
   // the ray does, with the opposite sign.
@@ -62,10 +68,11 @@ std::vector<BeamResponse> SeaResponse::AlongDirection(double incidence, double a
   const Eigen::Vector3d still(std::tan(refracted), 0, 1 / std::cos(refracted));
   std::vector<BeamResponse> responses;
   for (const FootprintKernel& footprint : footprints) {
-    const Eigen::Matrix3d ray = RayCovariance(gains, incidence, FootprintSlopes(spectrum, footprint),
-                                              SlopePairs(products, incidence, footprint));
+    const Eigen::Matrix3d pairs = SlopePairs(products, incidence, footprint);
+    const Eigen::Matrix3d ray = RayCovariance(gains, incidence, FootprintSlopes(spectrum, footprint), pairs,
+                                              FootprintShiftOf(spectrum, products, pairs, footprint));
     const Eigen::Matrix3d at_surface =
-        gains.gain * HeightSlopeCovariance(spectrum, covariances, footprint) * gains.gain.transpose();
+        gains.gain * HeightSlopeCovariance(spectrum, products, footprint) * gains.gain.transpose();
     responses.push_back({errors * ray * errors.transpose(), errors * at_surface * errors.transpose(),
                          errors * (gains.mean - still), along});
   }

@@ -2,14 +2,12 @@
 //
 // The mean refracted ray of a beam is a function of Gaussian waves. With the gains Gamma and the curvatures H_i of
 // effective_gains.h, tau = tan(incidence) along the azimuth, the covariance R of the slopes at two points of the
-// footprint, <> the mean over these points and V = <R>, its covariance per depth^2 is
-//     K_ij = [Gamma (V + <R tau tau^T R>) Gamma^T]_ij + 1/2 <tr(H_i R H_j R)>.
-// "Finite slopes" in docs/physics.md derives it and states how well tracing agrees.
-//
-// Left out are terms of the fourth order in slope that vanish both as the footprint becomes short beside the waves and
-// as the slopes become small: under a footprint some times longer than the waves, slanted by 20 degrees, TVU is 1 to 2
-// % too small. So are terms of the sixth order: of one ray, 0.02 % of THU and 0.14 % of TVU at a mean square slope of
-// 0.15.
+// footprint, half the mean square D of the difference of their heights, <> the mean over these points and V = <R>, its
+// covariance per depth^2 is
+//     K_ij = [Gamma (V + <R tau tau^T R> + <D (tau . grad)^2 R>) Gamma^T]_ij + 1/2 <tr(H_i R H_j R)>
+//            - <Gamma_i (tau . grad) R H_j grad D> - <Gamma_j (tau . grad) R H_i grad D>.
+// "Finite slopes" in docs/physics.md derives it and states how well tracing agrees. Left out are terms of the sixth
+// order in slope: of one ray, 0.02 % of THU and 0.14 % of TVU at a mean square slope of 0.15.
 #pragma once
 
 #include <vector>

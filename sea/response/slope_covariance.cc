@@ -19,20 +19,22 @@ Eigen::Matrix2d FootprintSlopes(const BeamSpectrum& spectrum, const FootprintKer
   return (Eigen::Matrix2d() << along, both, both, across).finished();
 }
 
+double HeightDifference(const BeamSpectrum& spectrum, const FootprintKernel& footprint) {
+  const auto squares = HankelLattice::Shared().wavenumbers().square();
+  return (spectrum.slope.col(0).real().array() / squares * (1 - footprint.average().square())).sum();
+}
+
 Eigen::Matrix3d SlopePairs(const LagProducts& products, double incidence, const FootprintKernel& footprint) {
-  const Eigen::Matrix<double, 6, 1> sums =
-      products.topRows(footprint.overlap().size()).transpose() * footprint.overlap().matrix();
-  const double tt = sums[0], tx = sums[2], ty = sums[3];
-  const double xx = (sums[1] + sums[4]) / 2, yy = (sums[1] - sums[4]) / 2, xy = sums[5] / 2;
-  // R_11 = (T + Re Z) / 2, R_12 = Im Z / 2, R_22 = (T - Re Z) / 2.
+  const Eigen::Index lags = footprint.overlap().size();
+  const Eigen::VectorXd sums = products.slope_pairs.topRows(lags).transpose() * footprint.overlap().matrix();
   Eigen::Matrix3d pairs;
-  pairs << tt + 2 * tx + xx, ty + xy, tt - xx,  //
-      ty + xy, yy, ty - xy,                     //
-      tt - xx, ty - xy, tt - 2 * tx + xx;
+  pairs << sums[0], sums[1], sums[2],  //
+      sums[1], sums[3], sums[4],       //
+      sums[2], sums[4], sums[5];
   // A slope along the azimuth is cos(incidence) times that across the beam.
   const double cosine = std::cos(incidence);
   const Eigen::Vector3d scale(cosine * cosine, cosine, 1);
-  return scale.asDiagonal() * (pairs / 4) * scale.asDiagonal();
+  return scale.asDiagonal() * pairs * scale.asDiagonal();
 }
 
 double MeanOfForms(const Eigen::Matrix2d& g, const Eigen::Matrix2d& h, const Eigen::Matrix3d& pairs) {
@@ -45,10 +47,6 @@ double MeanOfForms(const Eigen::Matrix2d& g, const Eigen::Matrix2d& h, const Eig
     }
   }
   return sum;
-}
-
-Eigen::Matrix2d MeanOfSquares(double squared_tau, const Eigen::Matrix3d& pairs) {
-  return squared_tau * pairs.topLeftCorner<2, 2>();
 }
 
 }  // namespace albtpu

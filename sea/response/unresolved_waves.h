@@ -26,12 +26,13 @@ inline Eigen::Vector3d SlopeSquares(const Eigen::Vector2d& slope) {
   return {slope.x() * slope.x(), slope.y() * slope.y(), slope.x() * slope.y()};
 }
 
-// A facet of slope m stands for a patch of water with the slopes m + delta, where delta is normal with
-// `slope_covariance`: the covariance of the sea less that of the facets. (All cells are cut along the same diagonal,
-// which correlates the two slopes of the facets; the slopes of the sea have no such correlation, and the difference
-// removes it.) Rays see the slopes with the weight of the facing area, 1 + tan(theta) (m + delta) . phi. The mean
-// over delta is taken by quadrature; its difference from the value at delta = 0 is expanded to second order in m.
+// A facet of slope m stands for a patch of water with the slopes m + delta, where delta is normal with the covariance
+// `unresolved`: that of the sea less that of the facets, `resolved`. (All cells are cut along the same diagonal, which
+// correlates the two slopes of the facets; the slopes of the sea have no such correlation, and the difference removes
+// it.) Rays see the slopes with the weight of the facing area, 1 + tan(theta) (m + delta) . phi. The mean over delta is
+// taken by quadrature. Of its difference from the value at delta = 0 the result is the first two orders in Hermite
+// polynomials of the resolved slopes: their mean response to it, not that at m = 0.
 UnresolvedWaves EffectOfUnresolvedWaves(const BeamOptions& beam, double refractive_index,
-                                        const Eigen::Matrix2d& slope_covariance);
+                                        const Eigen::Matrix2d& unresolved, const Eigen::Matrix2d& resolved);
 
 }  // namespace albtpu

@@ -41,17 +41,12 @@ TEST(FootprintKernel, TakesTheMeanOfSecondDerivativesOverThePairsOfPoints) {
     constexpr double kDiameter = 0.7;
     const FootprintKernel kernel(profile, kDiameter);
     const auto integrals = [&](double power, double mean, double turned) {
-      double trace = 0, difference = 0;
-      for (const LagRing& ring : kernel.overlap_rings()) {
-        double value = 0, slope = 0;
-        for (int i = 0; i < LagRing::kLags; ++i) {
-          value += ring.value[i] * std::pow(LagOf(ring.first + i), power);
-          slope += ring.slope[i] * std::pow(LagOf(ring.first + i), power);
-        }
-        trace += ring.weight * mean * slope;
-        difference += ring.weight * turned * (2 * value + slope);
+      double on_edge = 0, slope_on_edge = 0;
+      for (Eigen::Index j = 0; j < kernel.overlap().size(); ++j) {
+        on_edge += kernel.overlap_edge()[j] * std::pow(LagOf(static_cast<int>(j)), power);
+        slope_on_edge += kernel.overlap_edge_slope()[j] * std::pow(LagOf(static_cast<int>(j)), power);
       }
-      return std::pair(trace, difference);
+      return std::pair(mean * slope_on_edge, turned * (2 * on_edge + slope_on_edge));
     };
     const auto [trace2, difference2] = integrals(2, 1.0 / 2, 1.0 / 4);
     EXPECT_NEAR(trace2 / 2, 1, 1e-4) << Name(profile);

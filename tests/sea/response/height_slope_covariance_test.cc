@@ -40,8 +40,8 @@ TEST(HeightSlopeCovariance, IsASumOverPairsOfWaves) {
 
       const BeamSpectrum spectrum = SlopeSpectrum(swell).AcrossBeam(beam.incidence, beam.azimuth);
       const FootprintKernel footprint(profile, diameter);
-      const LagCovariances lags(spectrum, static_cast<int>(footprint.overlap().size()));
-      const Eigen::Matrix2d ours = HeightSlopeCovariance(spectrum, lags, footprint);
+      const LagProducts products(LagCovariances(spectrum, static_cast<int>(footprint.overlap().size())));
+      const Eigen::Matrix2d ours = HeightSlopeCovariance(spectrum, products, footprint);
       EXPECT_LT((ours - twin).norm(), 0.01 * twin.norm()) << Name(profile) << ", " << diameter << " m\n"
                                                           << ours << "\n"
                                                           << twin;
@@ -53,9 +53,9 @@ TEST(HeightSlopeCovariance, IsASumOverPairsOfWaves) {
 TEST(HeightSlopeCovariance, VanishesUnderLongWaves) {
   const BeamSpectrum spectrum = SlopeSpectrum(Swell(0.02, 0.3, 0, 0.8, 0.5)).AcrossBeam(0.3, 0);
   const FootprintKernel footprint(BeamProfile::kUniform, 0.3);
-  const LagCovariances lags(spectrum, static_cast<int>(footprint.overlap().size()));
+  const LagProducts products(LagCovariances(spectrum, static_cast<int>(footprint.overlap().size())));
   const double slopes = spectrum.slope.col(0).sum().real();
-  const Eigen::Matrix2d covariance = HeightSlopeCovariance(spectrum, lags, footprint);
+  const Eigen::Matrix2d covariance = HeightSlopeCovariance(spectrum, products, footprint);
   EXPECT_LT(covariance.norm(), 1e-4 * std::pow(0.3 * slopes, 2));
   EXPECT_GE(covariance.diagonal().minCoeff(), 0);
 }

@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <complex>
+#include <cmath>
+#include <numbers>
 
 #include "sea/response/footprint_kernel.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {
 namespace {
-
-using Complex = std::complex<double>;
 
 // The slow twin: cosines of the waves of a fine grid, on lags in all directions. The sea has no waves so short that the
 // grid would alias them at these lags.
@@ -21,57 +20,63 @@ TEST(LagCovariances, AreSumsOfCosines) {
   const LagCovariances covariances(SlopeSpectrum(sea).AcrossBeam(0, 0), kLags);
   for (const int j : {0, 20, 50, 62, 70}) {
     const double lag = HankelLattice::Shared().Lag(j * FootprintKernel::kLagStride);
-    for (const double beta : {0.0, 0.5, 2.0}) {
-      double xx = 0, yy = 0, xy = 0, height = 0, variance = 0;
+    for (const Eigen::Index d : {0, 2, 5}) {
+      const Eigen::Vector2d n(std::cos(covariances.directions[d]), std::sin(covariances.directions[d]));
+      Eigen::Matrix2d slopes = Eigen::Matrix2d::Zero();
+      Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+      double height = 0, variance = 0;
       ForEachWave(sea, 128, [&](double power, const Eigen::Vector2d& k) {
-        const double cosine = std::cos(lag * (k.x() * std::cos(beta) + k.y() * std::sin(beta)));
-        xx += power * k.x() * k.x() * cosine;
-        yy += power * k.y() * k.y() * cosine;
-        xy += power * k.x() * k.y() * cosine;
-        height += power * (1 - cosine);
+        const double phase = lag * k.dot(n);
+        slopes += power * std::cos(phase) * k * k.transpose();
+        gradient += lag * power * std::sin(phase) * k;
+        height += power * (1 - std::cos(phase));
         variance += power * k.squaredNorm();
       });
-      Complex trace = 0, difference = 0, difference_height = 0;
-      for (Eigen::Index l = 0; l < covariances.trace.cols(); ++l) {
-        const Complex turn = std::polar(1.0, 2.0 * l * beta);
-        const double both = l == 0 ? 1 : 2;
-        trace += both * (covariances.trace(j, l) * turn).real();
-        difference_height += both * (covariances.height(j, l) * turn).real();
-        difference += covariances.difference(j, l) * turn;
-        if (l > 0) difference += covariances.difference_of_negative(j, l) * std::conj(turn);
-      }
       // Waves between the samples: 5 % steps alter the cosines by (0.05 k lag)^2 / 12, the harmonics end at the sixth.
       const double allowed = 0.005 * variance;
-      EXPECT_NEAR(trace.real(), xx + yy, allowed) << lag << " m, " << beta;
-      EXPECT_NEAR(difference.real(), xx - yy, allowed) << lag << " m, " << beta;
-      EXPECT_NEAR(difference.imag(), 2 * xy, allowed) << lag << " m, " << beta;
-      EXPECT_NEAR(difference_height.real() / height, 1, 0.005) << lag << " m, " << beta;
+      EXPECT_NEAR(covariances.along(j, d), slopes(0, 0), allowed) << lag << " m, " << d;
+      EXPECT_NEAR(covariances.both(j, d), slopes(0, 1), allowed) << lag << " m, " << d;
+      EXPECT_NEAR(covariances.across(j, d), slopes(1, 1), allowed) << lag << " m, " << d;
+      EXPECT_NEAR(covariances.height(j, d) / height, 1, 0.005) << lag << " m, " << d;
+      EXPECT_NEAR(covariances.height_along(j, d), gradient.x(), 0.01 * height) << lag << " m, " << d;
+      EXPECT_NEAR(covariances.height_across(j, d), gradient.y(), 0.01 * height) << lag << " m, " << d;
     }
   }
 }
 
-// The means of the products over 64 directions of the same harmonics.
+// The means over 64 directions of the trigonometric polynomials through the values.
 TEST(LagProducts, AreMeansOverAllDirections) {
   const LagCovariances r(SlopeSpectrum(CrossingSea()).AcrossBeam(0.4, 0.9), 60);
-  const LagProducts products = ProductsOf(r);
-  constexpr int kDirections = 64, kLag = 45;
-  Eigen::Matrix<double, 6, 1> means = Eigen::Matrix<double, 6, 1>::Zero();
-  for (int d = 0; d < kDirections; ++d) {
-    const double beta = 2 * std::numbers::pi * d / kDirections;
-    double t = 0;
-    Complex z = 0;
-    for (Eigen::Index l = 0; l < r.trace.cols(); ++l) {
-      const Complex turn = std::polar(1.0, 2.0 * l * beta);
-      t += (l == 0 ? 1 : 2) * (r.trace(kLag, l) * turn).real();
-      z += r.difference(kLag, l) * turn;
-      if (l > 0) z += r.difference_of_negative(kLag, l) * std::conj(turn);
+  const LagProducts products(r);
+  constexpr int kLag = 45, kDirections = 64;
+  const auto count = static_cast<int>(r.directions.size());
+  // Of even harmonics, 2 l, or of odd ones, 2 l + 1.
+  const auto at = [&](const Eigen::ArrayXXd& values, double beta, bool odd) {
+    double sum = 0;
+    for (int d = 0; d < count; ++d) {
+      double kernel = 0;
+      for (int l = -(count - 1) / 2; l <= (count - 1) / 2; ++l) {
+        kernel += std::cos((2 * l + (odd ? 1 : 0)) * (beta - r.directions[d]));
+      }
+      sum += kernel / count * values(kLag, d);
     }
-    const Eigen::Matrix<double, 6, 1> here = (Eigen::Matrix<double, 6, 1>() << t * t, std::norm(z),
-                                              t * z.real(), t * z.imag(), (z * z).real(), (z * z).imag())
-                                                 .finished();
-    means += here / kDirections;
+    return sum;
+  };
+  double pair = 0, squared = 0, turned = 0, gradient = 0;
+  for (int d = 0; d < kDirections; ++d) {
+    const double beta = 2 * std::numbers::pi * (d + 0.3) / kDirections;
+    const double along = at(r.along, beta, false), both = at(r.both, beta, false);
+    const double height = at(r.height, beta, false);
+    pair += along * both / kDirections;
+    squared += height * height * std::cos(beta) * std::sin(beta) / kDirections;
+    turned += height * both * std::cos(2 * beta) / kDirections;
+    gradient += at(r.height_across, beta, true) * along * std::cos(beta) / kDirections;
   }
-  EXPECT_LT((products.row(kLag).transpose() - means).norm(), 1e-12 * means.norm());
+  const double slope = r.along.abs().maxCoeff(), height = r.height.row(kLag).maxCoeff();
+  EXPECT_NEAR(products.slope_pairs(kLag, 1), pair, 1e-10 * slope * slope);
+  EXPECT_NEAR(products.squared_heights(kLag, 1), squared, 1e-10 * height * height);
+  EXPECT_NEAR(products.turned_height_slopes(kLag, 1), turned, 1e-10 * height * slope);
+  EXPECT_NEAR(products.gradient_slopes(kLag, 3), gradient, 1e-10 * height * slope);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "sea/quadrature/gauss_quadrature.h"
 #include "sea/response/closed_form.h"
+#include "sea/response/effective_gains.h"
 #include "sea/response/refraction.h"
 #include "tests/sea/response/seas.h"
 
@@ -92,6 +93,62 @@ TEST(SeaResponse, OfASingleRayIsTheVarianceOverTheSlopesThatFaceIt) {
   }
 }
 
+// The slow twin, an independent derivation. With Gamma and H_i of the whole sea, the mean ray has a part linear in the
+// waves and one quadratic in them ("Finite slopes" in docs/physics.md). Two waves k and k' make
+//     q_i = W(k + k') ((tau . k) (Gamma_i . k) + (tau . k') (Gamma_i . k') - k . H_i k') / 2,
+// which adds 2 Psi(k) Psi(k') q_i q_j to the covariance. The heights of all waves, of the variance v, spread the
+// footprint: a wave is reduced by exp(-v (tau . k)^2 / 2) besides W, here to first order.
+TEST(SeaResponse, IsASumOverWavesAndPairsOfWaves) {
+  const HarmonicSpectrum sea = Swell(2e-4, 4, 0.9, 0.5, 0.2);
+  const SeaResponse response(sea, kN);
+  struct Wave {
+    double variance;
+    Eigen::Vector2d k;  // along and across the azimuth
+    Eigen::Vector3d shifted;
+  };
+  for (const BeamProfile profile : kProfiles) {
+    for (const double diameter : {0.3, 1.5, 2.5}) {
+      const BeamOptions beam{.incidence = 0.4, .azimuth = 0.5, .footprint = diameter, .profile = profile};
+      const double tau = std::tan(beam.incidence), c = std::cos(beam.azimuth), s = std::sin(beam.azimuth);
+      const Eigen::Matrix2d axes = (Eigen::Matrix2d() << c, -s, s, c).finished();
+      const EffectiveGains gains =
+          EffectiveGainsOf(beam.incidence, kN, axes.transpose() * response.slope_covariance() * axes);
+      const auto average = [&](const Eigen::Vector2d& k) {
+        return FootprintAverage(beam, k.norm(), std::atan2(k.y(), k.x()) + beam.azimuth);
+      };
+      std::vector<Wave> waves;
+      double variance = 0;
+      ForEachWave(sea, 36, [&](double power, const Eigen::Vector2d& k) {
+        const Eigen::Vector2d turned = axes.transpose() * k;
+        variance += power;
+        if (power > 1e-10) waves.push_back({power, turned, tau * turned.x() * (gains.gain * turned)});
+      });
+      Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+      for (const Wave& one : waves) {
+        const Eigen::Vector3d linear = average(one.k) * (gains.gain * one.k);
+        sum += one.variance * (1 - variance * std::pow(tau * one.k.x(), 2)) * linear * linear.transpose();
+        for (const Wave& other : waves) {
+          Eigen::Vector3d pair = one.shifted + other.shifted;
+          for (int i = 0; i < 3; ++i) pair[i] -= one.k.dot(gains.curvature[i] * other.k);
+          pair *= average(one.k + other.k);
+          sum += 0.5 * one.variance * other.variance * pair * pair.transpose();
+        }
+      }
+      Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();
+      errors.topLeftCorner<2, 2>() = -axes;
+      errors(2, 2) = -std::cos(StillWaterRefraction(beam.incidence, kN));
+      const Eigen::Matrix3d twin = errors * sum * errors.transpose();
+      const Eigen::Matrix3d ours = response(beam).covariance_per_depth;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          EXPECT_NEAR(ours(i, j), twin(i, j), 0.005 * std::sqrt(twin(i, i) * twin(j, j)))
+              << Name(profile) << ", " << diameter << " m, element " << i << j;
+        }
+      }
+    }
+  }
+}
+
 // At nadir the path is longer by half the squared tangent.
 TEST(SeaResponse, HasTheVerticalBiasOfTheMeanSquareSlopeAtNadir) {
   const SeaResponse sea(WindSeaOf(8, kElfouhailyModel, 0.05), kN);
@@ -101,45 +158,60 @@ TEST(SeaResponse, HasTheVerticalBiasOfTheMeanSquareSlopeAtNadir) {
   EXPECT_NEAR(sea({.footprint = 0.5}).BiasAlongBeam(1), 0, 1e-14);
 }
 
+// Beams on which what changes nothing is tried.
+const BeamOptions kBeams[] = {
+    {.incidence = 0, .azimuth = 0.3, .footprint = 0.5},
+    {.incidence = 0.4, .azimuth = 0.3, .footprint = 0.2},
+    {.incidence = 0.5, .azimuth = 2.2, .footprint = 6},
+    {.incidence = 0.3, .azimuth = 4.1, .footprint = 1, .profile = BeamProfile::kGaussian},
+};
+
+// `response` with x, y and z taken to those of `turn`.
+BeamResponse Turned(BeamResponse response, const Eigen::Matrix3d& turn) {
+  response.covariance_per_depth = turn * response.covariance_per_depth * turn.transpose();
+  response.covariance_at_surface = turn * response.covariance_at_surface * turn.transpose();
+  response.mean_per_depth = turn * response.mean_per_depth;
+  response.azimuth = turn.topLeftCorner<2, 2>() * response.azimuth;
+  return response;
+}
+
 TEST(SeaResponse, IsTheSameForASeaTurnedWithItsBeam) {
-  for (const double angle : {0.4, 1.9}) {
-    const BeamOptions beam{.incidence = 0.4, .azimuth = 0.3, .footprint = 0.8};
-    BeamOptions turned = beam;
-    turned.azimuth += angle;
-    const BeamResponse straight = SeaResponse(CrossingSea(), kN)(beam);
-    BeamResponse expected = straight;
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    expected.covariance_per_depth = turn * straight.covariance_per_depth * turn.transpose();
-    expected.covariance_at_surface = turn * straight.covariance_at_surface * turn.transpose();
-    expected.mean_per_depth = turn * straight.mean_per_depth;
-    ExpectSame(SeaResponse(Rotated(CrossingSea(), angle), kN)(turned), expected, 1e-6);
+  for (const double angle : {0.4, 1.9, 3.6}) {
+    const SeaResponse sea(CrossingSea(), kN), turned_sea(Rotated(CrossingSea(), angle), kN);
+    for (const BeamOptions& beam : kBeams) {
+      BeamOptions turned = beam;
+      turned.azimuth += angle;
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      const BeamResponse expected = Turned(sea(beam), turn), ours = turned_sea(turned);
+      ExpectSame(ours, expected, 1e-6);
+      EXPECT_NEAR(ours.Thu(3) / expected.Thu(3), 1, 1e-6);
+      EXPECT_NEAR(ours.Tvu(3) / expected.Tvu(3), 1, 1e-6);
+      EXPECT_NEAR(ours.BiasAlongBeam(3), expected.BiasAlongBeam(3), 1e-6);
+      EXPECT_NEAR(ours.BiasVertical(3), expected.BiasVertical(3), 1e-6);
+    }
   }
 }
 
+// A frozen surface looks the same from either side.
 TEST(SeaResponse, IsTheSameForABeamOrASeaTurnedByHalfATurn) {
-  const BeamOptions beam{.incidence = 0.4, .azimuth = 0.3, .footprint = 0.8};
-  const BeamResponse straight = SeaResponse(CrossingSea(), kN)(beam);
-  ExpectSame(SeaResponse(Rotated(CrossingSea(), std::numbers::pi), kN)(beam), straight, 1e-12);
-  BeamOptions back = beam;
-  back.azimuth += std::numbers::pi;
-  const BeamResponse other = SeaResponse(CrossingSea(), kN)(back);
-  EXPECT_NEAR(other.refraction_along_wind(), straight.refraction_along_wind(), 1e-12);
-  EXPECT_NEAR(other.Thu(3), straight.Thu(3), 1e-12);
-  EXPECT_NEAR(other.Tvu(3), straight.Tvu(3), 1e-12);
-  EXPECT_NEAR(other.BiasAlongBeam(3), straight.BiasAlongBeam(3), 1e-12);
+  const SeaResponse sea(CrossingSea(), kN), turned(Rotated(CrossingSea(), std::numbers::pi), kN);
+  for (const BeamOptions& beam : kBeams) {
+    ExpectSame(turned(beam), sea(beam), 1e-9);
+    BeamOptions back = beam;
+    back.azimuth += std::numbers::pi;
+    const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+    ExpectSame(sea(back), Turned(sea(beam), half_turn), 1e-9);
+  }
 }
 
 TEST(SeaResponse, IsMirroredInAMirroredSea) {
-  const BeamOptions beam{.incidence = 0.4, .azimuth = 0.3, .footprint = 0.8};
-  BeamOptions mirrored = beam;
-  mirrored.azimuth = -beam.azimuth;
-  const BeamResponse straight = SeaResponse(CrossingSea(), kN)(beam);
-  const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
-  BeamResponse expected = straight;
-  expected.covariance_per_depth = mirror * straight.covariance_per_depth * mirror;
-  expected.covariance_at_surface = mirror * straight.covariance_at_surface * mirror;
-  expected.mean_per_depth = mirror * straight.mean_per_depth;
-  ExpectSame(SeaResponse(Mirrored(CrossingSea()), kN)(mirrored), expected, 1e-6);
+  const SeaResponse sea(CrossingSea(), kN), mirrored_sea(Mirrored(CrossingSea()), kN);
+  for (const BeamOptions& beam : kBeams) {
+    BeamOptions mirrored = beam;
+    mirrored.azimuth = -beam.azimuth;
+    const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
+    ExpectSame(mirrored_sea(mirrored), Turned(sea(beam), mirror), 1e-6);
+  }
 }
 
 // Swell across the wind: azimuths of 60 and 120 degrees are different beams.

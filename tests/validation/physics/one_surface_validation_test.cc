@@ -97,8 +97,8 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
   const double spacing = kFootprint / kPointsPerFootprint, length = kSize * spacing;
   const CrossFade all_in_the_patch(1e-6, 2e-6);
   const WavePatchModel model(sea, length, kSize, all_in_the_patch);
-  const Eigen::Matrix2d unresolved_slopes =
-      SlopeCovariance(sea) - model.FacetSlopeCovariance([](double, double) { return 1.0; });
+  const Eigen::Matrix2d resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
+  const Eigen::Matrix2d unresolved_slopes = SlopeCovariance(sea) - resolved_slopes;
 
   std::vector<std::vector<Sums>> of_beams(kBeams.size(), std::vector<Sums>(kSurfaces));
   tbb::parallel_for(0, kSurfaces, [&](int i) {
@@ -107,9 +107,10 @@ TEST(OneSurface, RefractsABeamAsTheSeaInBandsDoes) {
       const Beam beam(kBeams[b], kRays);
       const TracedBeam still =
           Trace(beam.Rays(0), HeightField(std::vector<double>(9, 0.0), 3, 1.0), kRefractiveIndex);
-      of_beams[b][i] =
-          AtAllPlaces(surface, beam, EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes),
-                      still, length);
+      of_beams[b][i] = AtAllPlaces(
+          surface, beam,
+          EffectOfUnresolvedWaves(kBeams[b], kRefractiveIndex, unresolved_slopes, resolved_slopes), still,
+          length);
     }
   });
 

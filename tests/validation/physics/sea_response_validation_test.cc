@@ -1,20 +1,23 @@
-// The response theory against ray tracing: random beams on ten seas.
+// The response theory against ray tracing: random beams on many seas.
 //
-// The waves that tracing draws are a sample of the spectrum in steps of wavenumber and direction, which makes the
-// traced crosswind refraction 0.2 to 0.6 % too large, 2 % where all waves travel within 20 degrees of the wind. The
-// covariance of their slopes is known, and its ratio to that of the sea is taken out. What remains is within bounds,
-// besides standard errors.
+// The waves that tracing draws are a sample of the spectrum in steps of wavenumber and direction. The covariance of
+// their slopes is known, and its ratio to that of the sea is taken out. Tracing does not draw the waves shorter than
+// its grid, whose mean effect it adds to the rays: on seas without such waves, where it is exact, the bounds are
+// narrower.
 //
-// It tries every third beam, or all of them, which takes three times as long: ALBTPU_EVERY_BEAM=1
-// sea_response_validation_test
+// It tries a twelfth of the beams, or all of them. What it finds of each beam becomes a line of a CSV file, which
+// validation/plots/response_theory.py draws:
+//     ALBTPU_EVERY_BEAM=1 ALBTPU_CSV=FOLDER sea_response_validation_test
+//     python3 validation/plots/draw.py FOLDER docs response_theory
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
-#include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -25,160 +28,236 @@
 #include "sea/response/refraction.h"
 #include "sea/response/sea_response.h"
 #include "sea/sea_state.h"
+#include "tests/validation/physics/response_seas.h"
 #include "validation/studies/closed_form_ratio.h"
 
 namespace albtpu {
 namespace {
 
-constexpr int kBeams = 6, kRealizations = 300;
+constexpr double kDepth = 20;  // m
 
-// Relative errors of the standard deviations that are traced, besides those of the grid: half a per cent of the
-// variance is allowed to the patch and three quarters of a per cent to the rays (generator/surface/discretization.cc).
-constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
-// In steep seas the waves shorter than the grid, which tracing does not draw, make TVU up to 1.2 % too small; a grid
-// eight times as fine agrees with the theory within 0.1 %.
-constexpr double kShortWaves = 0.012;
-// At the depth 0, where errors are products of height and slope of a few millimetres, the grid makes THU up to 3 % too
-// large.
-constexpr double kGridAtSurface = 0.03;
+bool EveryBeam() { return std::getenv("ALBTPU_EVERY_BEAM") != nullptr; }
 
-// A wind sea of Elfouhaily's with a swell of 0.57 m and 25 m that travels `degrees` to the left of the wind.
-template <int degrees>
-class CrossingSwell : public WaveSpectrum {
- public:
-  CrossingSwell(double wind_speed_10m, double fetch) : wind_(wind_speed_10m, fetch), spreading_(12) {}
-
-  double operator()(double k) const override { return wind_(k) + Swell(k); }
-  double Spreading(double k, double psi) const override {
-    const double of_swell = Swell(k) / (*this)(k);
-    const double from_swell = std::remainder(psi - RadiansOfDegrees(degrees), 2 * std::numbers::pi);
-    return (1 - of_swell) * wind_.Spreading(k, psi) + of_swell * spreading_(from_swell);
-  }
-  bool spreading_varies_with_wavenumber() const override { return true; }
-  double peak_wavenumber() const override { return kPeak; }
-  WavenumberRange energetic_range() const override {
-    const WavenumberRange wind = wind_.energetic_range();
-    return {std::min(wind.lowest, 0.35 * kPeak), wind.highest};
-  }
-  std::string name() const override { return "wind sea with crossing swell"; }
-  std::string reference() const override { return "none"; }
-  std::string departures() const override { return "none"; }
-
- private:
-  static constexpr double kPeak = 0.25, kWidth = 0.25, kVariance = 0.02;
-
-  static double Swell(double k) {
-    const double x = std::log(k / kPeak) / kWidth;
-    return kVariance * std::exp(-x * x / 2) / (k * kWidth * std::sqrt(2 * std::numbers::pi));
-  }
-
-  ElfouhailySpectrum wind_;
-  Cosine2sSpreading spreading_;
-};
-
-template <int degrees>
-const SpectrumModel kCrossing = {
-    "crossing", "none", false, [](double) { return std::numeric_limits<double>::infinity(); },
-    [](double wind_speed_10m, double fetch, const Cosine2sSpreading&) -> std::shared_ptr<const WaveSpectrum> {
-      return std::make_shared<CrossingSwell<degrees>>(wind_speed_10m, fetch);
-    }};
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-const WindSea kSeas[] = {
-    {5, kInf, &kApelModel},       {9, 2e4, &kApelModel},       {13, kInf, &kApelModel},
-    {4, kInf, &kElfouhailyModel}, {8, 2e4, &kElfouhailyModel}, {12, kInf, &kElfouhailyModel},
-    {6, kInf, &kApelModel, 15},   {5, kInf, &kCrossing<30>},   {7, 3e4, &kCrossing<60>},
-    {9, kInf, &kCrossing<120>},
-};
-
-// Two standard deviations of the drawn waves over those of the sea, in the limit of small slopes.
+// Two standard deviations of the drawn waves over those of the sea, in the limit of small slopes. Of vertical errors
+// that holds for the share of the variance that is linear in the slopes, that of the closed form.
 struct GridRatios {
   double along, cross, thu, tvu;
 };
 
-GridRatios RatiosOfGrid(const SeaCase& sea_case) {
-  const SeaState sea(sea_case.sea);
-  const BeamOptions& beam = sea_case.beams[0];
-  const SurfaceModel model(sea, beam, ChooseDiscretization(sea, sea_case.beams));
+GridRatios RatiosOfGrid(const SeaState& sea, const SurfaceModel& drawn_by, const BeamOptions& beam, double n,
+                        const BeamResponse& ours) {
   const auto passed = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
-  const Eigen::Matrix2d response = TangentResponse(beam.incidence, beam.azimuth, sea_case.refractive_index);
-  const Eigen::Matrix2d drawn = response * model.FacetSlopeCovariance(passed) * response.transpose();
+  const Eigen::Matrix2d response = TangentResponse(beam.incidence, beam.azimuth, n);
+  const Eigen::Matrix2d drawn = response * drawn_by.FacetSlopeCovariance(passed) * response.transpose();
   const Eigen::Matrix2d exact = response * SlopeCovariance(sea, passed) * response.transpose();
   const Eigen::Vector2d azimuth(std::cos(beam.azimuth), std::sin(beam.azimuth));
+  const double refracted = StillWaterRefraction(beam.incidence, n);
+  const double of_path = std::pow(2 * std::sin(refracted) * std::cos(refracted), 2);
+  const double excess = of_path * azimuth.dot((drawn - exact) * azimuth);
   return {std::sqrt(drawn(0, 0) / exact(0, 0)), std::sqrt(drawn(1, 1) / exact(1, 1)),
           std::sqrt(drawn.trace() / exact.trace()),
-          std::sqrt(azimuth.dot(drawn * azimuth) / azimuth.dot(exact * azimuth))};
+          std::sqrt(1 + excess / std::pow(ours.Tvu(kDepth) / kDepth, 2))};
 }
+
+// The relative errors that are allowed besides standard errors.
+struct Bound {
+  double rms, each;
+};
+// Beams on the same surfaces share most of the random error of their biases: their rms is of few samples.
+constexpr double kAny = std::numeric_limits<double>::infinity();
 
 struct Tally {
   std::string name;
-  double bound;  // relative
+  Bound bound;
   double worst = 0, squares = 0, variances = 0;
   int count = 0;
 
   void Add(double ours, const Estimate& traced, const std::string& where, double k) {
     const double error = ours / traced.value - 1,
                  standard_error = traced.standard_error / std::abs(traced.value);
-    EXPECT_LT(std::abs(error), bound + k * standard_error) << name << ": " << where;
+    EXPECT_LT(std::abs(error), bound.each + k * standard_error) << name << ": " << where;
     worst = std::max(worst, std::abs(error));
     squares += error * error;
     variances += standard_error * standard_error;
     ++count;
   }
   ~Tally() {
-    std::printf("%-6s rms %.2f %%, worst %.2f %%, standard error %.2f %%, %d beams\n", name.c_str(),
-                100 * std::sqrt(squares / count), 100 * worst, 100 * std::sqrt(variances / count), count);
+    if (count == 0) return;
+    const double rms = std::sqrt(squares / count), standard_error = std::sqrt(variances / count);
+    std::printf("%-13s rms %.2f %%, worst %.2f %%, standard error %.2f %%, %d beams\n", name.c_str(),
+                100 * rms, 100 * worst, 100 * standard_error, count);
+    EXPECT_LT(rms, std::hypot(bound.rms, standard_error)) << name;
   }
 };
 
-TEST(SeaResponse, AgreesWithTracingOnManySeas) {
-  std::mt19937_64 bits(20261123);
+// What of all beams is compared, and how well it has to agree.
+struct Tallies {
+  Tally along, cross, thu, tvu, bias_along_beam, bias_vertical, thu_at_surface;
+};
+
+class Evidence {
+ public:
+  // In the folder ALBTPU_CSV, if there is one.
+  explicit Evidence(const std::string& name) {
+    const char* folder = std::getenv("ALBTPU_CSV");
+    if (folder == nullptr) return;
+    file_.open(std::filesystem::path(folder) / (name + ".csv"));
+    file_ << "sea,incidence,azimuth,footprint,gaussian,refractive_index,seen,quantity,value,ratio,standard_"
+             "error\n";
+  }
+  void Add(const std::string& beam, const char* quantity, double ours, const Estimate& traced) {
+    file_ << beam
+          << absl::StrFormat(",%s,%.6g,%.6f,%.6f\n", quantity, traced.value, ours / traced.value,
+                             traced.standard_error / std::abs(traced.value));
+  }
+
+ private:
+  std::ofstream file_;
+};
+
+struct ComparisonEffort {
+  int finer = 1;  // times as many points and rays along the footprint as are chosen by default
+  int realizations = 300;
+};
+
+class Comparison {
+ public:
+  // Of so many `beams` in all.
+  Comparison(const ComparisonEffort& effort, int beams, Tallies& tallies, Evidence evidence)
+      : effort_(effort),
+        k_(StandardErrorsFor(7 * beams)),
+        tallies_(tallies),
+        evidence_(std::move(evidence)) {}
+
+  // Traces the beams of the case and compares each with the theory. `cell` chooses the random numbers.
+  void Add(const NamedSea& named, SeaCase sea_case, std::uint32_t cell) {
+    sea_case.sea.waves = named.waves;
+    sea_case.depths = {0, kDepth};
+    const SeaState sea(sea_case.sea);
+    Discretization grid = ChooseDiscretization(sea, sea_case.beams);
+    grid.points_per_footprint *= effort_.finer;
+    grid.rays = std::min(effort_.finer * effort_.finer * grid.rays, kMostRays);
+    sea_case.discretization = grid;
+    const SeaCaseResult traced = Simulate(
+        sea_case, {.realizations = effort_.realizations, .most_realizations = effort_.realizations}, 1, cell);
+    const SurfaceModel drawn_by(sea, WidestBeam(sea_case.beams), grid);
+    const SeaResponse theory(SpectrumOf(named), sea_case.refractive_index);
+    const double all_slopes = SlopeCovariance(sea).trace();
+    for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
+      const BeamOptions& beam = sea_case.beams[b];
+      const auto power = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+      const std::string where = absl::StrFormat(
+          "\"%s\",%.2f,%.1f,%.3f,%d,%.4f,%.4g", named.name, DegreesOfRadians(beam.incidence),
+          DegreesOfRadians(beam.azimuth), beam.footprint, beam.profile == BeamProfile::kGaussian,
+          sea_case.refractive_index, SlopeCovariance(sea, power).trace() / all_slopes);
+      const BeamResponse ours = theory(beam);
+      Compare(ours, RatiosOfGrid(sea, drawn_by, beam, sea_case.refractive_index, ours), traced.beams[b],
+              where);
+    }
+  }
+
+ private:
+  void Compare(const BeamResponse& ours, const GridRatios& grid, const BeamUncertainty& traced,
+               const std::string& where) {
+    const auto add = [&](Tally& tally, double value, const Estimate& estimate, double least) {
+      if (std::abs(estimate.value) < least) return;
+      tally.Add(value, estimate, where, k_);
+      evidence_.Add(where, tally.name.c_str(), value, estimate);
+    };
+    add(tallies_.along, ours.refraction_along_wind() * grid.along, traced.refraction_along_wind,
+        RadiansOfDegrees(0.2));
+    add(tallies_.cross, ours.refraction_cross_wind() * grid.cross, traced.refraction_cross_wind,
+        RadiansOfDegrees(0.2));
+    add(tallies_.thu, ours.Thu(kDepth) * grid.thu, traced.thu[1], 0);
+    add(tallies_.tvu, ours.Tvu(kDepth) * grid.tvu, traced.tvu[1], 0.0005 * kDepth);
+    add(tallies_.bias_along_beam, ours.BiasAlongBeam(kDepth), traced.bias_along_beam[1], 0.0005 * kDepth);
+    add(tallies_.bias_vertical, ours.BiasVertical(kDepth), traced.bias_vertical[1], 0);
+    add(tallies_.thu_at_surface, ours.Thu(0), traced.thu[0], 0.0005);
+  }
+
+  ComparisonEffort effort_;
+  double k_;
+  Tallies& tallies_;
+  Evidence evidence_;
+};
+
+// Beams that share footprint, profile and refractive index are traced on the same surfaces.
+constexpr int kFootprints = 6, kBeamsOfFootprint = 10;
+
+SeaCase RandomBeams(bool gaussian, std::mt19937_64& bits) {
   const auto between = [&](double low, double high) {
     return low + (high - low) * 0x1p-53 * static_cast<double>(bits() >> 11);
   };
-  const bool every_beam = std::getenv("ALBTPU_EVERY_BEAM") != nullptr;
-  Tally along{"along", kPatchAndRays}, cross{"cross", kPatchAndRays}, thu{"thu", kPatchAndRays},
-      tvu{"tvu", kPatchAndRays + kShortWaves};
-  Tally bias{"bias", 2 * kPatchAndRays};  // in proportion to a variance
-  Tally at_surface{"thu 0", 2 * kPatchAndRays + kGridAtSurface};
-  const double k = StandardErrorsFor(6 * kBeams * static_cast<int>(std::size(kSeas)));
-  std::uint32_t beams = 0;
-  for (const WindSea& waves : kSeas) {
-    const HarmonicSpectrum spectrum = Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 6);
-    for (int i = 0; i < kBeams; ++i) {
-      SeaCase sea_case;
-      sea_case.sea.waves = waves;
-      sea_case.refractive_index = between(1.33, 1.345);
-      const double incidence = i == 0 ? 0 : between(0, 30), azimuth = between(0, 360);
-      const BeamOptions beam{.incidence = RadiansOfDegrees(incidence),
-                             .azimuth = RadiansOfDegrees(azimuth),
-                             .footprint = 0.2 * std::exp(between(0, std::log(15))),
-                             .profile = i % 3 == 1 ? BeamProfile::kGaussian : BeamProfile::kUniform};
-      sea_case.beams = {beam};
-      sea_case.depths = {0, 20};
-      const std::uint32_t cell = beams++;
-      if (!every_beam && i % 3 != static_cast<int>(&waves - kSeas) % 3) continue;
-      const BeamUncertainty traced =
-          Simulate(sea_case, {.realizations = kRealizations, .most_realizations = kRealizations}, 1, cell)
-              .beams[0];
-      const BeamResponse ours = SeaResponse(spectrum, sea_case.refractive_index)(beam);
-      const std::string where =
-          absl::StrFormat("sea %d, incidence %.1f, azimuth %.0f, %.2f m, %s", &waves - kSeas, incidence,
-                          azimuth, beam.footprint, std::string(Name(beam.profile)));
-      const GridRatios grid = RatiosOfGrid(sea_case);
-      along.Add(ours.refraction_along_wind() * grid.along, traced.refraction_along_wind, where, k);
-      cross.Add(ours.refraction_cross_wind() * grid.cross, traced.refraction_cross_wind, where, k);
-      thu.Add(ours.Thu(20) * grid.thu, traced.thu[1], where, k);
-      at_surface.Add(ours.Thu(0), traced.thu[0], where, k);
-      bias.Add(ours.BiasVertical(20), traced.bias_vertical[1], where, k);
-      if (traced.tvu[1].value > 0.01) tvu.Add(ours.Tvu(20) * grid.tvu, traced.tvu[1], where, k);
-      if (incidence > 2) {
-        EXPECT_NEAR(ours.BiasAlongBeam(20), traced.bias_along_beam[1].value,
-                    2 * kPatchAndRays * std::abs(ours.BiasAlongBeam(20)) +
-                        k * traced.bias_along_beam[1].standard_error)
-            << where;
+  SeaCase sea_case;
+  sea_case.refractive_index = between(1.33, 1.345);
+  const double footprint = 0.2 * std::exp(between(0, std::log(30)));
+  for (int b = 0; b < kBeamsOfFootprint; ++b) {
+    sea_case.beams.push_back({.incidence = b == 0 ? 0 : RadiansOfDegrees(between(0, 30)),
+                              .azimuth = RadiansOfDegrees(between(0, 360)),
+                              .footprint = footprint,
+                              .profile = gaussian ? BeamProfile::kGaussian : BeamProfile::kUniform});
+  }
+  return sea_case;
+}
+
+void CompareRandomBeams(const std::vector<NamedSea>& seas, std::uint64_t seed, const ComparisonEffort& effort,
+                        Tallies& tallies, const std::string& name) {
+  Comparison comparison(effort, kFootprints * kBeamsOfFootprint * static_cast<int>(seas.size()), tallies,
+                        Evidence(name));
+  std::mt19937_64 bits(seed);
+  for (int i = 0; i < static_cast<int>(seas.size()); ++i) {
+    for (int f = 0; f < kFootprints; ++f) {
+      SeaCase sea_case = RandomBeams(f % 3 == 1, bits);
+      if (!EveryBeam()) {
+        if (f != i % kFootprints) continue;
+        sea_case.beams.resize(kBeamsOfFootprint / 2);
       }
+      comparison.Add(seas[i], std::move(sea_case), i * kFootprints + f);
     }
+  }
+}
+
+// The agreement to which the theory is held: relative, besides standard errors, in rms and for each beam.
+TEST(SeaResponse, AgreesWithTracingOnManySeas) {
+  if (!HasBuoy()) std::printf("no measured spectrum: the sample files of buoys are not there\n");
+  Tallies tallies{{"along", {0.0035, 0.02}},       {"cross", {0.0035, 0.02}},
+                  {"thu", {0.003, 0.015}},         {"tvu", {0.005, 0.025}},
+                  {"bias along", {kAny, 0.01}},    {"bias vertical", {0.01, 0.01}},
+                  {"thu at depth 0", {0.03, 0.06}}};
+  CompareRandomBeams(ResponseSeas(HasBuoy()), 20261123, {}, tallies, "many_seas");
+}
+
+TEST(SeaResponse, AgreesWithTracingWhoseGridHoldsAllWaves) {
+  Tallies tallies{{"along", {0.001, 0.003}},       {"cross", {0.001, 0.003}},
+                  {"thu", {0.001, 0.003}},         {"tvu", {0.003, 0.003}},
+                  {"bias along", {kAny, 0.005}},   {"bias vertical", {kAny, 0.005}},
+                  {"thu at depth 0", {0.01, 0.02}}};
+  CompareRandomBeams(ResolvedSeas(), 20261124, {.finer = 2, .realizations = 500}, tallies, "resolved_seas");
+}
+
+// The beams on which the theory differs most from the table of Apel's seas (survey_table_validation_test): by 2.0 % in
+// refraction along the wind, 1.5 % across it, 1.4 % in THU and 2.7 % in TVU.
+TEST(SeaResponse, AgreesWithTracingOnAFinerGridWhereTheTableDiffersMost) {
+  struct Node {
+    double wind_speed, fetch, incidence, azimuth, footprint;
+  };
+  constexpr Node kNodes[] = {{4.1, 1170, 25, 24, 1.45},
+                             {15, 1170, 25, 90, 0.832},
+                             {2.5, 15700, 14, 24, 4.39},
+                             {15, 1310, 1, 0, 0.212}};
+  Tallies tallies{{"along", {0.003, 0.003}},       {"cross", {0.003, 0.003}},
+                  {"thu", {0.003, 0.003}},         {"tvu", {0.003, 0.003}},
+                  {"bias along", {kAny, 0.003}},   {"bias vertical", {0.003, 0.003}},
+                  {"thu at depth 0", {0.03, 0.06}}};
+  Comparison comparison({.finer = 4, .realizations = 1000}, static_cast<int>(std::size(kNodes)), tallies,
+                        Evidence("worst_nodes"));
+  std::uint32_t cell = 0;
+  for (const Node& node : kNodes) {
+    SeaCase sea_case;
+    sea_case.beams = {{.incidence = RadiansOfDegrees(node.incidence),
+                       .azimuth = RadiansOfDegrees(node.azimuth),
+                       .footprint = node.footprint}};
+    comparison.Add({"Apel", {node.wind_speed, node.fetch, &kApelModel}}, std::move(sea_case), cell++);
   }
 }
 
