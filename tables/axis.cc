@@ -40,10 +40,11 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
   if (scale == Scale::kLog && node == 0) {
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
-  if (schema.is_folded && node > kFoldedEnds[1]) {
-    return absl::StrCat(
-        WithUnits(node, schema),
-        ": nodes must not be above 90 degree (larger azimuths are folded into 0 to 90 degree)");
+  if (schema.fold != Fold::kNone && node > GreatestAngle(schema.fold)) {
+    const double greatest = GreatestAngle(schema.fold);
+    return absl::StrFormat(
+        "%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",
+        WithUnits(node, schema), greatest, greatest);
   }
   if (index > 0 && !(node > nodes[index - 1])) {
     return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
@@ -99,9 +100,9 @@ AxisId Axis::id() const {
 }
 
 std::optional<Bracket> Axis::Locate(double coordinate) const {
-  if (schema_.is_folded) coordinate = FoldAzimuth(coordinate);
+  if (schema_.fold != Fold::kNone) coordinate = FoldAzimuth(coordinate, schema_.fold);
   if (schema_.is_endless) {
-    if (size() == 1 && coordinate > 0) return Bracket{};
+    if (size() == 1 && (coordinate > 0 || (coordinate == 0 && scale_ == Scale::kLinear))) return Bracket{};
     coordinate = std::min(coordinate, nodes_.back());
   }
   // Written so that NaN fails it.
@@ -115,9 +116,17 @@ std::optional<Bracket> Axis::Locate(double coordinate) const {
   return Bracket{lower, (Scaled(coordinate, scale_) - from) / (to - from)};
 }
 
-double FoldAzimuth(double azimuth) {
-  const double half_turn = std::fmod(std::abs(azimuth), 180.0);
-  return std::min(half_turn, 180.0 - half_turn);
+std::span<const double> Axis::alternatives() const {
+  if (schema_.if_absent == IfAbsent::kLargerOfEnds) return kFoldedEnds;
+  if (schema_.if_absent == IfAbsent::kLargestOfNodes) return nodes_;
+  return {};
+}
+
+double FoldAzimuth(double azimuth, Fold fold) {
+  assert(fold != Fold::kNone);
+  const double rest = std::fmod(std::abs(azimuth), 180.0);
+  if (fold == Fold::kQuadrant) return std::min(rest, 180.0 - rest);
+  return azimuth < 0 && rest > 0 ? static_cast<float>(180.0 - rest) : rest;
 }
 
 }  // namespace albtpu

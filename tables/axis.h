@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,8 +24,8 @@ class Axis {
  public:
   // Fails with InvalidArgument, naming the axis and the node, if there is no node, or if a node is not finite, is not
   // representable in float32, is negative, does not increase, is not positive on a log scale, breaks the limits of
-  // format.h, or is above 90 degrees on a folded axis. Without a scale, the axis has that of its schema. The axis
-  // copies `schema`, but not its texts (name, units, long_name): they must outlive the axis.
+  // format.h, or is above the greatest angle of a folded axis. Without a scale, the axis has that of its schema. The
+  // axis copies `schema`, but not its texts (name, units, long_name): they must outlive the axis.
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
   // An axis of the sea surface.
@@ -38,9 +39,13 @@ class Axis {
   std::size_t size() const { return nodes_.size(); }
 
   // Where `coordinate`, in the units of the axis, lies; nothing if it is outside the nodes or not a number. A
-  // folded axis folds it first. An endless axis holds it at the last node, and answers at any coordinate above zero
-  // if it has one node only.
+  // folded axis folds it first. An endless axis holds it at the last node; if it has one node only, it answers as
+  // AxisSchema::is_endless says.
   std::optional<Bracket> Locate(double coordinate) const;
+
+  // The coordinates of the answers of which a query without coordinate takes the largest values; none if it takes no
+  // largest (IfAbsent).
+  std::span<const double> alternatives() const;
 
  private:
   Axis(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
@@ -51,11 +56,16 @@ class Axis {
   std::vector<double> scaled_nodes_;  // The nodes, or their logarithms.
 };
 
-// The azimuth in [0, 90] degrees that has the same statistics as `azimuth`, which may be any finite angle in
-// degrees. A Gaussian sea looks the same after a turn by 180 degrees and when mirrored at the wind axis.
-double FoldAzimuth(double azimuth);
+// The angle that has the same statistics as `azimuth`, which may be any finite angle in degrees: in [0, 90] degrees
+// (kQuadrant) or [0, 180] (kHalfTurn). A Gaussian sea looks the same after a turn by 180 degrees, and a wind sea when
+// mirrored at the wind axis. Where half a turn is added to a negative angle, the sum is rounded to single precision,
+// which coordinates and nodes have.
+double FoldAzimuth(double azimuth, Fold fold = Fold::kQuadrant);
 
-// The ends of a folded axis.
-inline constexpr double kFoldedEnds[] = {0, 90};  // degree
+// The greatest angle that `fold`, which is not kNone, leaves.
+constexpr double GreatestAngle(Fold fold) { return fold == Fold::kQuadrant ? 90 : 180; }
+
+// The two azimuths [degree] of IfAbsent::kLargerOfEnds.
+inline constexpr double kFoldedEnds[] = {0, 90};
 
 }  // namespace albtpu

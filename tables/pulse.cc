@@ -5,7 +5,7 @@ namespace albtpu {
 std::string_view Name(Side side) { return side == Side::kBelow ? "below" : "above"; }
 
 std::optional<Side> SideOf(const AxisSchema& axis, double last, double coordinate) {
-  if (axis.is_folded) return std::nullopt;
+  if (axis.fold != Fold::kNone) return std::nullopt;
   return coordinate > last ? Side::kAbove : Side::kBelow;
 }
 

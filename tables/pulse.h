@@ -14,12 +14,15 @@ namespace albtpu {
 // A laser pulse, in the units of the axes. Single precision, like the wire format and the nodes, so that a query at
 // 0.1 m is at the node 0.1 m whichever way it takes.
 struct Pulse {
-  float wind_speed = 0;                                  // m/s at 10 m
-  float fetch = std::numeric_limits<float>::infinity();  // m; infinity: a fully developed sea
-  float incidence = 0;                                   // degree from the vertical, in air
-  std::optional<float> azimuth;  // degree from downwind; absent: the worse of 0 and 90 degrees
-  float footprint = 0;           // m
-  float depth = 0;               // m below the located surface
+  float wind_speed = 0;  // m/s at 10 m; of no effect in a table of one sea
+  float fetch =
+      std::numeric_limits<float>::infinity();  // m; infinity: a fully developed sea; as the wind speed
+  float incidence = 0;                         // degree from the vertical, in air
+  // Degree from downwind; absent: the worse of 0 and 90 degrees. In a table of one sea, from its x axis towards its y
+  // axis; absent: the worst node.
+  std::optional<float> azimuth = {};
+  float footprint = 0;  // m
+  float depth = 0;      // m below the located surface
 };
 
 enum class Outcome {
@@ -41,12 +44,13 @@ struct PulseUncertainty {
   Outcome outcome = Outcome::kInvalid;
   // The first axis, in the order of kAxes, that caused the outcome; none if interpolated.
   std::optional<AxisId> axis;
-  bool azimuth_absent =
-      false;  // If true, each value is the larger in magnitude of those at 0 and 90 degrees.
+  // If true, each value is the largest in magnitude of those at 0 and 90 degrees, or, in a table of one sea, at all
+  // azimuth nodes.
+  bool azimuth_absent = false;
   std::array<float, kQuantityCount> values;
   std::array<float, kQuantityCount> standard_errors;  // Interpolated linearly.
   // The ratio of the 95 % radius of the horizontal error to the THU, for coverage.h. Without an azimuth it cannot be
-  // computed from the values: the radius, too, is the larger of those at 0 and 90 degrees.
+  // computed from the values: the radius, too, is the largest of those at the azimuths.
   double radius_over_thu = 1;
   std::optional<Side> side;  // On which side of `axis` the pulse is, if it is out of domain: SideOf.
 

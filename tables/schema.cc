@@ -24,7 +24,7 @@ constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
      .units = "degree",
      .long_name = "azimuth of the beam from downwind, folded into 0 to 90 degrees",
      .scale = Scale::kLinear,
-     .is_folded = true,
+     .fold = Fold::kQuadrant,
      .if_absent = IfAbsent::kLargerOfEnds},
     {.name = "footprint",
      .units = "m",
@@ -32,6 +32,21 @@ constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
      .scale = Scale::kLog},
     {.name = "depth", .units = "m", .long_name = "depth below the located surface", .scale = Scale::kLinear},
 }};
+
+// A sea of any waves keeps the turn, but not the mirror. Its wind and fetch are what they are.
+constexpr std::array<AxisSchema, kAxisCount> kAxisSchemasOfOneSea = [] {
+  std::array<AxisSchema, kAxisCount> axes = kAxisSchemas;
+  AxisSchema& wind_speed = axes[Index(AxisId::kWindSpeed)];
+  wind_speed.long_name = "wind speed at 10 m above the sea, of this sea: any other counts as it";
+  wind_speed.is_endless = true;
+  wind_speed.if_absent = IfAbsent::kLastNode;
+  axes[Index(AxisId::kFetch)].long_name = "fetch, of no effect: any counts as the node";
+  AxisSchema& azimuth = axes[Index(AxisId::kAzimuth)];
+  azimuth.long_name = "azimuth of the beam from the x axis of the sea, folded into 0 to 180 degrees";
+  azimuth.fold = Fold::kHalfTurn;
+  azimuth.if_absent = IfAbsent::kLargestOfNodes;
+  return axes;
+}();
 
 constexpr std::array<QuantitySchema, kQuantityCount> kQuantitySchemas = {{
     {"refraction_along_wind", "degree", "2 sigma of the direction in water, along the wind", false, false},
@@ -51,9 +66,16 @@ constexpr TableSchema kSchema = {
     .name = "sea_surface", .axes = kAxisSchemas, .quantities = kQuantitySchemas, .blend_order = kBlendOrder};
 static_assert(IsWellFormed(kSchema));
 
+constexpr TableSchema kSchemaOfOneSea = {.name = "one_sea",
+                                         .axes = kAxisSchemasOfOneSea,
+                                         .quantities = kQuantitySchemas,
+                                         .blend_order = kBlendOrder};
+static_assert(IsWellFormed(kSchemaOfOneSea));
+
 }  // namespace
 
 constinit const TableSchema kSeaSurface = kSchema;
+constinit const TableSchema kOneSea = kSchemaOfOneSea;
 
 const AxisSchema& Describe(AxisId axis) { return kAxisSchemas[Index(axis)]; }
 

@@ -1,5 +1,5 @@
-// The sea surface's tables: their six axes and six quantities, and the names by which code refers to them. FORMAT.md
-// specifies the written form.
+// The tables of the sea surface, over winds and of one sea: their six axes and six quantities, and the names by which
+// code refers to them. FORMAT.md specifies the written form.
 #pragma once
 
 #include <array>
@@ -35,14 +35,23 @@ inline constexpr std::array<Quantity, kQuantityCount> kQuantities = {
 constexpr std::size_t Index(AxisId axis) { return static_cast<std::size_t>(axis); }
 constexpr std::size_t Index(Quantity quantity) { return static_cast<std::size_t>(quantity); }
 
-// The schema that AxisId and Quantity are indices of.
+// The two kinds of tables that AxisId and Quantity are indices of. Their quantities are the same, and their axes have
+// the same names and units.
+
+// Wind seas: x is downwind.
 extern const TableSchema kSeaSurface;
 
+// One sea of any waves, which has no mirror: azimuths are from the x axis of its frame, which FORMAT.md defines,
+// towards its y axis, 0 to 180 degrees. Wind speed and fetch have one node and no effect: they answer at any coordinate
+// that is not negative and may be absent. In the names of quantities, "along wind" is along x and "cross wind" along y.
+extern const TableSchema kOneSea;
+
+// Of kSeaSurface.
 const AxisSchema& Describe(AxisId axis);
 const QuantitySchema& Describe(Quantity quantity);
 
-// True for fetch and azimuth, whose absence has a meaning: a fully developed sea, and the larger of the values along
-// and across the wind.
+// Whether the axis may be absent in queries to any table: true for fetch and azimuth. Of kSeaSurface, their absence
+// means a fully developed sea, and the larger of the values along and across the wind.
 inline bool MayBeAbsent(AxisId axis) { return Describe(axis).if_absent != IfAbsent::kRefuse; }
 
 // The inverse of `Describe(...).name`; nothing if there is no such name.

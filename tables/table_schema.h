@@ -14,22 +14,34 @@ enum class Scale { kLinear, kLog };
 
 std::string_view Name(Scale scale);  // "linear", "log": the value of the attribute `interpolation`.
 
+// The symmetry by which an angle in degrees is brought among the nodes of its axis: FoldAzimuth in axis.h.
+enum class Fold {
+  kNone,      // It is not.
+  kQuadrant,  // Into 0 to 90: nothing changes by half a turn, or when mirrored at 0 degrees.
+  kHalfTurn   // Into 0 to 180: nothing changes by half a turn.
+};
+
 // What a query means that has no coordinate on an axis.
 enum class IfAbsent {
-  kRefuse,       // Nothing: the axis needs a coordinate.
-  kLastNode,     // The last node.
-  kLargerOfEnds  // The worse of 0 and 90 degrees: of the two answers, each value is the larger in magnitude.
+  kRefuse,        // Nothing: the axis needs a coordinate.
+  kLastNode,      // The last node.
+  kLargerOfEnds,  // The worse of 0 and 90 degrees: of the two answers, each value is the larger in magnitude.
+  kLargestOfNodes  // The worst node: of the answers at all nodes, each value is the largest in magnitude.
 };
+
+// Whether a query without coordinate has several answers, of which each value is the largest in magnitude.
+constexpr bool TakesLargest(IfAbsent rule) {
+  return rule == IfAbsent::kLargerOfEnds || rule == IfAbsent::kLargestOfNodes;
+}
 
 struct AxisSchema {
   std::string_view name;       // "wind_speed": the dataset, the CSV column, the field of a message.
   std::string_view units;      // CF units: "m s-1".
   std::string_view long_name;  // One line for people.
   Scale scale;                 // The scale of the tables that we make; a file may state another.
-  // True for an angle in degrees that is folded into 0 to 90 first (FoldAzimuth in axis.h).
-  bool is_folded = false;
+  Fold fold = Fold::kNone;
   // True if any coordinate above the last node, +infinity included, counts as the last node. If there is one node
-  // only, any coordinate above zero does.
+  // only, any coordinate does that a node may have: one above zero on a log scale, else zero, too.
   bool is_endless = false;
   IfAbsent if_absent = IfAbsent::kRefuse;
 
@@ -109,13 +121,13 @@ constexpr bool IsWellFormed(const TableSchema& schema) {
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
     if (std::find(order.begin(), order.end(), axis) == order.end()) return false;
   }
-  std::size_t two_ended = 0;
+  std::size_t largest = 0;
   for (const AxisSchema& axis : schema.axes) {
-    if (axis.is_folded && (axis.units != "degree" || axis.is_endless)) return false;
-    if (axis.if_absent != IfAbsent::kLargerOfEnds) continue;
-    if (!axis.is_folded || ++two_ended > 1) return false;
+    if (axis.fold != Fold::kNone && (axis.units != "degree" || axis.is_endless)) return false;
+    if (axis.if_absent == IfAbsent::kLargerOfEnds && axis.fold != Fold::kQuadrant) return false;
+    if (TakesLargest(axis.if_absent) && ++largest > 1) return false;
   }
-  if (schema.axes.back().if_absent == IfAbsent::kLargerOfEnds) return false;
+  if (TakesLargest(schema.axes.back().if_absent)) return false;
   for (const QuantitySchema& quantity : schema.quantities) {
     if (!quantity.over_last_axis && axis_count == 1) return false;
   }

@@ -1,15 +1,30 @@
 #include "tables/uncertainty_table.h"
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 #include <utility>
 
 namespace albtpu {
+namespace {
+
+[[maybe_unused]] bool IsOfSea(const TableSchema& kind) {
+  const auto& kinds = UncertaintyTable::kKinds;
+  return std::find(kinds.begin(), kinds.end(), &kind) != kinds.end();
+}
+
+}  // namespace
 
 absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(Axes axes, Variables variables,
                                                           Provenance provenance) {
+  return Create(kSeaSurface, std::move(axes), std::move(variables), std::move(provenance));
+}
+
+absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(const TableSchema& kind, Axes axes,
+                                                          Variables variables, Provenance provenance) {
+  assert(IsOfSea(kind));
   absl::StatusOr<Table> table =
-      Table::Create(kSeaSurface, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
+      Table::Create(kind, {std::make_move_iterator(axes.begin()), std::make_move_iterator(axes.end())},
                     {std::make_move_iterator(variables.begin()), std::make_move_iterator(variables.end())},
                     std::move(provenance));
   if (!table.ok()) return table.status();
@@ -19,7 +34,7 @@ absl::StatusOr<UncertaintyTable> UncertaintyTable::Create(Axes axes, Variables v
 UncertaintyTable::UncertaintyTable(Table table)
     : table_(std::move(table)), axes_{table_.axes()[0], table_.axes()[1], table_.axes()[2],
                                       table_.axes()[3], table_.axes()[4], table_.axes()[5]} {
-  assert(&table_.schema() == &kSeaSurface);
+  assert(IsOfSea(schema()));
 }
 
 std::size_t ValueCount(const UncertaintyTable::Axes& axes, Quantity quantity) {

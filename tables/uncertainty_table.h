@@ -13,18 +13,25 @@
 
 namespace albtpu {
 
-// A `Table` of kind kSeaSurface, whose axes and quantities have names. Immutable; a valid table by construction.
+// A `Table` of kind kSeaSurface or kOneSea, whose axes and quantities have names. Immutable; a valid table by
+// construction.
 class UncertaintyTable {
  public:
   using Axes = std::array<Axis, kAxisCount>;
   using Variables = std::array<std::optional<Variable>, kQuantityCount>;
+  static constexpr std::array<const TableSchema*, 2> kKinds = {&kSeaSurface, &kOneSea};
 
   // Fails with InvalidArgument if an axis is in the wrong place, a required variable is missing, a shape does not
   // fit the axes, or a value breaks the rules of `Variable`. The message names the axis or the variable and the
-  // index.
+  // index. The kind is kSeaSurface, or `kind`, one of kKinds.
   static absl::StatusOr<UncertaintyTable> Create(Axes axes, Variables variables, Provenance provenance);
-  // Requires a table of kind kSeaSurface.
+  static absl::StatusOr<UncertaintyTable> Create(const TableSchema& kind, Axes axes, Variables variables,
+                                                 Provenance provenance);
+  // Requires a table of one of kKinds.
   explicit UncertaintyTable(Table table);
+
+  const TableSchema& schema() const { return table_.schema(); }
+  bool is_of_one_sea() const { return &schema() == &kOneSea; }
 
   const Axis& axis(AxisId id) const { return axes_[Index(id)]; }
   const Axes& axes() const { return axes_; }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -198,9 +199,11 @@ absl::Status CheckCoverage(hid_t file) {
                absl::StrFormat("is '%s': it should be '%s'", *coverage, std::string(format::kCoverageValue)));
 }
 
-// A file without the attribute is of the default kind. One that names the default kind is refused, so that a table
-// has one written form.
-absl::Status CheckKind(hid_t file, const TableSchema& schema) {
+using Kinds = std::span<const TableSchema* const>;
+
+// The one of `kinds` that the file is of. A file without the attribute is of the default kind. One that names the
+// default kind is refused, so that a table has one written form.
+absl::StatusOr<const TableSchema*> KindOf(hid_t file, Kinds kinds) {
   std::string kind(format::kDefaultTableKind);
   if (H5Aexists(file, std::string(format::kTableKind).c_str()) > 0) {
     const absl::StatusOr<std::string> named = ReadText(file, format::kTableKind);
@@ -211,9 +214,13 @@ absl::Status CheckKind(hid_t file, const TableSchema& schema) {
     }
     kind = *named;
   }
-  if (kind == schema.name) return absl::OkStatus();
+  std::vector<std::string> names;
+  for (const TableSchema* schema : kinds) {
+    if (kind == schema->name) return schema;
+    names.push_back(absl::StrCat("'", std::string(schema->name), "'"));
+  }
   return absl::InvalidArgumentError(
-      absl::StrFormat("is a table of kind '%s': expected kind '%s'", kind, std::string(schema.name)));
+      absl::StrFormat("is a table of kind '%s': expected kind %s", kind, absl::StrJoin(names, " or ")));
 }
 
 // Guards against a small file that fills any memory because one dataset has several names, or because several chunks
@@ -239,9 +246,11 @@ absl::Status CheckStoredOnce(hid_t file, const TableSchema& schema, std::size_t 
   return absl::OkStatus();
 }
 
-absl::StatusOr<Table> ReadContents(hid_t file, const TableSchema& schema, std::size_t length) {
-  absl::Status status = CheckKind(file, schema);
-  if (status.ok()) status = CheckCoverage(file);
+absl::StatusOr<Table> ReadContents(hid_t file, Kinds kinds, std::size_t length) {
+  const absl::StatusOr<const TableSchema*> kind = KindOf(file, kinds);
+  if (!kind.ok()) return kind.status();
+  const TableSchema& schema = **kind;
+  absl::Status status = CheckCoverage(file);
   if (status.ok()) status = CheckStoredOnce(file, schema, length);
   if (!status.ok()) return status;
   absl::StatusOr<Table::Axes> axes = ReadAxes(file, schema);
@@ -266,20 +275,25 @@ absl::StatusOr<Table> ReadContents(hid_t file, const TableSchema& schema, std::s
   return table;
 }
 
-}  // namespace
-
-absl::StatusOr<Table> DecodeTable(absl::string_view file, const TableSchema& schema) {
+absl::StatusOr<Table> Decode(absl::string_view file, Kinds kinds) {
   const absl::Status sealed = seal::Check(file);
   if (!sealed.ok()) return sealed;
   const hdf5::Session session;
   // HDF5 reads the very bytes that were checked, not the file again.
   const Handle image = hdf5::OpenImage(file);
   if (!image) return absl::InvalidArgumentError("is sealed, but its content is not HDF5");
-  return ReadContents(image, schema, file.size());
+  return ReadContents(image, kinds, file.size());
+}
+
+}  // namespace
+
+absl::StatusOr<Table> DecodeTable(absl::string_view file, const TableSchema& schema) {
+  const TableSchema* const kind = &schema;
+  return Decode(file, {&kind, 1});
 }
 
 absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file) {
-  absl::StatusOr<Table> table = DecodeTable(file, kSeaSurface);
+  absl::StatusOr<Table> table = Decode(file, UncertaintyTable::kKinds);
   if (!table.ok()) return table.status();
   return UncertaintyTable(*std::move(table));
 }

@@ -17,7 +17,7 @@ inline absl::StatusOr<std::string> EncodeTable(const UncertaintyTable& table) {
 }
 
 // Checks the seal first, then the kind, the schema, the values and the content digest. Without a schema, the table is
-// one of the sea surface.
+// of one of UncertaintyTable::kKinds.
 absl::StatusOr<Table> DecodeTable(absl::string_view file, const TableSchema& schema);
 absl::StatusOr<UncertaintyTable> DecodeTable(absl::string_view file);
 

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kOutOfMemory[] = "there is not enough memory for this table";
+
 absl::Status WithPath(const fs::path& path, const absl::Status& status) {
   return absl::Status(status.code(), absl::StrCat(path.string(), ": ", status.message()));
 }
@@ -51,10 +53,16 @@ absl::StatusOr<std::string> ReadSealedFile(const fs::path& path) {
   return file;
 }
 
-absl::StatusOr<Table> Read(const fs::path& path, const TableSchema& schema) {
-  absl::StatusOr<std::string> file = ReadSealedFile(path);
-  if (!file.ok()) return file.status();
-  return DecodeTable(*file, schema);
+// `decode` makes the table of the bytes of the file.
+template <typename Decode>
+auto Read(const fs::path& path, const Decode& decode) -> decltype(decode(std::string())) try {
+  const absl::StatusOr<std::string> file = ReadSealedFile(path);
+  if (!file.ok()) return WithPath(path, file.status());
+  auto table = decode(*file);
+  if (!table.ok()) return WithPath(path, table.status());
+  return table;
+} catch (const std::bad_alloc&) {
+  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
 }
 
 absl::Status Write(const Table& table, const fs::path& path, Existing existing) {
@@ -63,24 +71,14 @@ absl::Status Write(const Table& table, const fs::path& path, Existing existing) 
   return WriteFileAtomically(path, *file, existing);
 }
 
-constexpr char kOutOfMemory[] = "there is not enough memory for this table";
-
 }  // namespace
 
-absl::StatusOr<Table> ReadTable(const fs::path& path, const TableSchema& schema) try {
-  absl::StatusOr<Table> table = Read(path, schema);
-  if (!table.ok()) return WithPath(path, table.status());
-  return table;
-} catch (const std::bad_alloc&) {
-  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+absl::StatusOr<Table> ReadTable(const fs::path& path, const TableSchema& schema) {
+  return Read(path, [&](const std::string& file) { return DecodeTable(file, schema); });
 }
 
-absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) try {
-  absl::StatusOr<Table> table = ReadTable(path, kSeaSurface);
-  if (!table.ok()) return table.status();
-  return UncertaintyTable(*std::move(table));
-} catch (const std::bad_alloc&) {
-  return WithPath(path, absl::ResourceExhaustedError(kOutOfMemory));
+absl::StatusOr<UncertaintyTable> ReadTable(const fs::path& path) {
+  return Read(path, [](const std::string& file) { return DecodeTable(file); });
 }
 
 absl::Status WriteTable(const Table& table, const fs::path& path, Existing existing) try {

@@ -71,21 +71,30 @@ AnswerWriter::AnswerWriter(const Query& query, const NodeRecords& records, const
   }
 }
 
-void AnswerWriter::Write(const PulseBlock& block, BlockValues& values) {
-  WriteOutcomes(block, answers_.outcomes, answers_.outcome_axes);
-  if (needs_radius_) {
-    FindRadius(block, values, End::kLow, radius_over_thu_);
-    if (block.has_two_ends()) {  // As LargerOf (interpolation.h).
-      FindRadius(block, values, End::kHigh, high_radius_over_thu_);
-      const BlockOf<float>& thu = values.value(Index(Quantity::kThu));
-      const BlockOf<float>& high_thu = values.value(Index(Quantity::kThu), End::kHigh);
-      for (std::size_t i = 0; i < block.count(); ++i) {
-        radius_over_thu_[i] =
-            LargerRadiusOverThu(thu[i], radius_over_thu_[i], high_thu[i], high_radius_over_thu_[i]);
-      }
-    }
-  }
+void AnswerWriter::Take(const PulseBlock& block, BlockValues& values) {
+  if (needs_radius_) TakeRadius(block, values);
   values.TakeLarger(block);
+}
+
+void AnswerWriter::TakeRadius(const PulseBlock& block, const BlockValues& values) {
+  constexpr std::size_t kAlong = Index(Quantity::kRefractionAlongWind);
+  constexpr std::size_t kCross = Index(Quantity::kRefractionCrossWind);
+  constexpr std::size_t kThu = Index(Quantity::kThu);
+  if (block.alternative() == 0) {
+    const BlockOf<float>&along = values.value(kAlong), &cross = values.value(kCross);
+    for (std::size_t i = 0; i < block.count(); ++i) radius_over_thu_[i] = RadiusOverThu({along[i], cross[i]});
+    return;
+  }
+  const BlockOf<float>&along = values.later_value(kAlong), &cross = values.later_value(kCross);
+  const BlockOf<float>&thu = values.value(kThu), &later_thu = values.later_value(kThu);
+  for (std::size_t i = 0; i < block.count(); ++i) {  // As LargerOf (interpolation.h).
+    radius_over_thu_[i] =
+        LargerRadiusOverThu(thu[i], radius_over_thu_[i], later_thu[i], RadiusOverThu({along[i], cross[i]}));
+  }
+}
+
+void AnswerWriter::Write(const PulseBlock& block, const BlockValues& values) const {
+  WriteOutcomes(block, answers_.outcomes, answers_.outcome_axes);
   for (Quantity quantity : kQuantities) {
     const std::size_t q = Index(quantity);
     WriteNumbers(block, quantity, records_.has_values[q] ? &values.value(q) : nullptr, answers_.values[q]);
@@ -93,13 +102,6 @@ void AnswerWriter::Write(const PulseBlock& block, BlockValues& values) {
                  answers_.standard_errors[q]);
   }
   if (s44_) WriteS44(block, values);
-}
-
-void AnswerWriter::FindRadius(const PulseBlock& block, const BlockValues& values, End end,
-                              BlockOf<double>& radius) const {
-  const BlockOf<float>& along = values.value(Index(Quantity::kRefractionAlongWind), end);
-  const BlockOf<float>& cross = values.value(Index(Quantity::kRefractionCrossWind), end);
-  for (std::size_t i = 0; i < block.count(); ++i) radius[i] = RadiusOverThu({along[i], cross[i]});
 }
 
 void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,

@@ -23,11 +23,14 @@ class AnswerWriter {
   // What must be found for the columns that are wanted.
   const Needs& needs() const { return needs_; }
 
-  // Leaves in `values` the larger of both ends, if the block has two.
-  void Write(const PulseBlock& block, BlockValues& values);
+  // Takes what was found at the alternative of the block.
+  void Take(const PulseBlock& block, BlockValues& values);
+
+  // To be called when all alternatives are taken.
+  void Write(const PulseBlock& block, const BlockValues& values) const;
 
  private:
-  void FindRadius(const PulseBlock& block, const BlockValues& values, End end, BlockOf<double>& radius) const;
+  void TakeRadius(const PulseBlock& block, const BlockValues& values);
   // `numbers` is null if the table has none.
   void WriteNumbers(const PulseBlock& block, Quantity quantity, const BlockOf<float>* numbers,
                     float* column) const;
@@ -39,8 +42,7 @@ class AnswerWriter {
   bool s44_;
   bool needs_radius_ = false;
   Needs needs_;
-  // The 95 % radius of the horizontal error over the THU; the second at the high end.
-  BlockOf<double> radius_over_thu_, high_radius_over_thu_;
+  BlockOf<double> radius_over_thu_;  // the largest 95 % radius of the horizontal error over the largest THU
 };
 
 }  // namespace albtpu

@@ -25,14 +25,17 @@ constexpr D d;
 constexpr DI di;
 
 // FoldAzimuth, exactly: up to kFarthestAzimuth, subtracting whole half turns does not round.
-HWY_INLINE V Fold(V azimuth) {
+HWY_INLINE V Folded(Fold fold, V azimuth) {
   const V half_turn = hn::Set(d, 180.0f);
   const V magnitude = hn::Abs(azimuth);
   const V turns = hn::Floor(hn::Mul(magnitude, hn::Set(d, 1 / 180.0f)));
   V rest = hn::NegMulAdd(turns, half_turn, magnitude);  // `turns` may be off by one
   rest = hn::IfThenElse(hn::Lt(rest, hn::Zero(d)), hn::Add(rest, half_turn), rest);
   rest = hn::IfThenElse(hn::Ge(rest, half_turn), hn::Sub(rest, half_turn), rest);
-  return hn::Min(rest, hn::Sub(half_turn, rest));
+  const V mirrored = hn::Sub(half_turn, rest);
+  if (fold == Fold::kQuadrant) return hn::Min(rest, mirrored);
+  const auto turned = hn::And(hn::Lt(azimuth, hn::Zero(d)), hn::Gt(rest, hn::Zero(d)));
+  return hn::IfThenElse(turned, mirrored, rest);
 }
 
 // The index of the node at or below `x`: the last but one for the last node and beyond, 0 below the first node and
@@ -85,11 +88,12 @@ void LocateBlock(const AxisLookup::Nodes& axis, const float* coordinates, std::s
     const V coordinate = hn::LoadU(d, coordinates + i);
     auto valid = hn::IsFinite(coordinate);
     V x = coordinate;
-    if (axis.folded) x = Fold(x);
+    if (axis.fold != Fold::kNone) x = Folded(axis.fold, x);
     if (axis.endless) {
       const auto positive = hn::Gt(x, hn::Zero(d));
       valid = hn::Or(valid, positive);
-      x = one_node ? hn::IfThenElse(positive, last, x) : hn::Min(x, last);
+      const auto held = axis.log ? positive : hn::Ge(x, hn::Zero(d));
+      x = one_node ? hn::IfThenElse(held, last, x) : hn::Min(x, last);
     }
     const auto inside = hn::And(valid, hn::And(hn::Ge(x, first), hn::Le(x, last)));
     const VI code = hn::IfThenElse(hn::RebindMask(di, inside), hn::Set(di, outcome_code::kInside),
@@ -115,7 +119,7 @@ void AddLowerNodesOfBlock(const AxisLookup::Nodes& axis, const float* coordinate
                           std::int32_t step, std::int32_t* rows) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     V x = hn::LoadU(d, coordinates + i);
-    if (axis.folded) x = Fold(x);
+    if (axis.fold != Fold::kNone) x = Folded(axis.fold, x);
     hn::StoreU(hn::Add(hn::LoadU(di, rows + i), hn::Mul(LowerNode(axis, x), hn::Set(di, step))), di,
                rows + i);
   }
@@ -137,7 +141,7 @@ AxisLookup::AxisLookup(const Axis& axis, std::size_t index)
              .inverse_widths = {},
              .axis = static_cast<std::int32_t>(index),
              .log = axis.scale() == Scale::kLog,
-             .folded = axis.schema().is_folded,
+             .fold = axis.schema().fold,
              .endless = axis.schema().is_endless} {
   for (std::size_t i = 0; i + 1 < axis.size(); ++i) {
     const double from = axis.nodes()[i], to = axis.nodes()[i + 1];

@@ -23,7 +23,7 @@ class AxisLookup {
   // `index` is the place of the axis in its table.
   AxisLookup(const Axis& axis, std::size_t index);
 
-  bool is_folded() const { return nodes_.folded; }
+  Fold fold() const { return nodes_.fold; }
   float last_node() const { return nodes_.nodes.back(); }
 
   // Counts of coordinates are multiples of this.
@@ -51,7 +51,7 @@ class AxisLookup {
     std::vector<float> inverse_widths;
     std::int32_t axis;  // its index in the table
     bool log;
-    bool folded;   // AxisSchema::is_folded
+    Fold fold;     // AxisSchema::fold
     bool endless;  // AxisSchema::is_endless
   };
 

@@ -37,14 +37,10 @@ std::ptrdiff_t NodeOf(const BlendedPulses& pulses, std::size_t i) {
 }  // namespace
 
 void BlockValues::Find(const PulseBlock& block) {
-  Find(block, End::kLow, low_);
-  if (block.has_two_ends()) Find(block, End::kHigh, high_);
-}
-
-void BlockValues::Find(const PulseBlock& block, End end, Columns& columns) {
+  Columns& columns = block.alternative() == 0 ? largest_ : later_;
   for (std::size_t set = 0; set < records_.sets.size(); ++set) {
     if (!needs_.sets[set]) continue;
-    const BlendedPulses& pulses = block.blended(records_.sets[set].over_last_axis, end);
+    const BlendedPulses& pulses = block.blended(records_.sets[set].over_last_axis);
     Blend(records_.sets[set].numbers.data(), pulses, blended_->begin());
     Split(blended_->begin(), pulses.count, columns[set].data());
     if (!records_.sets[set].plain.empty()) TakeExponentials(pulses, set, columns);
@@ -66,16 +62,16 @@ void BlockValues::TakeExponentials(const BlendedPulses& pulses, std::size_t set,
 }
 
 void BlockValues::TakeLarger(const PulseBlock& block) {
-  if (!block.has_two_ends()) return;
+  if (block.alternative() == 0) return;
   const std::size_t count = block.count();
   for (std::size_t q = 0; q < records_.quantity_count; ++q) {
     const RecordPlace &value = records_.values[q], &error = records_.standard_errors[q];
     if (!records_.has_values[q] || !needs_.sets[value.set]) continue;
-    BlockOf<float>& values = low_[value.set][value.lane];
-    const BlockOf<float>& others = high_[value.set][value.lane];
+    BlockOf<float>& values = largest_[value.set][value.lane];
+    const BlockOf<float>& others = later_[value.set][value.lane];
     if (records_.has_standard_errors[q] && needs_.sets[error.set]) {
-      BlockOf<float>& errors = low_[error.set][error.lane];
-      const BlockOf<float>& other_errors = high_[error.set][error.lane];
+      BlockOf<float>& errors = largest_[error.set][error.lane];
+      const BlockOf<float>& other_errors = later_[error.set][error.lane];
       for (std::size_t i = 0; i < count; ++i) {
         errors[i] = std::abs(others[i]) > std::abs(values[i]) ? other_errors[i] : errors[i];
       }

@@ -29,37 +29,42 @@ class BlockValues {
  public:
   BlockValues(const NodeRecords& records, const Needs& needs) : records_(records), needs_(needs) {}
 
-  // At both ends, if the block has two.
+  // At the alternative that the block is at.
   void Find(const PulseBlock& block);
 
-  // Of a block with two ends, takes at kLow each value that is larger in magnitude, and the standard error that
-  // belongs to it.
+  // Takes each value of that alternative that is larger in magnitude than those of the ones before, and the standard
+  // error that belongs to it.
   void TakeLarger(const PulseBlock& block);
 
-  const BlockOf<float>& value(std::size_t quantity, End end = End::kLow) const {
-    return column(records_.values[quantity], end);
+  // The largest that were taken; those of the first alternative are without TakeLarger().
+  const BlockOf<float>& value(std::size_t quantity) const {
+    return Column(largest_, records_.values[quantity]);
   }
   const BlockOf<float>& standard_error(std::size_t quantity) const {
-    return column(records_.standard_errors[quantity], End::kLow);
+    return Column(largest_, records_.standard_errors[quantity]);
+  }
+
+  // That of a later alternative, which Find() found last.
+  const BlockOf<float>& later_value(std::size_t quantity) const {
+    return Column(later_, records_.values[quantity]);
   }
 
  private:
   using Columns = std::array<std::array<BlockOf<float>, kRecordSize>, NodeRecords::kMaxSets>;
 
-  const BlockOf<float>& column(const RecordPlace& place, End end) const {
-    return (end == End::kLow ? low_ : high_)[place.set][place.lane];
+  static const BlockOf<float>& Column(const Columns& columns, const RecordPlace& place) {
+    return columns[place.set][place.lane];
   }
-  void Find(const PulseBlock& block, End end, Columns& columns);
   void TakeExponentials(const BlendedPulses& pulses, std::size_t set, Columns& columns) const;
 
   const NodeRecords& records_;
   const Needs needs_;
   BlockOf<float> blended_[kRecordSize];  // as consecutive records
-  Columns low_;
-  // Unused. Without it, `low_` and `high_` would be a multiple of 4096 bytes apart, and processors delay a load after a
-  // store to an address with the same last 12 bits.
+  Columns largest_;
+  // Unused. Without it, `largest_` and `later_` would be a multiple of 4096 bytes apart, and processors delay a load
+  // after a store to an address with the same last 12 bits.
   [[maybe_unused]] BlockOf<float> gap_[2];
-  Columns high_;
+  Columns later_;
 };
 
 }  // namespace albtpu

@@ -39,7 +39,7 @@ void ForEachColumn(const AnswerColumns& wanted, AnswerColumns& other, const Visi
 
 void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin,
                                      std::size_t end, const AnswerColumns& answers) const {
-  assert(CheckLengths(pulses).ok() && begin <= end && end <= pulses.size);
+  assert(CheckLengths(layout_->schema, pulses).ok() && begin <= end && end <= pulses.size);
   InterpolateColumns(*layout_, pulses, begin, end, answers, [&](const AnswerColumns& columns) {
     return AnswerWriter(query, layout_->records, columns);
   });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "tables/coverage.h"
 #include "tables/query/larger_answer.h"
@@ -39,15 +40,19 @@ PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse) 
     return InterpolatePulse(table, coordinates);
   };
   if (pulse.azimuth.has_value()) return at_azimuth(*pulse.azimuth);
-  return LargerOf(at_azimuth(kFoldedEnds[0]), at_azimuth(kFoldedEnds[1]));
+  const std::span<const double> azimuths = table.axis(AxisId::kAzimuth).alternatives();
+  PulseUncertainty largest = at_azimuth(azimuths.front());
+  largest.azimuth_absent = true;
+  for (const double azimuth : azimuths.subspan(1)) largest = LargerOf(largest, at_azimuth(azimuth));
+  return largest;
 }
 
-PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind) {
-  PulseUncertainty larger = LargerAnswer(downwind, crosswind);
+PulseUncertainty LargerOf(const PulseUncertainty& a, const PulseUncertainty& b) {
+  PulseUncertainty larger = LargerAnswer(a, b);
   larger.azimuth_absent = true;
   if (larger.outcome != Outcome::kInterpolated) return larger;
-  larger.radius_over_thu = LargerRadiusOverThu(downwind[Quantity::kThu], downwind.radius_over_thu,
-                                               crosswind[Quantity::kThu], crosswind.radius_over_thu);
+  larger.radius_over_thu =
+      LargerRadiusOverThu(a[Quantity::kThu], a.radius_over_thu, b[Quantity::kThu], b.radius_over_thu);
   return larger;
 }
 

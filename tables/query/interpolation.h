@@ -13,8 +13,8 @@ namespace albtpu {
 //   if (u.outcome == Outcome::kInterpolated) std::cout << u[Quantity::kThu] << " m\n";
 PulseUncertainty Interpolate(const UncertaintyTable& table, const Pulse& pulse);
 
-// The answer for a pulse without azimuth, from its answers at 0 and 90 degrees: each value is the larger in
-// magnitude, with its standard error. The answer has no numbers unless both have.
-PulseUncertainty LargerOf(const PulseUncertainty& downwind, const PulseUncertainty& crosswind);
+// The answer for a pulse without azimuth, from its answers at two azimuths, such as 0 and 90 degrees: each value is the
+// larger in magnitude, with its standard error. The answer has no numbers unless both have.
+PulseUncertainty LargerOf(const PulseUncertainty& a, const PulseUncertainty& b);
 
 }  // namespace albtpu

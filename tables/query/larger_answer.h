@@ -1,4 +1,4 @@
-// The answer at an axis whose coordinate is absent and whose two ends count (IfAbsent::kLargerOfEnds).
+// The answer at an axis whose coordinate is absent and whose alternatives count (Axis::alternatives).
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace albtpu {
 
-// From the answers at both ends: each value is the larger in magnitude, with its standard error. Without numbers at
-// both ends, the answer that has the worse outcome: kInvalid before kOutOfDomain, then the one whose axis comes first.
-// `Answer` has the members `outcome`, `axis`, `values` and `standard_errors`; the others are those of one end.
+// From the answers at two of them: each value is the larger in magnitude, with its standard error. Without numbers at
+// both, the answer that has the worse outcome: kInvalid before kOutOfDomain, then the one whose axis comes first.
+// `Answer` has the members `outcome`, `axis`, `values` and `standard_errors`; the others are those of one of the two.
 template <typename Answer>
 Answer LargerAnswer(const Answer& low, const Answer& high) {
   if (low.outcome != high.outcome) return low.outcome > high.outcome ? low : high;

@@ -21,9 +21,9 @@ bool AnyIsFar(std::span<const float> azimuths) {
 }
 
 // AxisLookup folds only azimuths that are not far.
-void FoldFar(float* azimuths, std::size_t count) {
+void FoldFar(Fold fold, float* azimuths, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    if (IsFar(azimuths[i])) azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i]));
+    if (IsFar(azimuths[i])) azimuths[i] = static_cast<float>(FoldAzimuth(azimuths[i], fold));
   }
 }
 
@@ -33,9 +33,11 @@ Grid::Grid(const Table& table)
     : last_(table.axes().size() - 1), last_size_(static_cast<std::ptrdiff_t>(table.axes().back().size())) {
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
     axes_.emplace_back(table.axes()[axis], axis);
-    const IfAbsent rule = table.schema().axes[axis].if_absent;
-    if (rule == IfAbsent::kLargerOfEnds) two_ended_axis_ = axis;
-    absent_is_last_node_[axis] = rule == IfAbsent::kLastNode;
+    absent_is_last_node_[axis] = table.schema().axes[axis].if_absent == IfAbsent::kLastNode;
+    const std::span<const double> alternatives = table.axes()[axis].alternatives();
+    if (alternatives.empty()) continue;
+    axis_of_alternatives_ = axis;
+    alternatives_.assign(alternatives.begin(), alternatives.end());
   }
   steps_[last()] = 1;
   std::ptrdiff_t step = 1;
@@ -71,40 +73,55 @@ float Grid::absent_coordinate(std::size_t axis) const {
 }
 
 PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t most)
-    : grid_(grid), pulses_(pulses) {
+    : grid_(grid), pulses_(pulses), most_(most) {
   for (std::size_t axis = 0; axis < grid_.axis_count(); ++axis) {
     if (!IsConstant(axis)) continue;
     const std::span<const float> column = pulses_.axis[axis];
-    if (axis == grid_.two_ended_axis() && column.empty()) {
-      has_two_ends_ = true;
-      low_row_ = LocateConstant(axis, static_cast<float>(kFoldedEnds[0]), most, fractions_[axis]);
-      high_row_ = LocateConstant(axis, static_cast<float>(kFoldedEnds[1]), most, high_fractions_);
+    if (axis == grid_.axis_of_alternatives() && column.empty()) {
+      has_alternatives_ = true;
       continue;
     }
     const float coordinate = column.empty() ? grid_.absent_coordinate(axis) : column.front();
     std::int32_t& row = axis == grid_.last() ? constant_last_ : constant_row_;
-    row += LocateConstant(axis, coordinate, most, fractions_[axis]);
+    row += LocateConstant(axis, coordinate, fractions_[axis]);
   }
   if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), most, 0.0f);
   for (const bool over_last_axis : {false, true}) {
-    std::array<BlendedPulses, 2>& of_ends = blended_[over_last_axis ? 1 : 0];
-    SetBlended(over_last_axis, End::kLow, of_ends[0]);
-    if (has_two_ends_) SetBlended(over_last_axis, End::kHigh, of_ends[1]);
+    for (const bool later : {false, true}) {
+      SetBlended(over_last_axis, later, blended_[over_last_axis ? 1 : 0][later ? 1 : 0]);
+    }
   }
+  // All of them, because all of them decide the outcome.
+  for (std::size_t i = 0; has_alternatives_ && i < alternatives(); ++i) LocateAlternative(i);
 }
 
-std::int32_t PulseBlock::LocateConstant(std::size_t axis, float coordinate, std::size_t most,
-                                        BlockOf<float>& fractions) {
+void PulseBlock::TakeAlternative(std::size_t alternative) {
+  alternative_ = alternative;
+  if (alternative > 0 && alternative != later_) LocateAlternative(alternative);
+}
+
+void PulseBlock::LocateAlternative(std::size_t alternative) {
+  const std::size_t axis = grid_.axis_of_alternatives();
+  const bool later = alternative > 0;
+  const std::ptrdiff_t row =
+      LocateConstant(axis, grid_.alternatives()[alternative], later ? later_fractions_ : fractions_[axis]);
+  blended_[0][later ? 1 : 0].first = row;
+  blended_[1][later ? 1 : 0].first = row * grid_.last_size();
+  if (later) later_ = alternative;
+}
+
+std::int32_t PulseBlock::LocateConstant(std::size_t axis, float coordinate, BlockOf<float>& fractions) {
   constexpr std::size_t kCount = AxisLookup::kPadding;
   float coordinates[kCount], fraction[kCount];
   std::int32_t rows[kCount] = {}, codes[kCount];
   std::fill_n(coordinates, kCount, coordinate);
   std::fill_n(codes, kCount, constant_code_);
-  if (grid_.axis(axis).is_folded()) FoldFar(coordinates, kCount);
+  const Fold fold = grid_.axis(axis).fold();
+  if (fold != Fold::kNone) FoldFar(fold, coordinates, kCount);
   grid_.axis(axis).Locate(coordinates, kCount, static_cast<std::int32_t>(grid_.step(axis)), rows, fraction,
                           codes);
   constant_code_ = codes[0];
-  std::fill_n(fractions.begin(), most, fraction[0]);
+  std::fill_n(fractions.begin(), most_, fraction[0]);
   return rows[0];
 }
 
@@ -112,11 +129,12 @@ void PulseBlock::LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows) {
   const std::span<const float> column = pulses_.axis[axis].subspan(first_, count_);
   const float* coordinates = column.data();
   BlockOf<float> copy;
-  const bool far = grid_.axis(axis).is_folded() && AnyIsFar(column);
+  const Fold fold = grid_.axis(axis).fold();
+  const bool far = fold != Fold::kNone && AnyIsFar(column);
   if (far || Padded(count_) != count_) {
     std::copy(column.begin(), column.end(), copy.begin());
     std::fill(copy.begin() + count_, copy.begin() + Padded(count_), column.back());
-    if (far) FoldFar(copy.begin(), Padded(count_));
+    if (far) FoldFar(fold, copy.begin(), Padded(count_));
     coordinates = copy.begin();
   }
   grid_.axis(axis).Locate(coordinates, Padded(count_), static_cast<std::int32_t>(grid_.step(axis)),
@@ -126,8 +144,8 @@ void PulseBlock::LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows) {
 void PulseBlock::MoveTo(std::size_t first, std::size_t count) {
   first_ = first;
   count_ = count;
-  for (auto& of_ends : blended_) {
-    for (BlendedPulses& pulses : of_ends) pulses.count = count;
+  for (auto& of_alternatives : blended_) {
+    for (BlendedPulses& pulses : of_alternatives) pulses.count = count;
   }
   std::fill_n(codes_.begin(), Padded(count), constant_code_);
   std::fill_n(rows_.begin(), Padded(count), constant_row_);
@@ -149,14 +167,12 @@ bool PulseBlock::IsScattered() const {
   return 2 * moves > count_;
 }
 
-void PulseBlock::SetBlended(bool over_last_axis, End end, BlendedPulses& pulses) const {
-  const bool high = end == End::kHigh;
+void PulseBlock::SetBlended(bool over_last_axis, bool later, BlendedPulses& pulses) const {
   const auto fractions = [&](std::size_t axis) {
-    return (high && axis == grid_.two_ended_axis() ? high_fractions_ : fractions_[axis]).begin();
+    return (later && axis == grid_.axis_of_alternatives() ? later_fractions_ : fractions_[axis]).begin();
   };
   const Grid::Slots& slots = grid_.slots(over_last_axis);
   const std::size_t last = grid_.last();
-  pulses.first = (high ? high_row_ : low_row_) * (over_last_axis ? grid_.last_size() : 1);
   pulses.rows = (over_last_axis ? rows_with_last_ : rows_).begin();
   pulses.steps = slots.steps;
   for (std::size_t slot = 0; slot < BlendedPulses::kSlotCount; ++slot) {

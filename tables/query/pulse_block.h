@@ -29,8 +29,9 @@ class Grid {
   std::ptrdiff_t step(std::size_t axis) const { return steps_[axis]; }
   std::ptrdiff_t last_size() const { return last_size_; }
 
-  // The axis that counts as its worse end if its column is absent, or kNoAxis.
-  std::size_t two_ended_axis() const { return two_ended_axis_; }
+  // The axis whose column may be absent for Axis::alternatives(), or kNoAxis, and these coordinates.
+  std::size_t axis_of_alternatives() const { return axis_of_alternatives_; }
+  const std::vector<float>& alternatives() const { return alternatives_; }
   // The coordinate that stands for an absent column of any other axis: NaN if the axis needs a column.
   float absent_coordinate(std::size_t axis) const;
 
@@ -48,15 +49,16 @@ class Grid {
   std::vector<AxisLookup> axes_;
   std::array<std::ptrdiff_t, kMaxAxes> steps_{};
   std::ptrdiff_t last_size_;
-  std::size_t two_ended_axis_ = kNoAxis;
+  std::size_t axis_of_alternatives_ = kNoAxis;
+  std::vector<float> alternatives_;
   std::array<bool, kMaxAxes> absent_is_last_node_{};
   std::array<Slots, 2> slots_;
 };
 
-// If the column of the two-ended axis is absent, there are two answers, one at each end of the axis.
-enum class End { kLow, kHigh };
-
 // Moves along pulses, block by block. Constant columns are located once.
+//
+// If the column of the axis of alternatives is absent, every pulse is at several places of the table, one after the
+// other.
 class PulseBlock {
  public:
   // A block will hold at most `most` pulses. All arguments must outlive it.
@@ -69,41 +71,48 @@ class PulseBlock {
 
   std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }
-  bool has_two_ends() const { return has_two_ends_; }
+  // The number of places, and which of them the pulses are at: at first 0.
+  std::size_t alternatives() const { return has_alternatives_ ? grid_.alternatives().size() : 1; }
+  std::size_t alternative() const { return alternative_; }
+  void TakeAlternative(std::size_t alternative);
+
   float coordinate(std::size_t axis, std::size_t i) const {
     return pulses_.axis[axis][IsConstant(axis) ? 0 : first_ + i];
   }
 
-  // The outcome of each pulse: outcome_code.
+  // The outcome of each pulse, at the worst of its places: outcome_code.
   const BlockOf<std::int32_t>& codes() const { return codes_; }
   bool all_inside() const { return all_inside_; }
 
   // Whether most pulses are in another cell than the pulse before, apart from the last axis.
   bool IsScattered() const;
 
-  // The pulses among the records over all axes, or over all but the last. With one end, it is kLow.
-  const BlendedPulses& blended(bool over_last_axis, End end) const {
-    return blended_[over_last_axis ? 1 : 0][end == End::kHigh ? 1 : 0];
+  // The pulses among the records over all axes, or over all but the last.
+  const BlendedPulses& blended(bool over_last_axis) const {
+    return blended_[over_last_axis ? 1 : 0][alternative_ == 0 ? 0 : 1];
   }
 
  private:
   bool IsConstant(std::size_t axis) const { return pulses_.axis[axis].size() <= 1; }
-  std::int32_t LocateConstant(std::size_t axis, float coordinate, std::size_t most,
-                              BlockOf<float>& fractions);
+  // Returns the row.
+  std::int32_t LocateConstant(std::size_t axis, float coordinate, BlockOf<float>& fractions);
   void LocateColumn(std::size_t axis, BlockOf<std::int32_t>& rows);
-  void SetBlended(bool over_last_axis, End end, BlendedPulses& pulses) const;
+  void LocateAlternative(std::size_t alternative);
+  void SetBlended(bool over_last_axis, bool later, BlendedPulses& pulses) const;
 
   const Grid& grid_;
   const PulseColumns& pulses_;
+  const std::size_t most_;
   std::size_t first_ = 0, count_ = 0;
   std::int32_t constant_code_ = outcome_code::kInside, constant_row_ = 0, constant_last_ = 0;
-  std::int32_t low_row_ = 0, high_row_ = 0;
-  bool has_two_ends_ = false, all_inside_ = false;
-  std::array<std::array<BlendedPulses, 2>, 2> blended_;  // by over_last_axis, then by end
+  std::size_t alternative_ = 0, later_ = 0;
+  bool has_alternatives_ = false, all_inside_ = false;
+  // By over_last_axis; then at the first alternative, and at the later one that was located last, `later_`.
+  std::array<std::array<BlendedPulses, 2>, 2> blended_;
   BlockOf<std::int32_t> codes_, rows_, rows_with_last_;
   std::array<BlockOf<float>, kMaxAxes> fractions_;
-  BlockOf<float> high_fractions_;  // on the two-ended axis at its high end
-  BlockOf<float> zeros_;           // fractions of slots without an axis
+  BlockOf<float> later_fractions_;  // on the axis of alternatives, at the later one
+  BlockOf<float> zeros_;            // fractions of slots without an axis
 };
 
 }  // namespace albtpu

@@ -26,11 +26,11 @@ absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses)
 absl::Status CheckLengths(const PulseColumns& pulses) { return CheckLengths(kSeaSurface, pulses); }
 
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i) {
-  Pulse pulse{.wind_speed = NumberAt(pulses[AxisId::kWindSpeed], i),
-              .incidence = NumberAt(pulses[AxisId::kIncidence], i),
+  Pulse pulse{.incidence = NumberAt(pulses[AxisId::kIncidence], i),
               .azimuth = {},
               .footprint = NumberAt(pulses[AxisId::kFootprint], i),
               .depth = NumberAt(pulses[AxisId::kDepth], i)};
+  if (!pulses[AxisId::kWindSpeed].empty()) pulse.wind_speed = NumberAt(pulses[AxisId::kWindSpeed], i);
   if (!pulses[AxisId::kFetch].empty()) pulse.fetch = NumberAt(pulses[AxisId::kFetch], i);
   if (!pulses[AxisId::kAzimuth].empty()) pulse.azimuth = NumberAt(pulses[AxisId::kAzimuth], i);
   return pulse;

@@ -21,7 +21,8 @@ static_assert(std::endian::native == std::endian::little,
 
 // Pulses as one column for each axis, in the units of the axes. A column has `size` numbers, or one for all pulses.
 // The columns of fetch and azimuth may be empty, which means a fully developed sea and the worse of 0 and 90
-// degrees; the others only if there are no pulses. For a table of another kind, columns are in the order of its
+// degrees; the others only if there are no pulses. For a table of one sea, those of wind speed, fetch and azimuth may
+// be empty, the last of which means the worst azimuth. For a table of another kind, columns are in the order of its
 // axes, and AxisSchema says which may be empty.
 struct PulseColumns {
   std::size_t size = 0;

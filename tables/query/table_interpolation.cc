@@ -95,9 +95,10 @@ class ValueWriter {
 
   const Needs& needs() const { return needs_; }
 
-  void Write(const PulseBlock& block, BlockValues& values) const {
+  void Take(const PulseBlock& block, BlockValues& values) const { values.TakeLarger(block); }
+
+  void Write(const PulseBlock& block, const BlockValues& values) const {
     WriteOutcomes(block, answers_.outcomes, answers_.outcome_axes);
-    values.TakeLarger(block);
     for (std::size_t q = 0; q < records_.quantity_count; ++q) {
       Write(block, records_.has_values[q] ? &values.value(q) : nullptr, answers_.values[q]);
       Write(block, records_.has_standard_errors[q] ? &values.standard_error(q) : nullptr,
@@ -167,26 +168,27 @@ TableValues InterpolateAt(const Table& table, std::span<const double> coordinate
 TableValues Interpolate(const Table& table, std::span<const std::optional<float>> coordinates) {
   assert(coordinates.size() == table.axes().size());
   std::array<double, kMaxAxes> at;
-  std::optional<std::size_t> two_ended;
+  std::optional<std::size_t> with_alternatives;
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
     at[axis] = coordinates[axis].value_or(kNoNumber);
     if (coordinates[axis].has_value()) continue;
     const IfAbsent rule = table.schema().axes[axis].if_absent;
     if (rule == IfAbsent::kLastNode) at[axis] = table.axes()[axis].nodes().back();
-    if (rule == IfAbsent::kLargerOfEnds) two_ended = axis;
+    if (TakesLargest(rule)) with_alternatives = axis;
   }
   const std::span<const double> all(at.data(), table.axes().size());
-  if (!two_ended.has_value()) return InterpolateAt(table, all);
-  at[*two_ended] = kFoldedEnds[0];
-  const TableValues low = InterpolateAt(table, all);
-  at[*two_ended] = kFoldedEnds[1];
-  return LargerAnswer(low, InterpolateAt(table, all));
+  if (!with_alternatives.has_value()) return InterpolateAt(table, all);
+  std::optional<TableValues> largest;
+  for (const double alternative : table.axes()[*with_alternatives].alternatives()) {
+    at[*with_alternatives] = alternative;
+    const TableValues answer = InterpolateAt(table, all);
+    largest = largest.has_value() ? LargerAnswer(*largest, answer) : answer;
+  }
+  return *largest;
 }
 
 struct TableInterpolator::Layout : TableLayout {
-  explicit Layout(const Table& table) : TableLayout(table), schema(table.schema()) {}
-
-  const TableSchema& schema;
+  using TableLayout::TableLayout;
 };
 
 TableInterpolator::TableInterpolator(const Table& table) : layout_(std::make_unique<const Layout>(table)) {}

@@ -26,8 +26,8 @@ struct TableValues {
 // At one coordinate for each axis of the table.
 TableValues InterpolateAt(const Table& table, std::span<const double> coordinates);
 
-// The same where coordinates may be absent (IfAbsent). At an axis of which both ends count, each value is the
-// larger in magnitude, with its standard error; without numbers at both ends there are none.
+// The same where coordinates may be absent (IfAbsent). At an axis with alternatives (Axis::alternatives), each value is
+// the largest in magnitude, with its standard error; without numbers at all of them there are none.
 TableValues Interpolate(const Table& table, std::span<const std::optional<float>> coordinates);
 
 // Where to write answers: columns of as many elements as there are pulses, at the indices of the schema; null what

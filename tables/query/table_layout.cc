@@ -12,6 +12,9 @@ std::size_t RecordCount(const NodeRecords& records) {
 }  // namespace
 
 TableLayout::TableLayout(const Table& table)
-    : grid(table), records(table), fewest_to_sort(SortedPulses::Fewest(RecordCount(records))) {}
+    : schema(table.schema()),
+      grid(table),
+      records(table),
+      fewest_to_sort(SortedPulses::Fewest(RecordCount(records))) {}
 
 }  // namespace albtpu

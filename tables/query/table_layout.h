@@ -15,8 +15,10 @@ namespace albtpu {
 
 // Immutable.
 struct TableLayout {
+  // The schema must outlive it, the table need not.
   explicit TableLayout(const Table& table);
 
+  const TableSchema& schema;
   Grid grid;
   NodeRecords records;
   std::size_t fewest_to_sort;
@@ -24,7 +26,8 @@ struct TableLayout {
 
 // Interpolates the pulses from `begin` on, block by block. Stops at `end`, or after a scattered block if at least
 // `fewest_to_sort` pulses follow it. Returns the index of the first pulse that it has not interpolated.
-// `writer.needs()` are the sets of records to blend; `writer.Write(block, values)` writes the answers of a block.
+// `writer.needs()` are the sets of records to blend; `writer.Take(block, values)` takes what was found at each
+// alternative, and `writer.Write(block, values)` writes the answers of a block.
 template <typename Writer>
 std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pulses, std::size_t begin,
                               std::size_t end, std::size_t fewest_to_sort, Writer&& writer) {
@@ -33,7 +36,11 @@ std::size_t InterpolateBlocks(const TableLayout& layout, const PulseColumns& pul
   BlockValues values(layout.records, writer.needs());
   while (begin < end) {
     block.MoveTo(begin, std::min(kBlock, end - begin));
-    values.Find(block);
+    for (std::size_t alternative = 0; alternative < block.alternatives(); ++alternative) {
+      block.TakeAlternative(alternative);
+      values.Find(block);
+      writer.Take(block, values);
+    }
     writer.Write(block, values);
     begin += block.count();
     if (end - begin >= fewest_to_sort && block.IsScattered()) break;

@@ -142,5 +142,31 @@ TEST(Axis, KeepsFoldedAzimuthsWithinAQuarterTurn) {
   }
 }
 
+TEST(Axis, FoldsAzimuthIntoHalfATurn) {
+  const AxisSchema& schema = kOneSea.axes[Index(AxisId::kAzimuth)];
+  const Axis azimuth = *Axis::Create(schema, {0, 90, 180});
+  for (double same : {30.0, 210.0, -150.0, 390.0, -330.0, 3630.0}) {
+    EXPECT_DOUBLE_EQ(FoldAzimuth(same, Fold::kHalfTurn), 30) << same;
+    EXPECT_NEAR(Place(azimuth, same), 1.0 / 3, 1e-15) << same;
+  }
+  for (double mirrored : {-30.0, 150.0}) EXPECT_EQ(FoldAzimuth(mirrored, Fold::kHalfTurn), 150) << mirrored;
+  for (double whole : {0.0, -0.0, 180.0, -180.0, 720.0})
+    EXPECT_EQ(FoldAzimuth(whole, Fold::kHalfTurn), 0) << whole;
+  EXPECT_EQ(FoldAzimuth(-1e-9, Fold::kHalfTurn), 180);
+  for (double any : {1e300, -1e300, 179.99999999, -179.99999999}) {
+    EXPECT_GE(FoldAzimuth(any, Fold::kHalfTurn), 0);
+    EXPECT_LE(FoldAzimuth(any, Fold::kHalfTurn), 180);
+  }
+  EXPECT_EQ(azimuth.Locate(kInfinity), std::nullopt);
+  EXPECT_THAT(Axis::Create(schema, {0, 181}).status().message(), HasSubstr("above 180 degree"));
+}
+
+TEST(Axis, WithOneNodeOnAnEndlessLinearScaleAnswersFromZero) {
+  const Axis wind_speed = *Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {6.5});
+  for (double inside : {0.0, 1.0, 6.5, 100.0, kInfinity}) EXPECT_EQ(Place(wind_speed, inside), 0) << inside;
+  for (double outside : {-1.0, -kInfinity, kNaN})
+    EXPECT_EQ(wind_speed.Locate(outside), std::nullopt) << outside;
+}
+
 }  // namespace
 }  // namespace albtpu

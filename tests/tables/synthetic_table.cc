@@ -74,9 +74,9 @@ Provenance MakeProvenance(const SyntheticOptions& options) {
 
 }  // namespace
 
-Axis MakeAxis(AxisId id, const std::vector<double>& nodes) {
+Axis MakeAxis(AxisId id, const std::vector<double>& nodes, const TableSchema& kind) {
   const std::vector<float> rounded(nodes.begin(), nodes.end());
-  return OrDie(Axis::Create(id, {rounded.begin(), rounded.end()}));
+  return OrDie(Axis::Create(kind.axes[Index(id)], {rounded.begin(), rounded.end()}));
 }
 
 UncertaintyTable SyntheticTable(const SyntheticOptions& options) {
@@ -101,10 +101,35 @@ UncertaintyTable SyntheticTable(const SyntheticOptions& options) {
   return OrDie(UncertaintyTable::Create(std::move(axes), std::move(variables), MakeProvenance(options)));
 }
 
-UncertaintyTable TinyTable(Scale scale) {
-  UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {2, 4}),  MakeAxis(AxisId::kFetch, {1000}),
-                                 MakeAxis(AxisId::kIncidence, {0, 20}), MakeAxis(AxisId::kAzimuth, {0, 90}),
-                                 MakeAxis(AxisId::kFootprint, {1}),     MakeAxis(AxisId::kDepth, {0, 10})};
+UncertaintyTable SyntheticSea() {
+  UncertaintyTable::Axes axes = {MakeAxis(AxisId::kWindSpeed, {6.5}, kOneSea),
+                                 MakeAxis(AxisId::kFetch, {1}, kOneSea),
+                                 MakeAxis(AxisId::kIncidence, {0, 5, 10, 15, 20, 25}, kOneSea),
+                                 MakeAxis(AxisId::kAzimuth, {0, 25, 60, 100, 130, 180}, kOneSea),
+                                 MakeAxis(AxisId::kFootprint, {0.25, 0.5, 1, 2}, kOneSea),
+                                 MakeAxis(AxisId::kDepth, {0, 0.5, 1, 2, 5, 10, 20}, kOneSea)};
+  UncertaintyTable::Variables variables;
+  for (Quantity quantity : kQuantities) {
+    const auto value = [&](Coordinates at) {
+      double& azimuth = at[Index(AxisId::kAzimuth)];
+      azimuth = azimuth < 180 ? azimuth + 20 * std::sin(azimuth * std::numbers::pi / 180) : 0;
+      return Formula(quantity, at) * (1 + 0.1 * std::sin(azimuth * std::numbers::pi / 90));
+    };
+    variables[Index(quantity)] =
+        Variable{.values = Tabulate(axes, quantity, value),
+                 .standard_errors = Tabulate(
+                     axes, quantity, [&](const Coordinates& at) { return 0.03 * std::abs(value(at)); }),
+                 .scale = Scale::kLinear};
+  }
+  return OrDie(UncertaintyTable::Create(kOneSea, std::move(axes), std::move(variables),
+                                        MakeProvenance({.id = "synthetic-sea"})));
+}
+
+UncertaintyTable TinyTable(Scale scale, const TableSchema& kind) {
+  UncertaintyTable::Axes axes = {
+      MakeAxis(AxisId::kWindSpeed, {2, 4}, kind),  MakeAxis(AxisId::kFetch, {1000}, kind),
+      MakeAxis(AxisId::kIncidence, {0, 20}, kind), MakeAxis(AxisId::kAzimuth, {0, 90}, kind),
+      MakeAxis(AxisId::kFootprint, {1}, kind),     MakeAxis(AxisId::kDepth, {0, 10}, kind)};
   UncertaintyTable::Variables variables;
   for (Quantity quantity : kQuantities) {
     variables[Index(quantity)] = Variable{
@@ -114,7 +139,7 @@ UncertaintyTable TinyTable(Scale scale) {
         .scale = scale};
   }
   return OrDie(
-      UncertaintyTable::Create(std::move(axes), std::move(variables), MakeProvenance({.id = "tiny"})));
+      UncertaintyTable::Create(kind, std::move(axes), std::move(variables), MakeProvenance({.id = "tiny"})));
 }
 
 }  // namespace albtpu::testing

@@ -18,10 +18,14 @@ struct SyntheticOptions {
 // footprint 0.25-2 m, depth 0-20 m. Values have the magnitude and the trends of the sea's, but are not true.
 UncertaintyTable SyntheticTable(const SyntheticOptions& options = {});
 
+// A table of one sea, whose waves cross: without a mirror, the same after half a turn. Nodes as above, azimuth 0-180
+// degrees.
+UncertaintyTable SyntheticSea();
+
 // A table with one or two nodes on each axis, and with `scale` for every variable: small enough to check by hand.
-UncertaintyTable TinyTable(Scale scale = Scale::kLinear);
+UncertaintyTable TinyTable(Scale scale = Scale::kLinear, const TableSchema& kind = kSeaSurface);
 
 // The axis of these nodes, which are rounded to single precision. The nodes must be valid.
-Axis MakeAxis(AxisId id, const std::vector<double>& nodes);
+Axis MakeAxis(AxisId id, const std::vector<double>& nodes, const TableSchema& kind = kSeaSurface);
 
 }  // namespace albtpu::testing

@@ -1,7 +1,7 @@
-// albtpu_synthetic_table OUT.h5 [--id ID] [--version VERSION] [--factor F] [--published]
+// albtpu_synthetic_table OUT.h5 [--id ID] [--version VERSION] [--factor F] [--published] [--sea]
 //
-// Writes the table of synthetic_table.h, for tests of programs that need a table file. An existing file is
-// replaced.
+// Writes the table of synthetic_table.h, for tests of programs that need a table file; with --sea, that of one sea. An
+// existing file is replaced.
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   albtpu::testing::SyntheticOptions options;
   std::string output;
+  bool of_sea = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const auto value = [&] { return i + 1 < arguments.size() ? arguments[++i] : std::string(); };
     if (arguments[i] == "--id") {
@@ -24,6 +25,8 @@ int main(int argc, char** argv) {
       options.factor = std::strtod(value().c_str(), nullptr);
     } else if (arguments[i] == "--published") {
       options.published = true;
+    } else if (arguments[i] == "--sea") {
+      of_sea = true;
     } else {
       output = arguments[i];
     }
@@ -32,8 +35,9 @@ int main(int argc, char** argv) {
     std::cerr << "albtpu_synthetic_table: no output: name a file to write\n";
     return 2;
   }
-  const absl::Status status =
-      albtpu::WriteTable(albtpu::testing::SyntheticTable(options), output, albtpu::Existing::kReplace);
+  using albtpu::testing::SyntheticSea, albtpu::testing::SyntheticTable;
+  const absl::Status status = albtpu::WriteTable(of_sea ? SyntheticSea() : SyntheticTable(options), output,
+                                                 albtpu::Existing::kReplace);
   if (!status.ok()) std::cerr << "albtpu_synthetic_table: " << status.message() << "\n";
   return status.ok() ? 0 : 1;
 }

@@ -16,6 +16,7 @@ namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
+using ::albtpu::testing::SyntheticSea;
 using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TemporaryFolder;
 using ::albtpu::testing::TinyTable;
@@ -72,6 +73,20 @@ TEST(TableIo, ReadsBackWhatItHasWritten) {
   ExpectRoundTrip(SyntheticTable({.published = true}));
   ExpectRoundTrip(TinyTable());
   ExpectRoundTrip(TinyTable(Scale::kLog));
+}
+
+TEST(TableIo, KeepsTheKindOfTheTable) {
+  ExpectRoundTrip(SyntheticSea());
+  const TemporaryFolder folder;
+  ASSERT_TRUE(WriteTable(SyntheticSea(), folder / "sea.h5", Existing::kKeep).ok());
+  EXPECT_TRUE(ReadTable(folder / "sea.h5")->is_of_one_sea());
+  EXPECT_TRUE(ReadTable(folder / "sea.h5", kOneSea).ok());
+  const absl::Status refused = ReadTable(folder / "sea.h5", kSeaSurface).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(refused.message()),
+              HasSubstr("is a table of kind 'one_sea': expected kind 'sea_surface'"));
+  ASSERT_TRUE(WriteTable(SyntheticTable(), folder / "winds.h5", Existing::kKeep).ok());
+  EXPECT_FALSE(ReadTable(folder / "winds.h5")->is_of_one_sea());
 }
 
 TEST(TableIo, KeepsTheTypesOfAttributes) {

@@ -53,7 +53,7 @@ TEST(TableKind, IsRefusedWhereAnotherIsExpected) {
   const absl::Status as_sea = ReadTable(path).status();
   EXPECT_EQ(as_sea.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(as_sea.message(),
-            path.string() + ": is a table of kind 'three_axes': expected kind 'sea_surface'");
+            path.string() + ": is a table of kind 'three_axes': expected kind 'sea_surface' or 'one_sea'");
   EXPECT_THAT(std::string(ReadTable(path, kThreeAxesRenamed).status().message()),
               HasSubstr("is a table of kind 'three_axes': expected kind 'three_axes_renamed'"));
 

@@ -20,7 +20,8 @@ Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint
   std::mt19937 random(seed);
   Columns columns;
   for (const Axis& axis : table.axes()) {
-    const double first = axis.nodes().front(), last = axis.nodes().back(), beyond = 0.01 * (last - first);
+    const double first = axis.nodes().front(), last = axis.nodes().back();
+    const double beyond = (axis.schema().fold == Fold::kHalfTurn ? 4 : 0.01) * (last - first);
     std::uniform_real_distribution<double> coordinate(first - beyond, last + beyond);
     for (std::size_t i = 0; i < size; ++i) {
       double x = axis.size() == 1 ? first : coordinate(random);
@@ -98,8 +99,9 @@ UncertaintyTable LogTable() {
 }
 
 std::vector<UncertaintyTable> TablesOfEachKind() {
-  return {SyntheticTable(), SyntheticTable({.published = true}), LogTable(), TinyTable(),
-          TinyTable(Scale::kLog)};
+  return {
+      SyntheticTable(), SyntheticTable({.published = true}), LogTable(), TinyTable(), TinyTable(Scale::kLog),
+      SyntheticSea()};
 }
 
 }  // namespace albtpu::testing

@@ -13,7 +13,8 @@ using Columns = std::array<std::vector<float>, kAxisCount>;
 
 PulseColumns Pulses(const Columns& columns, std::size_t size);
 
-// Uniform in the domain and a little beyond; one in eight on a node; a few NaN or infinite.
+// Uniform in the domain and a little beyond, in half a turn some turns beyond; one in eight on a node; a few NaN or
+// infinite.
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed);
 
 // A flight line, whose pulses often share a cell of the table.
@@ -37,7 +38,8 @@ Answers Ask(const ColumnInterpolator& interpolator, const Query& query, const Pu
 // The synthetic table with its uncertainties on a logarithmic scale.
 UncertaintyTable LogTable();
 
-// Synthetic tables: with all variables, without standard errors and biases, on a logarithmic scale, and tiny ones.
+// Synthetic tables: with all variables, without standard errors and biases, on a logarithmic scale, tiny ones, and of
+// one sea.
 std::vector<UncertaintyTable> TablesOfEachKind();
 
 }  // namespace albtpu::testing

@@ -23,6 +23,7 @@ using ::albtpu::testing::LineColumns;
 using ::albtpu::testing::LogTable;
 using ::albtpu::testing::Pulses;
 using ::albtpu::testing::RandomColumns;
+using ::albtpu::testing::SyntheticSea;
 using ::albtpu::testing::SyntheticTable;
 using ::albtpu::testing::TablesOfEachKind;
 using ::albtpu::testing::TinyTable;
@@ -111,7 +112,7 @@ TEST_P(ColumnQuery, AgreesWithTheSlowTwin) {
 }
 
 TEST_P(ColumnQuery, AgreesWithTheSlowTwinOnAFlightLine) {
-  for (const UncertaintyTable& table : {SyntheticTable(), LogTable()}) {
+  for (const UncertaintyTable& table : {SyntheticTable(), LogTable(), SyntheticSea()}) {
     const ColumnInterpolator interpolator(table);
     Columns columns = LineColumns(5000);
     for (const bool absent : {false, true}) {
@@ -123,7 +124,8 @@ TEST_P(ColumnQuery, AgreesWithTheSlowTwinOnAFlightLine) {
 }
 
 TEST_P(ColumnQuery, IsExactAtEveryNode) {
-  for (const UncertaintyTable& table : {SyntheticTable(), LogTable(), TinyTable(Scale::kLog)}) {
+  for (const UncertaintyTable& table :
+       {SyntheticTable(), LogTable(), TinyTable(Scale::kLog), SyntheticSea()}) {
     const std::size_t size = ValueCount(table.axes(), Quantity::kThu);
     Columns columns;
     for (std::size_t i = 0; i < size; ++i) {
@@ -147,7 +149,7 @@ TEST_P(ColumnQuery, IsExactAtEveryNode) {
 }
 
 TEST_P(ColumnQuery, HasTheOutcomesOfTheSlowTwinAtEveryCoordinate) {
-  for (const UncertaintyTable& table : {SyntheticTable(), TinyTable()}) {
+  for (const UncertaintyTable& table : {SyntheticTable(), TinyTable(), SyntheticSea()}) {
     const ColumnInterpolator interpolator(table);
     Columns columns;
     const auto add = [&](const std::vector<float>& pulse) {
@@ -173,6 +175,43 @@ TEST_P(ColumnQuery, HasTheOutcomesOfTheSlowTwinAtEveryCoordinate) {
     ExpectTwin(table, {}, Pulses(columns, size), Ask(interpolator, {}, Pulses(columns, size)));
     columns[Index(AxisId::kAzimuth)].clear();
     ExpectTwin(table, {}, Pulses(columns, size), Ask(interpolator, {}, Pulses(columns, size)));
+  }
+}
+
+TEST_P(ColumnQuery, OfOneSeaNeedsNeitherWindNorFetch) {
+  const UncertaintyTable table = SyntheticSea();
+  const ColumnInterpolator interpolator(table);
+  Columns columns = RandomColumns(table, 500, 4);
+  columns[Index(AxisId::kWindSpeed)] = columns[Index(AxisId::kFetch)] = {};
+  const PulseColumns pulses = Pulses(columns, 500);
+  const Answers absent = Ask(interpolator, {}, pulses);
+  ExpectTwin(table, {}, pulses, absent);
+  EXPECT_GT(std::count(absent.outcomes.begin(), absent.outcomes.end(), 1), 250);
+  for (const float wind_speed : {0.0f, 6.5f, 100.0f}) {
+    columns[Index(AxisId::kWindSpeed)] = {wind_speed};
+    columns[Index(AxisId::kFetch)] = {3e4f};
+    const Answers given = Ask(interpolator, {}, Pulses(columns, 500));
+    for (std::size_t i = 0; i < 500; ++i) ASSERT_EQ(given.BitsAt(i), absent.BitsAt(i));
+  }
+}
+
+// Azimuths are multiples of an eighth of a degree, so that turns do not round.
+TEST_P(ColumnQuery, OfOneSeaRepeatsAfterHalfATurnAndHasNoMirror) {
+  const UncertaintyTable table = SyntheticSea();
+  const ColumnInterpolator interpolator(table);
+  const auto answers_at = [&](float azimuth) {
+    const Columns columns = {{{}, {}, {12}, {azimuth}, {1}, {8}}};
+    return Ask(interpolator, {.coverage = Coverage::kP95, .s44_order = S44Order::k1a}, Pulses(columns, 1))
+        .BitsAt(0);
+  };
+  for (int eighth = 0; eighth <= 8 * 180; eighth += 35) {
+    const auto azimuth = static_cast<float>(eighth) / 8;
+    const auto expected = answers_at(azimuth);
+    for (const float turned : {azimuth + 180, azimuth - 180, azimuth - 360, azimuth + 3600, azimuth - 7200})
+      ASSERT_EQ(answers_at(turned), expected) << azimuth << " and " << turned;
+    if (eighth % (8 * 90) != 0) {
+      EXPECT_NE(answers_at(-azimuth), expected) << azimuth;
+    }
   }
 }
 

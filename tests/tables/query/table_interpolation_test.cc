@@ -16,6 +16,7 @@
 namespace albtpu {
 namespace {
 
+using ::albtpu::testing::kHalfTurn;
 using ::albtpu::testing::kLargestKind;
 using ::albtpu::testing::kOneAxis;
 using ::albtpu::testing::kThreeAxes;
@@ -34,13 +35,15 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
-// Uniform in the domain and a little beyond; one in eight on a node; a few NaN or infinite.
+// Uniform in the domain and a little beyond, in half a turn some turns beyond; one in eight on a node; a few NaN or
+// infinite.
 Columns RandomColumns(const Table& table, std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
   Columns columns;
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
     const std::vector<double>& nodes = table.axes()[axis].nodes();
-    const double beyond = 0.01 * (nodes.back() - nodes.front());
+    const bool turns = table.schema().axes[axis].fold == Fold::kHalfTurn;
+    const double beyond = (turns ? 4 : 0.01) * (nodes.back() - nodes.front());
     std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
     for (std::size_t i = 0; i < size; ++i) {
       double x = nodes.size() == 1 ? nodes[0] : coordinate(random);
@@ -119,7 +122,10 @@ std::vector<Table> TablesOfOtherKinds() {
           RandomTable(kThreeAxes, {60, 40, 30}, 5),  // Large enough for pulses in random order to be sorted.
           RandomTable(kLargestKind, {3, 2, 4, 2, 3, 3}, 6),
           RandomTable(kLargestKind, {2, 1, 3, 1, 2, 1}, 7, Scale::kLog),
-          RandomTable(kOneAxis, {7}, 8)};
+          RandomTable(kOneAxis, {7}, 8),
+          RandomTable(kHalfTurn, {3, 5, 4}, 9),
+          RandomTable(kHalfTurn, {1, 7, 4}, 10, Scale::kLog),
+          RandomTable(kHalfTurn, {40, 60, 30}, 11)};
 }
 
 class TableInterpolation : public testing::OnInstructionSet {};
