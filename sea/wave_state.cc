@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "sea/calm_spectrum.h"
+
 namespace albtpu {
 
 const SpectrumModel* FindSpectrumModel(std::string_view key) {
@@ -12,7 +14,8 @@ const SpectrumModel* FindSpectrumModel(std::string_view key) {
 }
 
 std::shared_ptr<const WaveSpectrum> WindSea::MakeSpectrum() const {
-  assert(model != nullptr);
+  assert(model != nullptr && wind_speed_10m >= 0);
+  if (wind_speed_10m == 0) return std::make_shared<CalmSpectrum>();
   return model->make(wind_speed_10m, fetch, Cosine2sSpreading(spreading));
 }
 

@@ -27,9 +27,9 @@ inline constexpr std::array kSpectrumKeys = [] {
 // The listed model with this key; null if there is none.
 const SpectrumModel* FindSpectrumModel(std::string_view key);
 
-// The waves that one steady wind raises over one fetch.
+// The waves that one steady wind raises over one fetch. A wind of 0 raises none.
 struct WindSea {
-  double wind_speed_10m = 0;                               // m/s, above 0
+  double wind_speed_10m = 0;                               // m/s, from 0
   double fetch = std::numeric_limits<double>::infinity();  // m, above 0; infinity means fully developed
   const SpectrumModel* model = &kApelModel;                // not null; it need not be a listed one
   double spreading = 2;  // s of the cosine-2S spreading; ignored by models that have their own
@@ -37,8 +37,16 @@ struct WindSea {
   std::shared_ptr<const WaveSpectrum> MakeSpectrum() const;
 };
 
-// Another kind of knowledge, such as a measured spectrum or a calm, is another alternative with a MakeSpectrum().
-using WaveState = std::variant<WindSea>;
+// Waves of which the spectrum itself is known: measured, computed by a model or described (sampled_spectrum.h). Then x
+// and y are the axes of its own frame.
+struct KnownWaves {
+  std::shared_ptr<const WaveSpectrum> spectrum;  // not null
+
+  std::shared_ptr<const WaveSpectrum> MakeSpectrum() const { return spectrum; }
+};
+
+// Another kind of knowledge is another alternative with a MakeSpectrum().
+using WaveState = std::variant<WindSea, KnownWaves>;
 
 std::shared_ptr<const WaveSpectrum> MakeSpectrum(const WaveState& waves);
 

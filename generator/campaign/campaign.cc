@@ -43,8 +43,9 @@ absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch
     return absl::InvalidArgumentError(
         "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
   }
-  const double developed =
-      FloatNotBelow(model.fully_developed_fetch(*std::max_element(wind_speed.begin(), wind_speed.end())));
+  const double strongest = *std::max_element(wind_speed.begin(), wind_speed.end());
+  // A calm is the same at any fetch.
+  const double developed = strongest > 0 ? FloatNotBelow(model.fully_developed_fetch(strongest)) : 1;
   fetch.back() = developed;
   if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
     return absl::InvalidArgumentError(
@@ -62,10 +63,19 @@ constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindS
                                                            campaign_keys::kIncidence, campaign_keys::kAzimuth,
                                                            campaign_keys::kFootprint, campaign_keys::kDepth};
 
-Nodes ReadAllNodes(TomlReader& toml) {
+// Whether the sea of a file takes the place of the axis.
+bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
+
+Nodes ReadAllNodes(TomlReader& toml, bool has_sea_file) {
   Nodes nodes;
   for (const AxisId axis : kAxes) {
-    nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, kAxisKeys[Index(axis)]));
+    const CampaignKey& key = kAxisKeys[Index(axis)];
+    if (!has_sea_file || !IsOfWindSea(axis)) {
+      nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, key));
+    } else if (toml.Has(key.table, key.name)) {
+      toml.Fail(absl::StrCat("'", FullName(key),
+                             "' has no place beside 'sea.file', which is one sea: leave it out"));
+    }
   }
   return nodes;
 }
@@ -73,6 +83,12 @@ Nodes ReadAllNodes(TomlReader& toml) {
 WindSea ReadWindSea(TomlReader& toml) {
   WindSea sea;
   const std::string spectrum = ReadText(toml, campaign_keys::kSpectrum);
+  for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading}) {
+    if (toml.Has(campaign_keys::kSeaFile.table, campaign_keys::kSeaFile.name) &&
+        toml.Has(key.table, key.name)) {
+      toml.Fail(absl::StrCat("'", FullName(key), "' has no effect on the sea of 'sea.file': leave it out"));
+    }
+  }
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
   const std::optional<double> spreading = ReadNumber(toml, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
@@ -81,6 +97,27 @@ WindSea ReadWindSea(TomlReader& toml) {
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
+}
+
+// Nothing without `sea.file`, which all other keys of that sea need.
+std::optional<SeaOfFile> ReadSeaOfFile(TomlReader& toml) {
+  using namespace campaign_keys;
+  SeaOfFile sea;
+  sea.file = ReadText(toml, kSeaFile);
+  if (const std::string time = ReadText(toml, kSeaTime); !time.empty()) sea.time = time;
+  sea.water_depth = ReadNumber(toml, kSeaDepth);
+  sea.wind_speed = ReadNumber(toml, kSeaWindSpeed);
+  sea.wind_from = ReadNumber(toml, kSeaWindFrom);
+  sea.tail = FindTailRule(ReadText(toml, kSeaTail)).value_or(sea.tail);
+  sea.tail_from = ReadNumber(toml, kSeaTailFrom);
+  if (!sea.file.empty()) return sea;
+  for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom}) {
+    if (toml.Has(key.table, key.name)) {
+      toml.Fail(
+          absl::StrCat("'", FullName(key), "' goes with 'sea.file' only: add the file, or leave it out"));
+    }
+  }
+  return std::nullopt;
 }
 
 Effort ReadEffort(TomlReader& toml) {
@@ -99,6 +136,16 @@ Effort ReadEffort(TomlReader& toml) {
   return effort;
 }
 
+absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
+  std::vector<Axis> axes;
+  for (const AxisId id : kAxes) {
+    absl::StatusOr<Axis> axis = Axis::Create(kind.axes[Index(id)], nodes[Index(id)]);
+    if (!axis.ok()) return axis.status();
+    axes.push_back(*std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
 // Checks the rules for a sea that can be simulated, and then those of all axes.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
   for (const AxisId axis : kAxes) {
@@ -109,13 +156,26 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Node
       ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
   if (!fetch.ok()) return fetch;
 
-  std::vector<Axis> axes;
-  for (const AxisId id : kAxes) {
-    absl::StatusOr<Axis> axis = Axis::Create(id, nodes[Index(id)]);
-    if (!axis.ok()) return axis.status();
-    axes.push_back(*std::move(axis));
+  return AxesOfKind(kSeaSurface, nodes);
+}
+
+// The same of one sea, whose axes of wind and fetch have the one node that its tables have.
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TracedSea& sea, Nodes nodes) {
+  for (const AxisId axis : kAxes) {
+    if (IsOfWindSea(axis) || axis == AxisId::kAzimuth) continue;
+    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
+    if (!problem.empty()) return absl::InvalidArgumentError(problem);
   }
-  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+  const std::vector<double>& azimuth = nodes[Index(AxisId::kAzimuth)];
+  if (azimuth.size() < 2 || azimuth.front() != 0 || azimuth.back() != 180) {
+    return absl::InvalidArgumentError(
+        "'axes.azimuth' of the sea of a file must begin at 0 and end at 180 (a sea looks alike after half a "
+        "turn, "
+        "and need not in a mirror); add the missing nodes");
+  }
+  nodes[Index(AxisId::kWindSpeed)] = InSinglePrecision({sea.described.wind_speed_10m});
+  nodes[Index(AxisId::kFetch)] = {1};
+  return AxesOfKind(kOneSea, nodes);
 }
 
 // Refuses before the computation what the table would refuse after it.
@@ -149,7 +209,8 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::string version = ReadText(toml, campaign_keys::kVersion);
   const std::string title = ReadText(toml, campaign_keys::kTitle);
   const std::optional<std::int64_t> seed = ReadWhole(toml, campaign_keys::kSeed);
-  const Nodes nodes = ReadAllNodes(toml);
+  const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(toml);
+  const Nodes nodes = ReadAllNodes(toml, sea_of_file.has_value());
   const std::string profile = ReadText(toml, campaign_keys::kProfile);
   const std::optional<double> source_height = ReadNumber(toml, campaign_keys::kSourceHeight);
   const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
@@ -161,7 +222,14 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::optional<std::int64_t> checked_pulses = ReadWhole(toml, campaign_keys::kCheckedPulses);
   if (const absl::Status status = toml.Finish(); !status.ok()) return status;
 
-  absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(*wind_sea.model, nodes);
+  std::optional<TracedSea> sea;
+  if (sea_of_file) {
+    absl::StatusOr<TracedSea> traced = ReadTracedSea(*sea_of_file);
+    if (!traced.ok()) return traced.status();
+    sea = *std::move(traced);
+  }
+  absl::StatusOr<UncertaintyTable::Axes> axes =
+      sea ? MakeAxes(*sea, nodes) : MakeAxes(*wind_sea.model, nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = std::string(text),
                     .id = id,
@@ -173,6 +241,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .source_height = *source_height,
                     .refractive_index = *refractive_index,
                     .wind_sea = wind_sea,
+                    .sea = std::move(sea),
                     .corrected_above = *corrected_above,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};
@@ -216,8 +285,9 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
   sea_case.rays = campaign.rays;
   for (const double incidence : campaign.nodes(AxisId::kIncidence)) {
     for (const double azimuth : campaign.nodes(AxisId::kAzimuth)) {
+      // Over the sea of a file, the beam at 180 degrees is that at 0.
       sea_case.beams.push_back({.incidence = RadiansOfDegrees(incidence),
-                                .azimuth = RadiansOfDegrees(azimuth),
+                                .azimuth = RadiansOfDegrees(azimuth == 180 ? 0 : azimuth),
                                 .footprint = campaign.nodes(AxisId::kFootprint)[index % footprints],
                                 .profile = campaign.profile,
                                 .source_height = campaign.source_height});
@@ -227,6 +297,7 @@ SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index) {
 }
 
 SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch) {
+  if (campaign.sea) return {.waves = campaign.sea->waves, .corrected_above = campaign.corrected_above};
   WindSea waves = campaign.wind_sea;
   waves.wind_speed_10m = wind_speed;
   waves.fetch = fetch;

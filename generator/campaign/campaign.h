@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "generator/campaign/traced_sea.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/beam.h"
 #include "sea/sea_state.h"
@@ -27,18 +28,22 @@ struct Campaign {
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;
-  WindSea wind_sea;                                                  // without wind and fetch, which are axes
+  WindSea wind_sea;  // without wind and fetch, which are axes
+  std::optional<TracedSea>
+      sea;  // in its place, of a table of one sea: its axes of wind and fetch have one node
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
   std::optional<int> rays;
   bool balanced_nodes = false;      // see node_balance.h
   std::size_t checked_pulses = 40;  // see interpolation_check.h
 
+  const TableSchema& kind() const { return sea ? kOneSea : kSeaSurface; }
   const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }
 };
 
 // InvalidArgument, with the key and the values that it takes, for text that is not TOML (with its line), an unknown
 // or a missing key, a value of another type or out of range, and nodes that do not make an axis.
+// The sea of a file is read: its path is relative to the working directory.
 absl::StatusOr<Campaign> ParseCampaign(std::string_view toml);
 
 // The same from a file. NotFound if there is none; messages begin with the path.
@@ -54,7 +59,7 @@ inline constexpr std::uint32_t kCellOfTables = 0;
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
 
-// The campaign's sea at a wind [m/s] and a fetch [m].
+// The campaign's sea at a wind [m/s] and a fetch [m], which have no effect on the sea of a file.
 SeaOptions SeaOf(const Campaign& campaign, double wind_speed, double fetch);
 
 }  // namespace albtpu

@@ -10,8 +10,10 @@ namespace albtpu {
 
 std::string ReadText(TomlReader& toml, const CampaignKey& key) {
   const auto* absent = std::get_if<std::string_view>(&key.absent);
+  const bool may_be_absent = !std::holds_alternative<Required>(key.absent);
   const std::string text = toml.Text(
-      key.table, key.name, absent != nullptr ? std::optional<std::string_view>(*absent) : std::nullopt);
+      key.table, key.name,
+      may_be_absent ? std::optional<std::string_view>(absent != nullptr ? *absent : "") : std::nullopt);
   if (const auto* choice = std::get_if<Choice>(&key.values)) {
     if (std::find(choice->words.begin(), choice->words.end(), text) == choice->words.end()) {
       const std::string words =

@@ -6,6 +6,7 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/monte_carlo/monte_carlo.h"
+#include "generator/surface/discretization.h"
 #include "sea/angle.h"
 
 namespace albtpu {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kCellOfPulses = 0xffffffff;        // of random numbers, used for nothing else
 constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
+constexpr float kLeastWind = 2;                            // m/s
 
 // The coordinate at the fraction `t` of an axis, in its scale.
 float AlongAxis(const Axis& axis, double t) {
@@ -68,10 +70,11 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pul
                          .footprint = pulse.footprint,
                          .profile = campaign.profile,
                          .source_height = campaign.source_height};
-  // The widest beam of a sea case determines grid, patch and rays. It is added here to get those of the nodes.
-  BeamOptions widest = beam;
-  widest.incidence = RadiansOfDegrees(campaign.nodes(AxisId::kIncidence).back());
-  sea_case.beams = {beam, widest};
+  // The outermost beams of a sea case determine grid, patch and rays, and the widest one the reach. They are the same
+  // here as at the nodes.
+  for (BeamOptions& node : sea_case.beams) node.footprint = pulse.footprint;
+  sea_case.discretization = ChooseDiscretization(SeaState(sea_case.sea), sea_case.beams);
+  sea_case.beams = {beam, WidestBeam(sea_case.beams)};
   const SeaCaseResult result = Simulate(sea_case, campaign.effort, campaign.seed, kCellOfTables);
   std::vector<Estimate> estimates;
   for (const Quantity quantity : kChecked) estimates.push_back(ValueOf(result.beams[0], quantity));
@@ -86,8 +89,9 @@ InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyT
   std::vector<double> errors;  // relative magnitudes
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Estimate& expected = direct[i][checked];
-    if (expected.value < least) continue;
-    const PulseUncertainty interpolated = Interpolate(table, CheckedPulse(campaign, i));
+    const Pulse pulse = CheckedPulse(campaign, i);
+    if (expected.value < least || (!campaign.sea && pulse.wind_speed < kLeastWind)) continue;
+    const PulseUncertainty interpolated = Interpolate(table, pulse);
     assert(interpolated.outcome == Outcome::kInterpolated);
     errors.push_back(std::abs(interpolated[quantity] / expected.value - 1));
     summary.rms += errors.back() * errors.back();

@@ -26,10 +26,12 @@ Pulse CheckedPulse(const Campaign& campaign, std::size_t index);
 // TBB arena.
 std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pulse);
 
-// The error of one quantity, relative to the direct values, over the pulses where 2 sigma is at least 0.01 degrees or
-// 5 mm.
+// The error of one quantity, relative to the direct values, over the pulses where 2 sigma is at least 0.01 degrees or 5
+// mm and, in a table of winds, the wind at least 2 m/s. From there down to a calm, which has no waves at all, values
+// fall by orders of magnitude, and what is known of the waves is not so exact that the relative error of small values
+// mattered.
 struct InterpolationError {
-  int pulses = 0;  // above that limit; all members are zero when there are none
+  int pulses = 0;  // above these limits; all members are zero when there are none
   double rms = 0, percentile_99 = 0, greatest = 0;
   double noise =
       0;  // rms standard error of the direct values; the errors of the table are correlated with it

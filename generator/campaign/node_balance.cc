@@ -16,11 +16,12 @@ std::vector<double> Scaled(const Axis& axis) {
   return x;
 }
 
-// The amount by which to lower each of the values at `x`.
-std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values) {
+// The amount by which to lower each of the values at `x`: none at the last node and those before `first`.
+std::vector<double> Lowering(const std::vector<double>& x, const std::vector<double>& values,
+                             std::size_t first) {
   const std::size_t last = x.size() - 1;
-  std::vector<double> lowering(x.size());  // none at the ends
-  for (std::size_t i = 1; i < last; ++i) {
+  std::vector<double> lowering(x.size());
+  for (std::size_t i = first; i < last; ++i) {
     const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
     const double curvature =
         2 * ((values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before) / (before + after);
@@ -42,11 +43,12 @@ void BalanceNodes(const UncertaintyTable::Axes& axes, Quantity quantity, std::ve
     stride /= nodes;
     if (nodes < 3) continue;
     const std::vector<double> x = Scaled(axis);
+    const std::size_t first_lowered = id == AxisId::kWindSpeed && x.front() == 0 ? 2 : 1;
     std::vector<double> line(nodes);
     for (std::size_t first = 0; first < values.size(); ++first) {
       if (first / stride % nodes != 0) continue;
       for (std::size_t i = 0; i < nodes; ++i) line[i] = values[first + i * stride];
-      const std::vector<double> lowering = Lowering(x, line);
+      const std::vector<double> lowering = Lowering(x, line, first_lowered);
       for (std::size_t i = 0; i < nodes; ++i) {
         const std::size_t at = first + i * stride;
         const double lowered = line[i] - lowering[i];

@@ -20,7 +20,8 @@ namespace albtpu {
 // by the integral (h_- + h_+) / 2 of the node's linear spline, is the amount above.
 //
 // The first and the last node of an axis keep their values, because more pulses lie exactly there than between nodes:
-// at nadir, along and across the wind, over a fully developed sea. Axes are balanced one after the other: all with at
+// at nadir, along and across the wind, over a fully developed sea. So does the first wind above a calm: the curve
+// between them is not that of the winds above. Axes are balanced one after the other: all with at
 // least three nodes except depth, along which everything is nearly linear. A quantity that cannot be negative keeps at
 // least half of each value.
 //

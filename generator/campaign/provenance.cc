@@ -17,12 +17,16 @@
 namespace albtpu {
 namespace {
 
-// The least and the greatest value of a number over the sea cases.
+// The least and the greatest value of a number over the sea cases. Seas without waves, for which there is nothing to
+// draw, do not count unless there are no others.
 template <typename Number>
 std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaCaseResult::*member) {
-  std::vector<double> range = {static_cast<double>(results.front().*member),
-                               static_cast<double>(results.front().*member)};
+  const auto drawn = std::find_if(results.begin(), results.end(),
+                                  [](const SeaCaseResult& result) { return result.realizations > 0; });
+  const SeaCaseResult& first = drawn != results.end() ? *drawn : results.front();
+  std::vector<double> range = {static_cast<double>(first.*member), static_cast<double>(first.*member)};
   for (const SeaCaseResult& result : results) {
+    if (result.realizations == 0) continue;
     range[0] = std::min(range[0], static_cast<double>(result.*member));
     range[1] = std::max(range[1], static_cast<double>(result.*member));
   }
@@ -42,7 +46,8 @@ std::string NameOf(const WaveSpectrum& spectrum, double corrected_above) {
 }  // namespace
 
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results) {
-  const std::shared_ptr<const WaveSpectrum> spectrum = MakeSpectrum(SeaCaseOf(campaign, 0).sea.waves);
+  const SeaCase strongest_wind = SeaCaseOf(campaign, SeaCaseCount(campaign) - 1);
+  const std::shared_ptr<const WaveSpectrum> spectrum = MakeSpectrum(strongest_wind.sea.waves);
   Provenance provenance;
   provenance.id = campaign.id;
   provenance.version = campaign.version;
@@ -87,13 +92,16 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"footprint_slope_variance_fraction", Range(results, &SeaCaseResult::footprint_slope_fraction)},
       {"resolved_slope_variance_fraction", Range(results, &SeaCaseResult::resolved_slope_fraction)},
   };
+  if (campaign.sea)
+    provenance.attributes.insert(campaign.sea->attributes.begin(), campaign.sea->attributes.end());
   return provenance;
 }
 
 void DescribeInterpolationErrors(const std::vector<InterpolationError>& errors, Provenance& provenance) {
   provenance.attributes["interpolation_error"] =
       "Of the interpolated table, relative to direct computation at pulses drawn evenly over the axes, "
-      "by the random numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm: "
+      "by the random numbers of the nodes, where 2 sigma is at least 0.01 degrees or 5 mm and the wind at "
+      "least 2 m/s: "
       "root mean square, 99th percentile, greatest, rms standard error of the direct values, "
       "number of pulses";
   for (std::size_t q = 0; q < errors.size(); ++q) {

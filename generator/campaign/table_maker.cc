@@ -131,14 +131,14 @@ absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
   }
   Provenance provenance = MakeProvenance(campaign, parts_->results);
   const absl::StatusOr<UncertaintyTable> table =
-      UncertaintyTable::Create(campaign.axes, variables, provenance);
+      UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, provenance);
   if (!table.ok()) return table.status();
   std::vector<InterpolationError> errors;
   for (std::size_t q = 0; q < kChecked.size(); ++q) {
     errors.push_back(CompareWithTable(campaign, *table, parts_->direct, q));
   }
   DescribeInterpolationErrors(errors, provenance);
-  return UncertaintyTable::Create(campaign.axes, variables, std::move(provenance));
+  return UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance));
 }
 
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,

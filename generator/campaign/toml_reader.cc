@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "command_line/near_match.h"
+#include "command_line/one_line.h"
 
 namespace albtpu {
 
@@ -16,8 +17,8 @@ absl::StatusOr<TomlReader> TomlReader::Parse(std::string_view text) {
   try {
     return TomlReader(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("line ", error.source().begin.line, " is not TOML: ", std::string(error.description())));
+    return absl::InvalidArgumentError(absl::StrCat(
+        "line ", error.source().begin.line, " is not TOML: ", OneLine(std::string(error.description()))));
   }
 }
 

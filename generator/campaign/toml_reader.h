@@ -26,6 +26,8 @@ class TomlReader {
   // InvalidArgument with the line if `text` is not TOML.
   static absl::StatusOr<TomlReader> Parse(std::string_view text);
 
+  bool Has(std::string_view table, std::string_view key) { return Find(table, key) != nullptr; }
+
   // A text; `absent` if the key is missing, which is a problem without an `absent`.
   std::string Text(std::string_view table, std::string_view key,
                    std::optional<std::string_view> absent = std::nullopt);

@@ -96,7 +96,7 @@ std::vector<UnitId> UnitsOf(const Campaign& campaign) {
 }
 
 UnitOrigin OriginOf(const Campaign& campaign) {
-  return {Hex(DigestOf(campaign.text)),
+  return {Hex(DigestOf(campaign.text + (campaign.sea ? campaign.sea->digest : ""))),
           absl::StrCat(std::string(Version()), " (", std::string(Commit()), ")"), InstructionSet()};
 }
 

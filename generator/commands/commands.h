@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "generator/campaign/traced_sea.h"
 #include "sea/wave_state.h"
 
 namespace albtpu {
@@ -43,15 +44,18 @@ absl::Status RunPlan(const PlanOptions& options);
 absl::Status RunKeys();
 
 struct PointOptions {
-  double wind_speed = 0;                                             // m/s
+  std::optional<SeaOfFile> sea;  // in place of wind, fetch and spectrum; it has the wind that was given
+  double wind_speed = 0;         // m/s
   double fetch = std::numeric_limits<double>::infinity();            // m
   std::string spectrum{WindSea().model->key};                        // of kSpectrumModels
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   double incidence = 0;                                              // degree
-  std::optional<double> azimuth;    // degree; without it, the worse of 0 and 90
-  double footprint = 0;             // m
-  std::vector<double> depth;        // m
-  std::string profile = "uniform";  // or "gaussian"
+  // Degrees from downwind, or from the x axis of `sea`. Without either, the worst of some directions.
+  std::optional<double> azimuth;
+  std::optional<double> beam_azimuth;  // degrees of the compass, of where the light travels; only with `sea`
+  double footprint = 0;                // m
+  std::vector<double> depth;           // m
+  std::string profile = "uniform";     // or "gaussian"
   double refractive_index = 1.33;
   double relative_error = 0.01;
   std::string estimator = "control_variate";  // or "plain"

@@ -5,9 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -21,13 +19,16 @@
 #include "command_line/standard_output.h"
 #include "command_line/usage_error.h"
 #include "generator/commands/commands.h"
-#include "sea/wave_state.h"
+#include "generator/commands/flags.h"
+#include "generator/commands/point_flags.h"
 #include "tables/version.h"
 
 namespace {
 
+using albtpu::AddThreads;
 using albtpu::EndHelp;
 using albtpu::Group;
+using albtpu::kWork;
 using albtpu::MergeOptions;
 using albtpu::PlanOptions;
 using albtpu::PointOptions;
@@ -37,46 +38,9 @@ using albtpu::ValidateOptions;
 using albtpu::WholeIn;
 
 // The headings under which --help lists options.
-constexpr char kFiles[] = "Files", kWork[] = "The computation";
+constexpr char kFiles[] = "Files";
 
 constexpr char kSeeKeys[] = "`albtpu-generate keys` describes the keys of a campaign file.";
-
-// A finite number in a range that includes both ends, or not `least` if `open_below`. CLI11 parses "nan" and "inf" as
-// numbers.
-CLI::Validator NumberIn(double least, double most, bool open_below = false) {
-  const std::string remedy = std::string("give a number ") + (open_below ? "above " : "from ") +
-                             CLI::detail::to_string(least) + (open_below ? " and up to " : " to ") +
-                             CLI::detail::to_string(most);
-  return CLI::Validator(
-      [=](std::string& text) -> std::string {
-        double x = 0;
-        const bool number = CLI::detail::lexical_cast(text, x);
-        if (number && std::isfinite(x) && x <= most && (open_below ? x > least : x >= least)) return {};
-        return "'" + text + "' is not a finite number in the range; " + remedy;
-      },
-      "", "number");
-}
-
-CLI::Validator Fetch() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        double x = 0;
-        if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
-        return "'" + text + "' is not a fetch; give metres above 0, or inf for a fully developed sea";
-      },
-      "", "fetch");
-}
-
-CLI::Validator Seed() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        std::int64_t seed = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-        if (error == std::errc() && end == text.data() + text.size() && seed >= 0) return {};
-        return "'" + text + "' is not a seed; give a whole number from 0 to 9223372036854775807";
-      },
-      "", "seed");
-}
 
 // "i/N" as a Shard, i from 0.
 std::optional<Shard> ParseShard(const std::string& text) {
@@ -88,12 +52,6 @@ std::optional<Shard> ParseShard(const std::string& text) {
   if (no_count != std::errc() || last != end || shard.index < 0 || shard.index >= shard.count)
     return std::nullopt;
   return shard;
-}
-
-void AddThreads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Number of threads (default: all cores)")
-      ->type_name("N")
-      ->check(WholeIn(1, 4096));
 }
 
 void AddTable(CLI::App& table, TableOptions& options, int& threads) {
@@ -159,67 +117,6 @@ void AddPlan(CLI::App& plan, PlanOptions& options, int& threads) {
   EndHelp(plan, kSeeKeys, "--campaign survey.toml", "--campaign survey.toml --cores 64");
 }
 
-void AddPoint(CLI::App& point, PointOptions& options, int& threads) {
-  point.add_option("--wind-speed", options.wind_speed, "Wind speed at 10 m above the sea [m/s]")
-      ->required()
-      ->check(NumberIn(0, 50, true));
-  point.add_option("--fetch", options.fetch, "Fetch [m], or inf for a fully developed sea (default)")
-      ->check(Fetch());
-  const std::vector<std::string> spectra(albtpu::kSpectrumKeys.begin(), albtpu::kSpectrumKeys.end());
-  std::string described;  // "apel (default) or elfouhaily"
-  for (const std::string& key : spectra) {
-    described += (described.empty() ? "" : " or ") + key + (key == options.spectrum ? " (default)" : "");
-  }
-  point.add_option("--spectrum", options.spectrum, "Spectrum of the waves: " + described)
-      ->check(albtpu::OneOf(spectra));
-  point
-      .add_option("--corrected-above", options.corrected_above,
-                  "Leave out waves longer than this [m]: the local slope corrects for them")
-      ->check(NumberIn(0.1, 1e6));
-  point.add_option("--incidence", options.incidence, "Angle of the beam from the vertical, in air [degree]")
-      ->required()
-      ->check(NumberIn(0, 60));
-  point
-      .add_option("--azimuth", options.azimuth,
-                  "Horizontal direction of the beam from downwind [degree] (default: the worse of 0 and 90)")
-      ->check(NumberIn(-1e6, 1e6));
-  point
-      .add_option("--footprint", options.footprint,
-                  "Diameter of the beam at the mean surface, across its axis [m]")
-      ->required()
-      ->check(NumberIn(0, 1000, true));
-  point.add_option("--depth", options.depth, "Depths below the surface, separated by commas [m]")
-      ->type_name("M,M")
-      ->required()
-      ->delimiter(',')
-      ->check(NumberIn(0, 1e4));
-  point.add_option("--profile", options.profile, "Irradiance across the beam: uniform (default) or gaussian")
-      ->check(albtpu::OneOf({"uniform", "gaussian"}));
-  point
-      .add_option("--refractive-index", options.refractive_index,
-                  "Refractive index of the water (default: 1.33)")
-      ->check(NumberIn(1.01, 2));
-  point
-      .add_option("--relative-error", options.relative_error,
-                  "Relative standard error of refraction, THU and TVU to reach (default: 0.01)")
-      ->check(NumberIn(1e-4, 0.5));
-  point
-      .add_option("--estimator", options.estimator,
-                  "control_variate (default), or plain for ray tracing alone")
-      ->check(albtpu::OneOf({"control_variate", "plain"}));
-  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
-      ->check(Seed());
-  point.add_flag("--json", options.json, "Print one JSON object");
-  AddThreads(point, threads);
-  Group(point, "The sea",
-        {"--wind-speed", "--fetch", "--spectrum", "--corrected-above", "--refractive-index"});
-  Group(point, "The pulse", {"--incidence", "--azimuth", "--footprint", "--depth", "--profile"});
-  Group(point, kWork, {"--relative-error", "--estimator", "--seed", "--threads"});
-  Group(point, "Output", {"--json"});
-  EndHelp(point, "", "--wind-speed 7 --incidence 12 --footprint 0.6 --depth 1,5,10,20",
-          "--wind-speed 7 --fetch 20000 --incidence 12 --azimuth 45 --footprint 0.6 --depth 10 --json");
-}
-
 void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
   validate.add_option("--output", options.output, "Folder for report.html, CSV files and figures")
       ->required()
@@ -227,7 +124,7 @@ void AddValidate(CLI::App& validate, ValidateOptions& options, int& threads) {
   validate.add_flag("--overwrite", options.overwrite, "Replace the files of an earlier report");
   validate.add_flag("--quick", options.quick, "Use fewer surfaces: two minutes on two cores instead of ten");
   validate.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
-      ->check(Seed());
+      ->check(albtpu::Seed());
   AddThreads(validate, threads);
   Group(validate, kFiles, {"--output", "--overwrite"});
   Group(validate, kWork, {"--quick", "--seed", "--threads"});
@@ -270,7 +167,7 @@ int Run(int argc, char** argv) {
 
   PointOptions point_options;
   CLI::App* point = app.add_subcommand("point", "Compute the uncertainty of one beam over one sea");
-  AddPoint(*point, point_options, threads);
+  albtpu::AddPoint(*point, point_options, threads);
 
   ValidateOptions validate_options;
   CLI::App* validate =

@@ -3,11 +3,19 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
-#include "generator/campaign/campaign.h"
+#include "absl/strings/str_split.h"
+#include "generator/campaign/traced_sea.h"
 #include "generator/commands/commands.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "sea/angle.h"
+#include "sea/table/sea_attributes.h"
 #include "sea/wave_state.h"
 
 namespace albtpu {
@@ -17,17 +25,28 @@ namespace {
 // the relative error is not reached.
 constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
 
-SeaCase SeaCaseAt(const PointOptions& options) {
+// The azimuths [degree, from the x axis] of the beams of which the worst is taken if none is given.
+std::vector<double> Azimuths(const PointOptions& options, const std::optional<TracedSea>& sea) {
+  if (options.azimuth) return {*options.azimuth};
+  if (options.beam_azimuth)
+    return {BeamAzimuth(*options.beam_azimuth, DegreesOfRadians(sea->described.x_azimuth))};
+  if (sea) return {0, 30, 60, 90, 120, 150};
+  return {0, 90};
+}
+
+SeaCase SeaCaseAt(const PointOptions& options, const std::optional<TracedSea>& sea) {
   SeaCase sea_case;
-  sea_case.sea = {.waves = WindSea{.wind_speed_10m = options.wind_speed,
-                                   .fetch = options.fetch,
-                                   .model = FindSpectrumModel(options.spectrum)},
-                  .corrected_above = options.corrected_above};
+  sea_case.sea.corrected_above = options.corrected_above;
+  if (sea) {
+    sea_case.sea.waves = sea->waves;
+  } else {
+    sea_case.sea.waves = WindSea{.wind_speed_10m = options.wind_speed,
+                                 .fetch = options.fetch,
+                                 .model = FindSpectrumModel(options.spectrum)};
+  }
   sea_case.refractive_index = options.refractive_index;
   sea_case.depths = options.depth;
-  const std::vector<double> azimuths =
-      options.azimuth ? std::vector<double>{*options.azimuth} : std::vector<double>{0, 90};
-  for (const double azimuth : azimuths) {
+  for (const double azimuth : Azimuths(options, sea)) {
     sea_case.beams.push_back({.incidence = RadiansOfDegrees(options.incidence),
                               .azimuth = RadiansOfDegrees(azimuth),
                               .footprint = options.footprint,
@@ -52,6 +71,12 @@ BeamUncertainty WorseOf(BeamUncertainty a, const BeamUncertainty& b) {
   return a;
 }
 
+BeamUncertainty WorstOf(const std::vector<BeamUncertainty>& beams) {
+  return std::accumulate(beams.begin() + 1, beams.end(), beams.front(), WorseOf);
+}
+
+bool KnowsAzimuth(const PointOptions& options) { return options.azimuth || options.beam_azimuth; }
+
 void AddToJson(nlohmann::ordered_json& json, const std::string& name,
                const std::vector<Estimate>& estimates) {
   std::vector<double> values, standard_errors;
@@ -63,8 +88,9 @@ void AddToJson(nlohmann::ordered_json& json, const std::string& name,
   json[name + "_standard_error"] = standard_errors;
 }
 
-void PrintJson(const PointOptions& options, const SeaCaseResult& result, double seconds) {
-  const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
+void PrintJson(const PointOptions& options, const std::optional<TracedSea>& sea, const SeaCaseResult& result,
+               double seconds) {
+  const BeamUncertainty beam = WorstOf(result.beams);
   nlohmann::ordered_json json;
   const auto add_angle = [&](const std::string& name, const Estimate& estimate) {
     json[name] = DegreesOfRadians(estimate.value);
@@ -77,22 +103,34 @@ void PrintJson(const PointOptions& options, const SeaCaseResult& result, double 
   AddToJson(json, "tvu", beam.tvu);
   AddToJson(json, "bias_along_beam", beam.bias_along_beam);
   AddToJson(json, "bias_vertical", beam.bias_vertical);
-  json["azimuth_absent"] = !options.azimuth.has_value();
+  json["azimuth_absent"] = !KnowsAzimuth(options);
+  if (sea) json["x_azimuth"] = DegreesOfRadians(sea->described.x_azimuth);
   json["realizations"] = result.realizations;
   json["seconds"] = seconds;
   std::cout << json.dump() << '\n';
 }
 
-void PrintText(const PointOptions& options, const SeaCaseResult& result) {
-  const BeamUncertainty beam = WorseOf(result.beams.front(), result.beams.back());
+void PrintText(const PointOptions& options, const std::optional<TracedSea>& sea,
+               const SeaCaseResult& result) {
+  const BeamUncertainty beam = WorstOf(result.beams);
   const auto angle = [](const char* name, const Estimate& estimate) {
     std::printf("%-22s %8.4f +- %.4f degree\n", name, DegreesOfRadians(estimate.value),
                 DegreesOfRadians(estimate.standard_error));
   };
-  if (!options.azimuth)
-    std::printf("azimuth not given: each value is the larger of those at 0 and 90 degrees\n");
-  std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n",
-              result.realizations);
+  if (sea) {
+    std::printf("the x axis (\"along wind\") points to %.1f degrees of the compass\n",
+                DegreesOfRadians(sea->described.x_azimuth));
+  }
+  if (!KnowsAzimuth(options)) {
+    std::printf("azimuth not given: each value is the %s degrees\n",
+                sea ? "largest of those at 0, 30, ..., 150" : "larger of those at 0 and 90");
+  }
+  if (result.realizations == 0) {
+    std::printf("2 sigma, sea surface only; there are no waves, all values are exact\n");
+  } else {
+    std::printf("2 sigma, sea surface only; +- is one standard error of %d realizations\n",
+                result.realizations);
+  }
   angle("refraction along wind", beam.refraction_along_wind);
   angle("refraction cross wind", beam.refraction_cross_wind);
   std::printf("\n%8s  %-19s %-19s %-21s %-21s\n", "depth m", "THU m", "TVU m", "bias along beam m",
@@ -112,8 +150,21 @@ absl::Status RunPoint(const PointOptions& options) {
                       .most_realizations = kMostRealizations,
                       .relative_error = options.relative_error,
                       .estimator = *FindEstimator(options.estimator)};
+  std::optional<TracedSea> sea;
+  if (options.sea) {
+    absl::StatusOr<TracedSea> read = ReadTracedSea(*options.sea);
+    if (!read.ok()) return read.status();
+    sea = *std::move(read);
+    if (const auto assumed = sea->attributes.find(std::string(sea_attribute::kAssumptions));
+        assumed != sea->attributes.end()) {
+      const std::vector<std::string> sentences = absl::StrSplit(std::get<std::string>(assumed->second), '\n');
+      for (const std::string& sentence : sentences) {
+        std::cerr << "albtpu-generate: " << sentence << '\n';
+      }
+    }
+  }
   const auto start = std::chrono::steady_clock::now();
-  const SeaCaseResult result = Simulate(SeaCaseAt(options), effort, options.seed, 0);
+  const SeaCaseResult result = Simulate(SeaCaseAt(options, sea), effort, options.seed, 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.converged) {
     std::fprintf(
@@ -123,9 +174,9 @@ absl::Status RunPoint(const PointOptions& options) {
         options.relative_error, result.realizations);
   }
   if (options.json) {
-    PrintJson(options, result, seconds);
+    PrintJson(options, sea, result, seconds);
   } else {
-    PrintText(options, result);
+    PrintText(options, sea, result);
   }
   return absl::OkStatus();
 }

@@ -57,12 +57,13 @@ class AntitheticTracing final : public BeamTracing {
     for (std::size_t b = 0; b < rays.size(); ++b) {
       const BeamOptions& options = traced.beams[b];
       const Eigen::Vector2d per_height = rays[b].front().per_height();
-      PreparedBeam prepared{options,
-                            per_height,
-                            RayBundle(rays[b], n),
-                            Trace(rays[b], model.StillSurface(), n),
-                            EffectOfUnresolvedWaves(options, n, traced.unresolved_slopes),
-                            {}};
+      PreparedBeam prepared{
+          options,
+          per_height,
+          RayBundle(rays[b], n),
+          Trace(rays[b], model.StillSurface(), n),
+          EffectOfUnresolvedWaves(options, n, traced.unresolved_slopes, traced.resolved_slopes),
+          {}};
       if (b > 0 && OneBeam(beams_.back().options, options)) {
         prepared.known = beams_.back().known;
       } else {

@@ -19,6 +19,7 @@ struct TracedBeams {
   double refractive_index;
   int rays;                           // of each beam
   Eigen::Matrix2d unresolved_slopes;  // slope covariance of the waves shorter than the grid
+  Eigen::Matrix2d resolved_slopes;    // of the facets
 };
 
 // Immutable.

@@ -123,10 +123,11 @@ class ControlVariates {
   static Eigen::ArrayXd Along(const Eigen::Vector2d& direction, const Eigen::ArrayX2d& vectors) {
     return direction.x() * vectors.col(0) + direction.y() * vectors.col(1);
   }
-  // The mean square over both parts of an error that is even - odd on the surfaces of parts[0] and even + odd on the
-  // inverted ones. The product of odd and even has the expectation zero.
-  Eigen::ArrayXd Squared(const Eigen::ArrayXd& odd, const Eigen::ArrayXd& even) const {
-    return odd.square() + even.square() - 2 * imbalance_ * odd * even;
+  // The mean square over both parts, were their shares equal, of an error that is even - odd on the surfaces of
+  // parts[0] and even + odd on the inverted ones. Unequal shares subtract 2 imbalance odd even, which is left to
+  // tracing: as the imbalance is linear in the slopes, the expectation of the product is not zero.
+  static Eigen::ArrayXd Squared(const Eigen::ArrayXd& odd, const Eigen::ArrayXd& even) {
+    return odd.square() + even.square();
   }
 
   std::optional<KnownSlopes> known_;

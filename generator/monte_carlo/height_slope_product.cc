@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "generator/math/fft.h"
-
 namespace albtpu {
 namespace {
 
@@ -66,7 +64,10 @@ double SumOver(const Eigen::MatrixXd& power, const Waves& waves) {
 }  // namespace
 
 HeightSlopeProduct::HeightSlopeProduct(const SurfaceCorrelation& correlation, double spacing)
-    : spacing_(spacing), reach_(correlation.reach() / 2), size_(FastSize(2 * correlation.reach() + 1)) {
+    : spacing_(spacing),
+      reach_(correlation.reach() / 2),
+      size_(FastSize(2 * correlation.reach() + 1)),
+      transform_(size_) {
   const SurfaceCorrelation::AtPoints& at = correlation.at_points();
   const std::array<const Eigen::MatrixXd*, 2> height_slope = {&at.height_x, &at.height_y};
   const std::array<const Eigen::MatrixXd*, 3> slopes = {&at.slope_xx, &at.slope_xy, &at.slope_yy};
@@ -89,16 +90,15 @@ Eigen::Matrix2d HeightSlopeProduct::Covariance(const BeamOptions& beam) const {
   const Eigen::MatrixXd shares = Shares(beam, spacing_, reach_);
   const Waves footprint = ForwardFft(Wrapped(shares, size_));
   const Eigen::MatrixXd power = footprint.cwiseAbs2();
-  const InverseFft transform(size_);
   const auto filtered = [&](const Waves& waves) {
-    InverseFft::Modes modes = transform.Allocate();
+    InverseFft::Modes modes = transform_.Allocate();
     for (Eigen::Index row = 0; row < waves.rows(); ++row) {
       for (Eigen::Index j = 0; j < waves.cols(); ++j) {
         // Conjugate: ForwardFft transforms a functional, and this is the transform of a function.
         modes[row * waves.cols() + j] = std::conj(waves(row, j)) * footprint(row, j);
       }
     }
-    return Centred(transform(std::move(modes)), size_, reach_);
+    return Centred(transform_(std::move(modes)), size_, reach_);
   };
   const Eigen::ArrayXXd height = filtered(height_);
   const std::array<Eigen::ArrayXXd, 2> height_slope = {filtered(height_slope_[0]),

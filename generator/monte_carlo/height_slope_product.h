@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "generator/math/fft.h"
 #include "generator/monte_carlo/surface_correlation.h"
 #include "generator/surface/beam.h"
 
@@ -39,6 +40,7 @@ class HeightSlopeProduct {
   double spacing_;
   int reach_;  // from the centre of the footprints to their edge, in cells
   int size_;
+  InverseFft transform_;
   Eigen::MatrixXcd height_;
   std::array<Eigen::MatrixXcd, 2> height_slope_;
   std::array<Eigen::MatrixXcd, 3> slopes_;    // xx, xy, yy, as in products_

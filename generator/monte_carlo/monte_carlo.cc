@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -32,25 +33,32 @@ bool HasConverged(const BeamUncertainty& beam, double relative_error) {
          std::all_of(beam.tvu.begin(), beam.tvu.end(), length_has_converged);
 }
 
-// The beams of the least and the greatest incidence, of which only one is needed at nadir. Slope fractions of beams in
-// between lie between theirs.
-std::vector<BeamOptions> Extremes(const std::vector<BeamOptions>& beams) {
-  const auto less = [](const BeamOptions& a, const BeamOptions& b) { return a.incidence < b.incidence; };
-  const auto [least, greatest] = std::minmax_element(beams.begin(), beams.end(), less);
-  std::vector<BeamOptions> extremes;
-  for (const BeamOptions& beam : beams) {
-    const bool nadir_again = beam.incidence == 0 && !extremes.empty() && extremes.back().incidence == 0;
-    if (!nadir_again && (beam.incidence == least->incidence || beam.incidence == greatest->incidence)) {
-      extremes.push_back(beam);
-    }
-  }
-  return extremes;
-}
-
 // The number of realizations to reach when `done` were not enough: half as many again, in whole batches.
 int NextCount(int done, const Effort& effort) {
   const int batches = std::max(1, done / 2 / kBatch);
   return std::min(done + batches * kBatch, effort.most_realizations);
+}
+
+// The slope covariance of the waves that the facets do not have, `all` less `facets`, with the same trace and no
+// negative variance in any direction. The two sides of a triangle are not at the same point: their slopes correlate
+// where those of the waves do not, and along one diagonal facets may have more slope than the waves.
+Eigen::Matrix2d UnresolvedSlopes(const Eigen::Matrix2d& all, const Eigen::Matrix2d& facets) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(all - facets);
+  const double trace = std::max(0.0, axes.eigenvalues().sum());
+  const double least = std::clamp(axes.eigenvalues()[0], 0.0, trace);
+  const Eigen::Vector2d variances(least, trace - least);
+  return axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+// The exact result without waves: nothing to draw, and no errors.
+SeaCaseResult InStillWater(const SeaCase& sea_case) {
+  const std::vector<Estimate> zeros(sea_case.depths.size());
+  const BeamUncertainty none{{}, {}, zeros, zeros, zeros, zeros, 0};
+  SeaCaseResult result;
+  result.beams.assign(sea_case.beams.size(), none);
+  result.footprint_slope_fraction = 1;
+  result.resolved_slope_fraction = 1;
+  return result;
 }
 
 }  // namespace
@@ -70,6 +78,8 @@ SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint6
                        std::uint32_t cell) {
   assert(!sea_case.beams.empty() && effort.realizations >= 2);
   const SeaState sea(sea_case.sea);
+  const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
+  if (all_slopes.trace() == 0) return InStillWater(sea_case);
   Discretization discretization =
       sea_case.discretization ? *sea_case.discretization : ChooseDiscretization(sea, sea_case.beams);
   if (sea_case.rays) discretization.rays = *sea_case.rays;
@@ -79,13 +89,12 @@ SeaCaseResult Simulate(const SeaCase& sea_case, const Effort& effort, std::uint6
   result.rays = discretization.rays;
   result.patch_length = model.patch().length();
   result.spacing = model.patch().spacing();
-  const Eigen::Matrix2d all_slopes = SlopeCovariance(sea);
   const Eigen::Matrix2d facet_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; });
   result.resolved_slope_fraction = facet_slopes.trace() / all_slopes.trace();
-  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, Extremes(sea_case.beams));
+  result.footprint_slope_fraction = FootprintSlopeFraction(sea, model, OutermostBeams(sea_case.beams));
 
   const TracedBeams traced{sea_case.beams, sea_case.refractive_index, discretization.rays,
-                           all_slopes - facet_slopes};
+                           UnresolvedSlopes(all_slopes, facet_slopes), facet_slopes};
   const bool collimated = std::isinf(sea_case.beams.front().source_height);
   const std::unique_ptr<BeamTracing> tracing = effort.estimator == Estimator::kControlVariate && collimated
                                                    ? MakeAntitheticTracing(model, traced)

@@ -44,9 +44,9 @@ struct SeaCase {
 
 struct SeaCaseResult {
   std::vector<BeamUncertainty> beams;
-  int realizations = 0;   // the most of any beam
+  int realizations = 0;   // the most of any beam; 0 for a sea without waves, whose result is exact
   bool converged = true;  // false when `most_realizations` was reached before `relative_error`
-  // The discretization of the surface.
+  // The discretization of the surface; 0 for a sea without waves.
   int rays = 0;
   double patch_length = 0, spacing = 0;  // m
   // Slope variance of the facets over the footprint, divided by that of the closed form; the least of the beams.

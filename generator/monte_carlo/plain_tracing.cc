@@ -15,7 +15,8 @@ class PlainTracing final : public BeamTracing {
       std::vector<Ray> rays = beam.Rays(0);
       TracedBeam still = Trace(rays, model.StillSurface(), refractive_index_);
       beams_.push_back({std::move(beam), std::move(rays), still,
-                        EffectOfUnresolvedWaves(options, refractive_index_, traced.unresolved_slopes)});
+                        EffectOfUnresolvedWaves(options, refractive_index_, traced.unresolved_slopes,
+                                                traced.resolved_slopes)});
     }
   }
 

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace albtpu {
 namespace {
 
-// Limits on variances. A reported deviation is the square root of a variance: half a per cent of variance is a quarter
-// of a per cent of the result. convergence_validation_test checks what comes out.
-constexpr double kGridLoss = 0.004;
-constexpr double kPatchDeparture = 0.005;
+// Limits on variances. A reported deviation is the square root of a variance: a tenth of a per cent of variance is half
+// of that of the result. convergence_validation_test checks what comes out.
+constexpr double kGridLoss = 0.0005;
+constexpr double kPatchDeparture = 0.0015;
 // AliasedSlopeVariance finds about half of the variance that doubling the rays was observed to remove.
 constexpr double kAliasedFraction = 0.0075;
 // The search starts at values that suffice for footprints narrower than the waves. Its ends limit the cost for
@@ -23,16 +25,14 @@ constexpr double kCoarsestPoints = 64, kFinestPoints = 256;  // along the footpr
 // observed to add 3 % to these errors, 4000 rays add 0.1 %.
 constexpr int kFewestRays = 4000;
 
-// The fraction of the slope variance over the footprint that is lost on facets with the side `spacing` [m]: all of the
-// waves shorter than two facets, and of the others the difference between slope and difference quotient.
+// The slope variance over the footprint, `seen` in all, that is lost on facets with the side `spacing` [m]: that of the
+// waves shorter than two facets along either axis.
 double GridLoss(const SeaState& sea, const BeamOptions& beam, double spacing, double seen) {
   const Eigen::Matrix2d facets = SlopeCovariance(sea, [&](double k, double psi) {
-    const double x = k * std::cos(psi) * spacing / 2, y = k * std::sin(psi) * spacing / 2;
-    if (std::max(std::abs(x), std::abs(y)) > std::numbers::pi / 2) return 0.0;
-    const double quotient = (std::pow(std::sin(x), 2) + std::pow(std::sin(y), 2)) / (x * x + y * y);
-    return FootprintPower(beam, k, psi) * quotient;
+    const double along_axis = k * std::max(std::abs(std::cos(psi)), std::abs(std::sin(psi)));
+    return along_axis * spacing > std::numbers::pi ? 0.0 : FootprintPower(beam, k, psi);
   });
-  return 1 - facets.trace() / seen;
+  return seen - facets.trace();
 }
 
 // The variance of a beam's mean slope that comes from waves too short for the spacing of its rays: each ray sees them
@@ -48,12 +48,36 @@ double SeenSlopeVariance(const SeaState& sea, const BeamOptions& beam) {
   return SlopeCovariance(sea, [&](double k, double psi) { return FootprintPower(beam, k, psi); }).trace();
 }
 
+// Whether the slope variances over the footprint of each beam, along and across the wind, agree with the closed form
+// within kPatchDeparture of half of `least`, the mean square slope that matters.
+bool HasTheSlopesSeen(const SeaState& sea, const SurfaceModel& model, const std::vector<BeamOptions>& beams,
+                      double least) {
+  return std::all_of(beams.begin(), beams.end(), [&](const BeamOptions& beam) {
+    const auto seen = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+    const Eigen::Matrix2d error = model.FacetSlopeCovariance(seen) - SlopeCovariance(sea, seen);
+    return error.diagonal().cwiseAbs().maxCoeff() <= kPatchDeparture * least / 2;
+  });
+}
+
 }  // namespace
 
 const BeamOptions& WidestBeam(const std::vector<BeamOptions>& beams) {
   assert(!beams.empty());
   return *std::max_element(beams.begin(), beams.end(),
                            [](const auto& a, const auto& b) { return a.incidence < b.incidence; });
+}
+
+std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams) {
+  assert(!beams.empty());
+  const auto narrower = [](const BeamOptions& a, const BeamOptions& b) {
+    return std::pair(a.incidence, a.azimuth) < std::pair(b.incidence, b.azimuth);
+  };
+  const auto wider = [](const BeamOptions& a, const BeamOptions& b) {
+    return std::pair(-a.incidence, a.azimuth) < std::pair(-b.incidence, b.azimuth);
+  };
+  return {*std::min_element(beams.begin(), beams.end(), narrower),
+          *std::min_element(beams.begin(), beams.end(), wider),
+          *std::max_element(beams.begin(), beams.end(), narrower)};
 }
 
 double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
@@ -68,22 +92,21 @@ double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
 
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams) {
   const BeamOptions& widest = WidestBeam(beams);
+  const std::vector<BeamOptions> outermost = OutermostBeams(beams);
   const double seen = SeenSlopeVariance(sea, widest);
   const double least = std::max(seen, kLeastSeenFraction * SlopeCovariance(sea).trace());
   Discretization choice{kNarrowestPatch, kCoarsestPoints, kFewestRays};
   while (choice.points_per_footprint < kFinestPoints &&
-         GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) * seen >
-             kGridLoss * least) {
+         GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) > kGridLoss * least) {
     choice.points_per_footprint *= 1.25;
   }
-  while (choice.patch_per_beam < kWidestPatch &&
-         std::abs(FootprintSlopeFraction(sea, SurfaceModel(sea, widest, choice), {widest}) - 1) * seen >
-             kPatchDeparture * least) {
+  std::optional<SurfaceModel> model(std::in_place, sea, widest, choice);
+  while (choice.patch_per_beam < kWidestPatch && !HasTheSlopesSeen(sea, *model, outermost, least)) {
     choice.patch_per_beam *= 1.25;
+    model.emplace(sea, widest, choice);
   }
-  const SurfaceModel model(sea, widest, choice);
   while (choice.rays < kMostRays &&
-         AliasedSlopeVariance(model, widest, choice.rays) > kAliasedFraction * least) {
+         AliasedSlopeVariance(*model, widest, choice.rays) > kAliasedFraction * least) {
     choice.rays = std::min(choice.rays * 5 / 4, kMostRays);
   }
   return choice;

@@ -19,16 +19,20 @@ inline constexpr int kMostRays = 64000;
 
 // The discretization with which doubling the patch, halving the spacing or doubling the rays changes refraction, THU
 // and TVU by less than 1 %. It starts coarse and refines
-//   * the grid, until the facets lose less than 0.4 % of the slope variance over the footprint (a footprint much wider
-//     than the waves averages them out except near its edge);
-//   * the patch, until the slope variance of modes and plane waves over the footprint agrees with the closed form
-//     within 0.5 %;
+//   * the grid, until the waves too short for it have less than 0.05 % of the slope variance over the footprint (a
+//     footprint much wider than the waves averages them out except near its edge);
+//   * the patch, until the slope variances of modes and plane waves over the footprint, along and across the wind,
+//     agree with the closed form within 0.15 % of their mean, for the outermost beams;
 //   * the rays, until waves too short for their spacing add less than some 1.5 % to that variance.
 // `beams` share footprint, profile and source; not empty.
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams);
 
 // The beam of the greatest incidence, whose footprint on the water is the widest.
 const BeamOptions& WidestBeam(const std::vector<BeamOptions>& beams);
+
+// A beam of the least incidence, and those of the greatest incidence with the least and the greatest azimuth. What a
+// footprint sees of the waves under the beams in between lies between theirs.
+std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams);
 
 // The slope variance of a surface's facets over the footprint, divided by that of the closed form; the least of all
 // beams.

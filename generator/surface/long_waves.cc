@@ -4,56 +4,71 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace albtpu {
 namespace {
 
-// Rings are narrow where the footprint sees more of a wave than a tilt, and wider for longer waves. Still narrower
-// rings change the slope variance within a footprint by less than 0.2 %.
-constexpr double kNarrowRing = 1.18;  // ratio of the outer to the inner wavenumber
-constexpr double kWideRing = 1.7;
-constexpr int kNarrowRings = 12;
-constexpr int kSectors = 12;  // of the half plane
+// Rings are narrow where the footprint sees more of a wave than a tilt, and wider for longer waves.
+constexpr double kNarrowRing = 1.39;  // ratio of the outer to the inner wavenumber
+constexpr double kWideRing = 2.89;
+constexpr int kNarrowRings = 6;
+// Of the half plane. A sum over equidistant directions is exact for harmonics below 2 kDirections: those of the
+// spreading, two more for the product of two slopes, and the few of the footprint's average.
+constexpr int kDirections = 12;
 
 // Gauss-Legendre nodes and weights of four points on (-1, 1); Abramowitz and Stegun, table 25.4.
 constexpr std::array<double, 4> kGaussNodes = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
                                                0.861136311594053};
 constexpr std::array<double, 4> kGaussWeights = {0.347854845137454, 0.652145154862546, 0.652145154862546,
                                                  0.347854845137454};
-constexpr int kPanels = 4;  // of each ring, because the spectral peak of a young sea is narrow
+constexpr int kPanels = 8;  // of each ring, because the spectral peak of a young sea is narrow
 
-// One wave with the variances of elevation and slope of a cell: a ring and a sector of the half plane, together with
-// their mirror image. Its wavenumber is the square root of the ratio of the two variances.
-LongWaveModel::Wave CellWave(const SeaState& sea, const CrossFade& patch_share, double k_inner,
-                             double k_outer, double psi, double d_psi) {
-  double elevation = 0, slope = 0;
+LongWaveModel::Wave WaveOfSlope(double log_k, double psi, double slope_variance) {
+  const double k = std::exp(log_k);
+  return {{k * std::cos(psi), k * std::sin(psi)}, slope_variance / (k * k)};
+}
+
+// Two waves for the waves of a ring that travel towards `psi` or back, `d_psi` wide. Their slope variance over ln k has
+// the first four moments of the ring's: they are the nodes of Gauss's quadrature of two points with the slope variance
+// as the weight. The mean of any cubic in ln k over the ring is thus exact.
+std::array<LongWaveModel::Wave, 2> RingWaves(const SeaState& sea, const CrossFade& patch_share,
+                                             double k_inner, double k_outer, double psi, double d_psi) {
+  std::array<double, 4 * kPanels> log_k, slope;
   const double panel = std::log(k_outer / k_inner) / kPanels;
-  for (int p = 0; p < kPanels; ++p) {
-    for (int a = 0; a < 4; ++a) {
-      const double k = k_inner * std::exp(panel * (p + 0.5 + 0.5 * kGaussNodes[a]));
-      const double ring = 0.5 * panel * kGaussWeights[a] * k * sea.S(k) * (1 - patch_share(k));
-      for (int b = 0; b < 4; ++b) {
-        const double direction = psi + 0.5 * d_psi * kGaussNodes[b];
-        const double power = 2 * ring * 0.5 * d_psi * kGaussWeights[b] * sea.FrozenSpreading(k, direction);
-        elevation += power;
-        slope += power * k * k;
-      }
-    }
+  for (int i = 0; i < 4 * kPanels; ++i) {
+    log_k[i] = std::log(k_inner) + panel * (i / 4 + 0.5 + 0.5 * kGaussNodes[i % 4]);
+    const double k = std::exp(log_k[i]);
+    slope[i] = 2 * d_psi * 0.5 * panel * kGaussWeights[i % 4] * k * k * k * sea.S(k) * (1 - patch_share(k)) *
+               sea.FrozenSpreading(k, psi);
   }
-  const double k = elevation > 0 ? std::sqrt(slope / elevation) : k_outer;
-  return {{k * std::cos(psi), k * std::sin(psi)}, elevation};
+  const double total = std::accumulate(slope.begin(), slope.end(), 0.0);
+  if (total == 0) return {WaveOfSlope(std::log(k_inner), psi, 0), WaveOfSlope(std::log(k_outer), psi, 0)};
+  const auto moment = [&](int power, double about) {
+    double sum = 0;
+    for (int i = 0; i < 4 * kPanels; ++i) sum += slope[i] * std::pow(log_k[i] - about, power);
+    return sum / total;
+  };
+  const double mean = moment(1, 0), second = moment(2, mean), third = moment(3, mean);
+  // The roots of x^2 - third / second x - second = 0, the polynomial orthogonal to 1 and x about the mean.
+  const double lean = 0.5 * third / second, root = std::sqrt(lean * lean + second);
+  const double below = lean - root, above = lean + root;
+  const double share_below = above / (above - below);
+  return {WaveOfSlope(mean + below, psi, share_below * total),
+          WaveOfSlope(mean + above, psi, (1 - share_below) * total)};
 }
 
 }  // namespace
 
 LongWaveModel::LongWaveModel(const SeaState& sea, const CrossFade& patch_share) {
   const double lowest = sea.energetic_range().lowest;
-  const double d_psi = std::numbers::pi / kSectors;
+  const double d_psi = std::numbers::pi / kDirections;
   double outer = patch_share.all_patch();
   for (int ring = 0; outer > lowest; ++ring) {
     const double inner = std::max(lowest, outer / (ring < kNarrowRings ? kNarrowRing : kWideRing));
-    for (int sector = 0; sector < kSectors; ++sector) {
-      waves_.push_back(CellWave(sea, patch_share, inner, outer, (sector + 0.5) * d_psi, d_psi));
+    for (int direction = 0; direction < kDirections; ++direction) {
+      const auto pair = RingWaves(sea, patch_share, inner, outer, (direction + 0.5) * d_psi, d_psi);
+      waves_.insert(waves_.end(), pair.begin(), pair.end());
     }
     outer = inner;
   }

@@ -8,6 +8,17 @@
 
 namespace albtpu {
 
+namespace {
+
+// The mean square slope of the grid's triangles over that of the wave, for mode (i, j): from 1 to 4 / pi^2 for the
+// shortest. A triangle has the difference quotient of a wave, sin(kx dx / 2) / (dx / 2), and not its slope kx.
+double SlopeOfTriangles(int i, int j, int size) {
+  const double x = std::numbers::pi * i / size, y = std::numbers::pi * j / size;
+  return (std::pow(std::sin(x), 2) + std::pow(std::sin(y), 2)) / (x * x + y * y);
+}
+
+}  // namespace
+
 WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, const CrossFade& share)
     : length_(length), size_(size), transform_(size) {
   assert(length > 0);
@@ -20,7 +31,8 @@ WavePatchModel::WavePatchModel(const SeaState& sea, double length, int size, con
       if (i == 0 && j == 0) continue;
       const double k = dk * std::hypot(i, j);
       if (share(k) == 0) continue;
-      power_[row * (size / 2 + 1) + j] = share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk;
+      power_[row * (size / 2 + 1) + j] =
+          share(k) * sea.Psi(k, std::atan2(j, i)) * dk * dk / SlopeOfTriangles(i, j, size);
     }
   }
 }

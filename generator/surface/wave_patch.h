@@ -38,8 +38,10 @@ class CrossFade {
 
 // The spectrum of the patch on its lattice of wavenumbers. Immutable; one model may draw on many threads at once.
 //
-// Mode (i, j) has the wavenumber (2 pi / length) (i, j) and the expected power share(k) Psi dkx dky. Modes at half the
-// sampling wavenumber are empty. The variance of the heights is exactly the sum of these powers.
+// Mode (i, j) has the wavenumber (2 pi / length) (i, j) and the expected power share(k) Psi dkx dky, raised by what the
+// slope of the grid's triangles is less than the wave's: where a wave spans only a few points, it is drawn higher, so
+// that the triangles have its mean square slope. Modes at half the sampling wavenumber are empty. The variance of the
+// heights is exactly the sum of these powers.
 class WavePatchModel {
  public:
   // `length` [m] above 0; `size` points along a side, even.

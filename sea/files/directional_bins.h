@@ -14,12 +14,14 @@ class DirectionalBins {
  public:
   static constexpr std::size_t kFewest = 8;
 
-  // The bins' compass directions [rad] in any order, at least kFewest. Bins are equal where all gaps between directions
-  // are within 10 % of a turn over their number: WAVEWATCH III rounds them to 0.01 rad. Otherwise a bin reaches to half
-  // way to its neighbours; at a gap of more than twice the median, the end of a sector, as far as on its other side.
+  // The bins' compass directions [rad] in any order, at least kFewest. Bins count as equally wide if all gaps between
+  // directions are within 10 % of their mean, because WAVEWATCH III rounds directions to 0.01 rad. Otherwise a bin
+  // reaches half way to its neighbours. A gap of more than twice the median is the end of a sector, at which a bin
+  // reaches as far as on its other side.
   explicit DirectionalBins(std::vector<double> directions);
 
-  // Harmonics 2 n with n below a quarter of the number of bins: they are told apart whatever the bins' phase.
+  // The number of harmonics 2 n, those with n below a quarter of the number of bins: bins can tell them apart, wherever
+  // the first one is. At most kSeaHarmonics.
   std::size_t harmonics() const { return harmonics_; }
   std::size_t size() const { return weights_.size(); }
 

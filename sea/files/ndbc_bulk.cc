@@ -8,17 +8,16 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/angle.h"
 #include "sea/files/ndbc_header.h"
+#include "sea/files/ndbc_spectra.h"
 #include "sea/files/sea_limits.h"
 #include "sea/files/text_lines.h"
 #include "sea/spectra/equilibrium_wind.h"
+#include "sea/spectra/jonswap.h"
 
 namespace albtpu {
 namespace {
-
-constexpr double kSwellGamma = 7;
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSwellSpread = 18 * kDegree;
 
 constexpr std::array<std::string_view, 16> kCompassPoints = {
     "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
@@ -67,7 +66,7 @@ class Reader {
     date_ = NdbcDateColumns(header);
     separated_ = Column(header, {"SwH"}) != kNone;
     series_.format = separated_ ? "an NDBC summary of spectra" : "NDBC standard meteorological data";
-    series_.record_length = 1200;
+    series_.record_length = kNdbcRecordLength;
     if (separated_) {
       waves_ = {{Column(header, {"WWH"}), Column(header, {"WWP"}), Column(header, {"WWD"})},
                 {Column(header, {"SwH"}), Column(header, {"SwP"}), Column(header, {"SwD"})}};
@@ -109,7 +108,7 @@ class Reader {
       if (!status.ok()) return status;
     if (!*height || !*period || **period == 0) return absl::OkStatus();
     if (**period < kShortestPeak)
-      return lines_.Error("a period is ", **period, " s (expected ", kShortestPeak, " to ", kLongestPeak,
+      return lines_.Error("has a period of ", **period, " s (expected ", kShortestPeak, " to ", kLongestPeak,
                           "); get another copy of the file");
     JonswapWaves waves{.significant_wave_height = **height, .peak_period = **period};
     if (swell) {
@@ -142,7 +141,7 @@ class Reader {
     if (column == kNone || words[column] == "MM") return std::nullopt;
     const auto value = ParseNumber(words[column]);
     if (!value || *value < 0)
-      return lines_.Error(Quoted(words[column]), " is no such value; get another copy of the file");
+      return lines_.Error(Quoted(words[column]), " is no number from 0; get another copy of the file");
     return *value >= missing ? std::nullopt : value;
   }
 
@@ -152,13 +151,13 @@ class Reader {
     if (column == kNone) return std::nullopt;
     const auto point = std::find(kCompassPoints.begin(), kCompassPoints.end(), words[column]);
     if (point != kCompassPoints.end())
-      return static_cast<double>(point - kCompassPoints.begin()) * 22.5 * kDegree;
+      return static_cast<double>(point - kCompassPoints.begin()) * RadiansOfDegrees(22.5);
     if (words[column] == "-99" || words[column] == "-") return std::nullopt;
     const auto degrees = Value(words, column, 999);
     if (!degrees.ok() || !*degrees) return degrees;
     if (**degrees > 360)
       return lines_.Error(Quoted(words[column]), " is no direction; get another copy of the file");
-    return **degrees * kDegree;
+    return RadiansOfDegrees(**degrees);
   }
 
   void SayWhatIsAssumed() {

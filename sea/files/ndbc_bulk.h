@@ -22,7 +22,7 @@ namespace albtpu {
 
 bool IsNdbcBulk(std::string_view first_line);
 
-// `anemometer_height` [m, 1 to 100] is that of stdmet's winds, which are brought to 10 m.
+// `anemometer_height` [m, 1 to 100] is that of stdmet's winds, which are converted to 10 m by WindSpeedAt10m().
 absl::StatusOr<SeaSeries> ReadNdbcBulk(std::string_view text, double anemometer_height = 10);
 
 }  // namespace albtpu

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "sea/files/text_lines.h"
+#include "sea/sea_time.h"
 
 namespace albtpu {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/angle.h"
 #include "sea/files/ndbc_table.h"
 
 namespace albtpu {
@@ -32,7 +32,7 @@ absl::StatusOr<std::optional<NdbcTable>> ReadCompanion(const std::optional<std::
   if (table->real_time != real_time)
     return absl::InvalidArgumentError(absl::StrCat("beside it, ", name, ": is ",
                                                    real_time ? "of the history" : "in real time",
-                                                   " unlike the file of energy; give files of one kind"));
+                                                   " (unlike the file of energy); give files of one kind"));
   return std::optional(*std::move(table));
 }
 
@@ -62,7 +62,7 @@ DirectionalEnergy Bin(double energy, const std::pair<const NdbcRow*, const NdbcR
   if (spread == nullptr || direction == nullptr || std::isnan(spread->values[i]) ||
       std::isnan(direction->values[i]))
     return {.energy = energy};
-  return SymmetricEnergy(energy, {spread->values[i]}, direction->values[i] * std::numbers::pi / 180);
+  return SymmetricEnergy(energy, {spread->values[i]}, RadiansOfDegrees(direction->values[i]));
 }
 
 bool IsDirectional(const std::pair<const NdbcRow*, const NdbcRow*>& at) {

@@ -9,13 +9,14 @@
 
 namespace albtpu {
 
-// Where the waves of NDBC's 3 m discus buoys can be trusted to, Hz: above, the hull hardly follows them.
+// The frequency [Hz] up to which waves of NDBC's 3 m discus buoys are trusted: above it the hull hardly follows them.
 inline constexpr double kNdbcTrustedUpTo = 0.4;
 
-// s over which NDBC measures waves each hour.
+// The time [s] over which NDBC measures the waves of an hour: 20 minutes,
+// https://www.ndbc.noaa.gov/faq/measdes.shtml.
 inline constexpr double kNdbcRecordLength = 1200;
 
-// The texts of the files; absent ones leave the waves isotropic, which `assumed` says.
+// The texts of the files. Without the last two, the waves are isotropic, and SeaSeries::assumed says so.
 struct NdbcTexts {
   std::string_view energy;                                                            // .data_spec, or w
   std::optional<std::string_view> spread = {};                                        // r2: .swr2, or k

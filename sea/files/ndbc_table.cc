@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "sea/files/ndbc_header.h"
 #include "sea/files/sea_limits.h"
 #include "sea/files/text_lines.h"
@@ -22,7 +23,7 @@ struct Quantity {
 };
 
 constexpr std::array kQuantities = {
-    Quantity{NdbcQuantity::kEnergy, "spec_1", "spectral density", 1e6},
+    Quantity{NdbcQuantity::kEnergy, "spec_1", "spectral density", kGreatestDensity},
     Quantity{NdbcQuantity::kFirstDirection, "alpha1_1", "alpha1", 360},
     Quantity{NdbcQuantity::kDirection, "alpha2_1", "alpha2", 360},
     Quantity{NdbcQuantity::kFirstSpread, "r1_1", "r1", 100},
@@ -56,6 +57,10 @@ class Reader {
           "its values are whole numbers (those of directions and spreads are); give the file of energy, with "
           "w before "
           "the year in its name");
+    if (!table_.real_time && IsSpread(expected_.quantity) && largest_ > 0 && largest_ <= 1)
+      return absl::InvalidArgumentError(absl::StrCat("its largest ", expected_.name, " is ", largest_,
+                                                     " (the history has hundredths, up to 100); multiply ",
+                                                     expected_.name, " by 100"));
     return std::move(table_);
   }
 
@@ -64,7 +69,8 @@ class Reader {
     const std::vector<std::string_view> words = Words(line);
     date_ = NdbcDateColumns(words);
     if (date_.count == 0)
-      return lines_.Error("begins with ", Quoted(line), " (expected the header of an NDBC file)");
+      return lines_.Error("begins with ", Quoted(line),
+                          " (expected the header of an NDBC file); get another copy of the file");
     table_.real_time = line.find("(freq_1)") != line.npos;
     if (!table_.real_time) return ReadFrequencies(words);
     for (const Quantity& quantity : kQuantities) {
@@ -163,6 +169,7 @@ class Reader {
       return lines_.Error(Quoted(word), " is no ", expected_.name, " (expected 0 to ",
                           IsSpread(expected_.quantity) && table_.real_time ? 1 : expected_.largest,
                           "); check which file has which quantity");
+    largest_ = std::max(largest_, *value);
     row.values.push_back(IsSpread(expected_.quantity) && !table_.real_time ? *value / 100 : *value);
     return absl::OkStatus();
   }
@@ -174,6 +181,7 @@ class Reader {
   NdbcTable table_{};
   std::size_t values_ = 0;
   bool has_decimals_ = false;
+  double largest_ = 0;  // value, in the unit of the file
 };
 
 }  // namespace

@@ -47,8 +47,8 @@ struct NdbcTable {
 // Whether the first line of a text is that of such a table.
 bool IsNdbcTable(std::string_view first_line);
 
-// `expected` is what the file should have: in real time the file states it, in the history only its values can
-// contradict.
+// `expected` is the quantity that the file should have. Files in real time state theirs. Files of the history do not:
+// they are refused where their values cannot be those of the quantity, such as r2 in fractions.
 absl::StatusOr<NdbcTable> ReadNdbcTable(std::string_view text, NdbcQuantity expected);
 
 }  // namespace albtpu

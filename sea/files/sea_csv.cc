@@ -3,18 +3,18 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/angle.h"
 #include "sea/files/sea_limits.h"
 #include "sea/files/text_lines.h"
+#include "sea/sea_time.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kMostCsvHarmonics = 32;
 
 std::string_view Trimmed(std::string_view cell) {
@@ -33,24 +33,6 @@ std::vector<std::string_view> Cells(std::string_view line) {
 }
 
 bool IsComment(std::string_view line) { return Trimmed(line).empty() || Trimmed(line).front() == '#'; }
-
-// "2020-06-08T03:50Z", with seconds or not.
-std::optional<double> SecondsOfIso(std::string_view text) {
-  if (text.size() != 17 && text.size() != 20) return std::nullopt;
-  constexpr std::string_view kForm = "0000-00-00T00:00:00Z";
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    const bool digit = text[i] >= '0' && text[i] <= '9';
-    if (kForm[i] == '0' ? !digit : text[i] != kForm[i]) return std::nullopt;
-  }
-  if (text.back() != 'Z') return std::nullopt;
-  const auto part = [&](std::size_t from, std::size_t size) { return *ParseCount(text.substr(from, size)); };
-  return SecondsOf({.year = part(0, 4),
-                    .month = part(5, 2),
-                    .day = part(8, 2),
-                    .hour = part(11, 2),
-                    .minute = part(14, 2),
-                    .second = text.size() == 20 ? part(17, 2) : 0});
-}
 
 class Reader {
  public:
@@ -101,8 +83,10 @@ class Reader {
                           "); complete it");
     if (++values_ > kMostSeaValues / 16) return lines_.Error("is one line too many; split the file");
     if (timed_) {
-      const auto time = SecondsOfIso(cells[0]);
-      if (!time) return lines_.Error(Quoted(cells[0]), " is no time such as 2020-06-08T03:50Z");
+      const auto time = ParseSeaTime(cells[0]);
+      if (!time)
+        return lines_.Error(Quoted(cells[0]),
+                            " is no time (expected UTC such as 2020-06-08T03:50Z); correct it");
       if (!axis_.empty() && time != time_)
         if (absl::Status status = Finish(); !status.ok()) return status;
       time_ = time;
@@ -115,8 +99,8 @@ class Reader {
         return lines_.Error(Quoted(cell), " is no number; correct it");
     }
     const double at = *numbers[0];
-    const double lowest = by_frequency_ ? kLowestFrequency : 1e-6,
-                 highest = by_frequency_ ? kHighestFrequency : 1e6;
+    const double lowest = by_frequency_ ? kLowestFrequency : kLowestWavenumber,
+                 highest = by_frequency_ ? kHighestFrequency : kHighestWavenumber;
     if (!(at >= lowest && at <= highest))
       return lines_.Error(by_frequency_ ? "f" : "k", " is ", at, " (expected ", lowest, " to ", highest,
                           "); correct it");
@@ -124,10 +108,10 @@ class Reader {
       return lines_.Error(by_frequency_ ? "f" : "k", " is ", at,
                           " (expected more than the line before); sort the lines");
     if (axis_.size() == kMostFrequencies)
-      return lines_.Error("is one line too many (at most ", kMostFrequencies, ")");
-    if (!(*numbers[1] >= 0 && *numbers[1] < 1e12))
-      return lines_.Error(by_frequency_ ? "E" : "S", " is ", *numbers[1],
-                          " (expected 0 or more); correct it");
+      return lines_.Error("is one line too many (at most ", kMostFrequencies, " in a sea); write wider bins");
+    if (!(*numbers[1] >= 0 && *numbers[1] <= kGreatestDensity))
+      return lines_.Error(by_frequency_ ? "E" : "S", " is ", *numbers[1], " (expected 0 to ",
+                          kGreatestDensity, "); correct it");
     axis_.push_back(at);
     return by_frequency_ ? AddBin(numbers) : AddSample(numbers);
   }
@@ -135,10 +119,11 @@ class Reader {
   absl::Status AddBin(const std::vector<std::optional<double>>& numbers) {
     const bool directional = numbers.size() == 4 && numbers[2] && numbers[3];
     if (directional && !(*numbers[2] >= 0 && *numbers[2] <= 1))
-      return lines_.Error("r2 is ", *numbers[2], " (expected 0 to 1); divide hundredths by 100");
+      return lines_.Error("r2 is ", *numbers[2],
+                          " (expected a fraction from 0 to 1); divide r2 by 100 if it is in hundredths");
     if (directional && !(std::abs(*numbers[3]) <= 360))
-      return lines_.Error("alpha2 is ", *numbers[3], " (expected 0 to 360 degrees); correct it");
-    bins_.push_back(directional ? SymmetricEnergy(*numbers[1], {*numbers[2]}, *numbers[3] * kDegree)
+      return lines_.Error("alpha2 is ", *numbers[3], " (expected -360 to 360 degrees); correct it");
+    bins_.push_back(directional ? SymmetricEnergy(*numbers[1], {*numbers[2]}, RadiansOfDegrees(*numbers[3]))
                                 : DirectionalEnergy{.energy = *numbers[1]});
     return absl::OkStatus();
   }
@@ -147,9 +132,9 @@ class Reader {
     whole_.s.push_back(*numbers[1]);
     for (std::size_t n = 0; n < whole_.a.size(); ++n) {
       const double a = *numbers[2 + 2 * n], b = *numbers[3 + 2 * n];
-      if (!(std::hypot(a, b) <= 1 + 1e-6))
+      if (!(std::hypot(a, b) <= 1 + kHarmonicRounding))
         return lines_.Error("harmonic ", 2 * n + 2, " is ", a, ", ", b,
-                            " (expected a length up to 1); divide by S");
+                            " (expected a length up to 1); divide a and b by S");
       whole_.a[n].push_back(a);
       whole_.b[n].push_back(b);
     }
@@ -159,8 +144,7 @@ class Reader {
   // Ends the record whose lines were read.
   absl::Status Finish() {
     if (axis_.size() < 2)
-      return lines_.Error("ends a sea of ", axis_.size(),
-                          " lines (expected at least 2); give a sea with more");
+      return lines_.Error("ends a sea of ", axis_.size(), " lines (expected at least 2); add lines");
     SeaRecord record{.time = time_};
     if (by_frequency_) {
       const double last = axis_.back();

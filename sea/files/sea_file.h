@@ -1,4 +1,4 @@
-// A file of the sea of any kind that this room reads; what it is, its first line says.
+// Reads a file of the sea in any format of this room. Its first line tells the format.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ struct SeaFileOptions {
   double anemometer_height = 10;  // m above the water, 1 to 100, of the winds in NDBC's meteorological data
 };
 
-// Reads the file, inflated if its contents are gzip's, and what belongs to it: beside NDBC's NAME.data_spec NAME.swr2
-// and NAME.swdir2, beside the history's 41010w2019.txt.gz 41010k2019.txt.gz and 41010i2019.txt.gz. Errors do not name
-// the file.
+// Reads the file, compressed by gzip or not, and the files beside it that belong to it: with NDBC's NAME.data_spec,
+// NAME.swr2 and NAME.swdir2; with 41010w2019.txt.gz of the history, 41010k2019.txt.gz and 41010i2019.txt.gz. Errors do
+// not name `path`.
 absl::StatusOr<SeaSeries> ReadSeaFile(const std::filesystem::path& path, const SeaFileOptions& options = {});
 
 // The same of a text in memory, which has nothing beside it.

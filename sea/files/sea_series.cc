@@ -50,7 +50,7 @@ DescribedSea Describe(const SeaRecord& record, SeaDescription told) {
   told = Merged(record, std::move(told));
   DescribedSea sea;
   sea.spectrum = sea.resolved = Resampled(**whole, SeaWavenumbers());
-  sea.x_azimuth = told.wind_from ? *told.wind_from + std::numbers::pi : 0;
+  sea.x_azimuth = told.wind_from ? FullTurn(*told.wind_from + std::numbers::pi) : 0;
   sea.wind_speed_10m = told.wind_speed_10m.value_or(0);
   sea.water_depth = told.water_depth.value_or(sea.water_depth);
   return sea;

@@ -1,4 +1,4 @@
-// What a file says of the sea: states of it at times and places, however they were measured or computed.
+// The contents of a file of the sea: its states at times and places, measured or computed.
 #pragma once
 
 #include <cstddef>
@@ -40,14 +40,15 @@ struct SeaSeries {
   std::string format;  // "an NDBC file of spectra", for messages
   std::vector<SeaPoint> points = {{}};
   std::vector<SeaRecord> records = {};    // at least one; times increase at each point
-  std::vector<std::string> assumed = {};  // sentences on what the file left open and what was left out
+  std::vector<std::string> assumed = {};  // sentences on what was assumed and what was left out
   double record_length = std::numeric_limits<double>::infinity();  // s, of a measurement; infinity for models
 };
 
-// The sea of a record. What `told` has, counts more than what the record has; its `waves` are not used.
+// The sea of a record. Where `told` and the record both have a number, that of `told` counts; the `waves` of `told` are
+// not used.
 DescribedSea Describe(const SeaRecord& record, SeaDescription told = {});
 
-// What Describe() above hands to Describe() of sea/spectra. Not for a WholeSea, which is complete.
+// The description of that sea. Not for a WholeSea, which is complete.
 SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription told = {});
 
 // Sorts records by point and time. Of records for the same point and time the first one stays; `assumed` says so.

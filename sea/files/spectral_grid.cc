@@ -22,8 +22,8 @@ absl::StatusOr<SpectralGrid> SpectralGrid::Make(std::vector<double> frequencies,
     const bool increases = i == 0 || frequencies[i] > frequencies[i - 1];
     if (!(increases && frequencies[i] >= kLowestFrequency && frequencies[i] <= kHighestFrequency))
       return absl::InvalidArgumentError(
-          absl::StrCat("the frequencies do not increase from above 0 Hz at the ", i + 1, "th, ",
-                       frequencies[i], " Hz; get another copy of the file"));
+          absl::StrCat("frequency ", i + 1, " is ", frequencies[i], " Hz (expected ", kLowestFrequency,
+                       " to ", kHighestFrequency, " Hz, increasing); get another copy of the file"));
   }
   return SpectralGrid(std::move(frequencies), std::move(directions));
 }
@@ -36,9 +36,10 @@ absl::StatusOr<BinnedWaves> SpectralGrid::WavesOf(std::span<const double> densit
   for (std::size_t f = 0; f < f_count; ++f) {
     for (std::size_t d = 0; d < d_count; ++d) {
       at_f[d] = densities[order == Order::kFrequencyFirst ? d * f_count + f : f * d_count + d];
-      if (!(at_f[d] >= 0 && at_f[d] < 1e9))
+      if (!(at_f[d] >= 0 && at_f[d] <= kGreatestDensity))
         return absl::InvalidArgumentError(absl::StrCat("the spectrum that ends here has a density of ",
-                                                       at_f[d], "; get another copy of the file"));
+                                                       at_f[d], " m2/Hz/rad (expected 0 to ",
+                                                       kGreatestDensity, "); get another copy of the file"));
     }
     energies.push_back(bins_.Sum(at_f));
   }

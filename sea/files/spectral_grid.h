@@ -13,7 +13,7 @@ namespace albtpu {
 
 class SpectralGrid {
  public:
-  // Which index runs fastest.
+  // The index that varies fastest in a list of densities.
   enum class Order { kFrequencyFirst, kDirectionFirst };
 
   // Frequencies [Hz] increase, at least two; directions [rad] of the compass, at least DirectionalBins::kFewest.

@@ -1,10 +1,12 @@
 #include "sea/files/swan_spectra.h"
 
+#include <algorithm>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/angle.h"
 #include "sea/files/sea_limits.h"
 #include "sea/files/spectral_grid.h"
 #include "sea/files/word_stream.h"
@@ -12,7 +14,6 @@
 namespace albtpu {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSwanWeight = 1025 * 9.81;  // N/m^3, by which SWAN turns variance into energy
 
 class Reader {
@@ -28,7 +29,7 @@ class Reader {
     if (words_.lines().cut()) return words_.lines().CutError();
     if (series_.records.empty()) return absl::InvalidArgumentError("it has no spectrum; give another file");
     series_.assumed.push_back(
-        "waves are taken from the model up to its highest frequency; there is no current");
+        "waves are taken from the model up to its highest frequency; currents are left out");
     if (without_data_ > 0)
       series_.assumed.push_back(absl::StrCat(without_data_, " spectra have no data and are left out"));
     SortByTime(series_);
@@ -61,7 +62,8 @@ class Reader {
       if (!line) return words_.lines().CutError();
       const std::vector<std::string_view> words = Words(*line);
       const auto x = ParseNumber(words[0]), y = words.size() > 1 ? ParseNumber(words[1]) : std::nullopt;
-      if (!x || !y) return words_.lines().Error("has no two coordinates; get another copy of the file");
+      if (!x || !y)
+        return words_.lines().Error("does not begin with two coordinates; get another copy of the file");
       SeaPoint point{.name = words.size() > 2 ? std::string(words[2]) : std::string()};
       if (geographic) {
         point.longitude = *x;
@@ -82,7 +84,12 @@ class Reader {
     if (!cartesian && keyword_ != "NDIR") return Unexpected("NDIR or CDIR");
     auto directions = ReadAxis("a direction");
     if (!directions.ok()) return directions.status();
-    for (double& direction : *directions) direction = (cartesian ? 90 - direction : direction) * kDegree;
+    const auto [least, largest] = std::minmax_element(directions->begin(), directions->end());
+    if (*largest - *least <= 2 * std::numbers::pi)
+      return words_.lines().Error("the directions reach from ", *least, " to ", *largest,
+                                  " degrees (a turn in radians is as wide); write directions in degrees");
+    for (double& direction : *directions)
+      direction = RadiansOfDegrees(cartesian ? 90 - direction : direction);
     absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*std::move(frequencies), *std::move(directions));
     if (!grid.ok()) return words_.lines().Error(grid.status().message());
     grid_ = *std::move(grid);
@@ -98,7 +105,9 @@ class Reader {
       const auto line = words_.NextLine();
       if (!line) return words_.lines().CutError();
       const auto number = ParseNumber(Words(*line)[0]);
-      if (!number) return words_.lines().Error(Quoted(*line), " is not ", std::string(what));
+      if (!number)
+        return words_.lines().Error(Quoted(*line), " is not ", std::string(what),
+                                    "; get another copy of the file");
       axis.push_back(*number);
     }
     if (absl::Status status = NextKeyword(); !status.ok()) return status;
@@ -117,7 +126,7 @@ class Reader {
       return words_.lines().Error(
           "states ", Quoted(quantity), " in ", Quoted(keyword_),
           " (expected VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr); write spectra of variance");
-    unit_ = (energy ? 1 / kSwanWeight : 1) / kDegree;
+    unit_ = DegreesOfRadians(energy ? 1 / kSwanWeight : 1);
     const auto exception = words_.Numbers(1, "an exception value");
     if (!exception.ok()) return exception.status();
     exception_ = exception->front();
@@ -133,8 +142,9 @@ class Reader {
         if (first.size() == 15 && first[8] == '.')
           time = SecondsOfDigits(first.substr(0, 8), first.substr(9));
         if (!time)
-          return words_.lines().Error(Quoted(*line),
-                                      " is no date and time such as 20161011.000000; get another copy");
+          return words_.lines().Error(
+              Quoted(*line),
+              " is no date and time (expected one such as 20161011.000000); get another copy of the file");
       }
       for (std::size_t point = 0; point < series_.points.size(); ++point) {
         if (timed_ || point > 0) {
@@ -172,8 +182,9 @@ class Reader {
       if (!waves.ok()) return words_.lines().Error(waves.status().message());
       record.waves = *std::move(waves);
     } else {
-      return words_.lines().Error(Quoted(keyword),
-                                  " is none of FACTOR, ZERO and NODATA; get another copy of the file");
+      return words_.lines().Error(
+          Quoted(keyword),
+          " begins no spectrum (expected FACTOR, ZERO or NODATA); get another copy of the file");
     }
     values_ += 16 + std::get<BinnedWaves>(record.waves)->size() * (1 + 2 * kSeaHarmonics);
     if (values_ > kMostSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
@@ -197,8 +208,7 @@ class Reader {
     const auto count = ParseCount(keyword_);
     if (!count || *count < 1 || static_cast<std::size_t>(*count) > most)
       return words_.lines().Error("states ", Quoted(keyword_), " (expected ",
-                                  most == 1 ? "1" : absl::StrCat("1 to ", most),
-                                  "); write the file otherwise");
+                                  most == 1 ? "1" : absl::StrCat("1 to ", most), "); write the file anew");
     return static_cast<std::size_t>(*count);
   }
 

@@ -4,26 +4,14 @@
 #include <cmath>
 #include <string>
 
+#include "sea/sea_time.h"
+
 namespace albtpu {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-// Days since 1970-01-01 in the Gregorian calendar, for years from 1900.
-int DaysSince1970(int year, int month, int day) {
-  constexpr int kBefore[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
-  const int last = month > 2 ? year : year - 1;  // whose leap day has passed
-  const int leap_days = last / 4 - last / 100 + last / 400;
-  return 365 * (year - 1970) + leap_days - 477 + kBefore[month - 1] + day - 1;
-}
-
-int DaysOf(int month, int year) {
-  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  return month == 2 && leap ? 29 : kDays[month - 1];
-}
 
 }  // namespace
 
@@ -93,16 +81,6 @@ std::optional<int> ParseCount(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
-}
-
-std::optional<double> SecondsOf(const CivilTime& time) {
-  if (time.year < 1900 || time.year > 2200 || time.month < 1 || time.month > 12) return std::nullopt;
-  if (time.day < 1 || time.day > DaysOf(time.month, time.year)) return std::nullopt;
-  if (time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59 || time.second < 0 ||
-      time.second > 59)
-    return std::nullopt;
-  return 86400.0 * DaysSince1970(time.year, time.month, time.day) + 3600.0 * time.hour + 60.0 * time.minute +
-         time.second;
 }
 
 std::optional<double> SecondsOfDigits(std::string_view date, std::string_view time_of_day) {

@@ -13,7 +13,7 @@ namespace albtpu {
 
 class TextLines {
  public:
-  // What a last line without an end is. Texts of fixed columns often have one.
+  // How a last line without a line feed is taken. Texts of fixed columns often end so.
   enum class LastLine {
     kIsCut,
     kMayEndAtColumn,  // whole if a word of the line before ends at the same column
@@ -22,7 +22,8 @@ class TextLines {
   explicit TextLines(std::string_view text, LastLine last_line = LastLine::kIsCut)
       : rest_(text), last_line_(last_line) {}
 
-  // The next line without its end; nullopt after the last one. A last line that was cut is not given: cut() is true.
+  // The next line without its end; nullopt after the last one. A last line that was cut is not returned, and cut() is
+  // true from then on.
   std::optional<std::string_view> Next();
 
   std::size_t number() const { return number_; }  // of the line that Next() gave, from 1
@@ -34,7 +35,7 @@ class TextLines {
     return absl::InvalidArgumentError(absl::StrCat("line ", number_, ": ", parts...));
   }
 
-  // For the end of a text that lacks something.
+  // The error of a text that ends too early.
   absl::Status CutError() const;
 
  private:
@@ -49,23 +50,18 @@ class TextLines {
 // The words of a line, separated by blanks and tabs.
 std::vector<std::string_view> Words(std::string_view line);
 
-// A finite number in decimal digits. Fortran leaves out the E before exponents of three digits: "0.261-104".
+// A finite decimal number. The E may be missing before an exponent of three digits, as Fortran writes it:
+// "0.261-104".
 std::optional<double> ParseNumber(std::string_view word);
 
 // A whole number of digits alone.
 std::optional<int> ParseCount(std::string_view word);
 
-struct CivilTime {
-  int year, month, day, hour = 0, minute = 0, second = 0;
-};
-
-// s since 1970-01-01T00:00:00Z, without leap seconds; nullopt if there is no such date or time of day.
-std::optional<double> SecondsOf(const CivilTime& time);
-
-// The same of eight digits of a date and six of a time of day, as WAVEWATCH III and SWAN write them.
+// SecondsOf() (sea/sea_time.h) of eight digits of a date and six of a time of day, as WAVEWATCH III and SWAN write
+// them.
 std::optional<double> SecondsOfDigits(std::string_view date, std::string_view time_of_day);
 
-// A word of the file for messages: short, and printable.
+// A word of the file in quotes for messages, shortened and printable.
 std::string Quoted(std::string_view word);
 
 }  // namespace albtpu

@@ -15,10 +15,10 @@ class WordStream {
  public:
   explicit WordStream(std::string_view text) : lines_(text, TextLines::LastLine::kMayEndAtColumn) {}
 
-  // The rest of the line in which words were last taken is dropped. Blank lines are passed over. nullopt at the end.
+  // The next line that is not blank; nullopt at the end. Drops the rest of a line of which Numbers() took words.
   std::optional<std::string_view> NextLine();
 
-  // The next `count` numbers, which may go on over lines. `what` is for messages: "a frequency".
+  // The next `count` numbers, on any number of lines. `what` names one in messages: "a frequency".
   absl::StatusOr<std::vector<double>> Numbers(std::size_t count, std::string_view what);
 
   const TextLines& lines() const { return lines_; }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "sea/angle.h"
 #include "sea/files/directional_bins.h"
 #include "sea/files/sea_limits.h"
 #include "sea/files/spectral_grid.h"
@@ -16,8 +17,8 @@
 namespace albtpu {
 namespace {
 
+constexpr double kLargestDirection = 2 * std::numbers::pi + 0.01;  // rad; they are rounded to 0.01
 constexpr std::string_view kTitle = "'WAVEWATCH III SPECTRA'";
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Numbers of fixed width, which may touch where the next one is negative.
 std::vector<double> TouchingNumbers(std::string_view line) {
@@ -58,20 +59,26 @@ class Reader {
   absl::Status ReadHeader() {
     const auto line = words_.NextLine();
     if (!line) return words_.lines().CutError();
-    if (!IsWw3Points(*line)) return words_.lines().Error("is not the title of WAVEWATCH III's point output");
+    if (!IsWw3Points(*line))
+      return words_.lines().Error(
+          "is not the title of WAVEWATCH III's point output; get another copy of the file");
     const std::vector<std::string_view> counts = Words(line->substr(line->find(kTitle) + kTitle.size()));
     for (std::size_t i = 0; i < 3; ++i) {
       const auto count = i < counts.size() ? ParseCount(counts[i]) : std::nullopt;
       if (!count || *count < 1 ||
           static_cast<std::size_t>(*count) > (i == 2 ? kMostSeaRecords : kMostFrequencies))
         return words_.lines().Error(
-            "states no numbers of frequencies, directions and points; get another copy");
+            "does not state the numbers of frequencies, directions and points; get another copy of the file");
       (i == 0 ? frequencies_ : i == 1 ? directions_ : points_) = static_cast<std::size_t>(*count);
     }
     const auto frequencies = words_.Numbers(frequencies_, "a frequency");
     if (!frequencies.ok()) return frequencies.status();
     const auto directions = words_.Numbers(directions_, "a direction");
     if (!directions.ok()) return directions.status();
+    for (const double direction : *directions)
+      if (std::abs(direction) > kLargestDirection)
+        return words_.lines().Error("a direction is ", direction,
+                                    " rad (expected 0 to 2 pi); write directions in radians");
     absl::StatusOr<SpectralGrid> grid = SpectralGrid::Make(*frequencies, *directions);
     if (!grid.ok()) return words_.lines().Error(grid.status().message());
     grid_ = *std::move(grid);
@@ -98,8 +105,8 @@ class Reader {
     if (numbers.size() < 5 || !(numbers[2] > 0 && numbers[2] <= kDeepestWater) ||
         !(numbers[3] >= 0 && numbers[3] <= kStrongestWind) || !(std::abs(numbers[4]) <= 360))
       return words_.lines().Error(
-          "lacks latitude, longitude, depth, wind speed or wind direction, or has one that cannot be; get "
-          "another copy");
+          "does not state a possible latitude, longitude, depth, wind speed and wind direction; get another "
+          "copy of the file");
     const std::string name(Words(line->substr(open + 1, close - open - 1)).empty()
                                ? std::string_view()
                                : line->substr(open + 1, close - open - 1));
@@ -108,7 +115,7 @@ class Reader {
         .point = PointNamed(name.substr(0, name.find_last_not_of(' ') + 1), numbers[0], numbers[1]),
         .water_depth = numbers[2],
         .wind_speed_10m = numbers[3],
-        .wind_from = numbers[4] * kDegree};
+        .wind_from = RadiansOfDegrees(numbers[4])};
     const auto density = words_.Numbers(frequencies_ * directions_, "a spectral density");
     if (!density.ok()) return density.status();
     absl::StatusOr<BinnedWaves> waves = grid_->WavesOf(*density, SpectralGrid::Order::kFrequencyFirst);

@@ -34,11 +34,6 @@ double XAzimuth(const SeaDescription& description, double wind_speed, double tai
   return description.waves->ShortWaveAxis(tail_from);
 }
 
-double FullTurn(double azimuth) {
-  const double turned = std::fmod(azimuth, 2 * std::numbers::pi);
-  return turned < 0 ? turned + 2 * std::numbers::pi : turned;
-}
-
 // Scales S(k) by a function of k.
 template <typename Weight>
 HarmonicSpectrum Weighted(HarmonicSpectrum spectrum, const Weight& weight) {
@@ -47,6 +42,11 @@ HarmonicSpectrum Weighted(HarmonicSpectrum spectrum, const Weight& weight) {
 }
 
 }  // namespace
+
+double FullTurn(double azimuth) {
+  const double turned = std::fmod(azimuth, 2 * std::numbers::pi);
+  return turned < 0 ? turned + 2 * std::numbers::pi : turned;
+}
 
 DescribedSea Describe(const SeaDescription& description) {
   const std::vector<double> k = SeaWavenumbers();

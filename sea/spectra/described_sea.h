@@ -1,4 +1,4 @@
-// The sea that resolved waves, a wind and a depth of water make together.
+// A sea from its resolved waves, its wind and its depth.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@ namespace albtpu {
 struct SeaDescription {
   // Null: none are known, and the wind's spectrum, fully developed, is the whole sea.
   std::shared_ptr<const FrequencySpectrum> waves = {};
-  // Absent: from the waves, by EquilibriumFrictionVelocity(). 0 is a calm, which has exactly no waves but `waves`.
+  // Absent: from the waves, by EquilibriumFrictionVelocity(). 0 is a calm: there are no waves but `waves`.
   std::optional<double> wind_speed_10m = {};  // m/s, from 0
   std::optional<double> wind_from = {};       // absent: along the shortest resolved waves
   std::optional<double> water_depth = {};     // m, above 0; absent or infinity: deep water
@@ -23,7 +23,7 @@ struct SeaDescription {
   std::optional<double> tail_from = {};  // Hz, above 0; absent: the waves' own trusted_up_to()
 };
 
-// What was taken where the description says nothing.
+// The assumptions that were made where the description is silent.
 struct SeaAssumptions {
   bool wind_speed_from_waves = false;
   bool wind_unknown = false;  // the waves do not reach the frequencies that tell the wind: taken as calm
@@ -46,5 +46,8 @@ struct DescribedSea {
 };
 
 DescribedSea Describe(const SeaDescription& description);
+
+// The same direction as `azimuth` [rad], from 0 to 2 pi.
+double FullTurn(double azimuth);
 
 }  // namespace albtpu

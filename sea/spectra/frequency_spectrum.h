@@ -36,7 +36,7 @@ class FrequencySpectrum {
   // The frequencies within [lowest, highest] by which the spectrum is compared with another one.
   virtual std::vector<double> ComparedFrequencies(double lowest, double highest) const = 0;
 
-  // Up to where the waves can be trusted: where the tail begins if nobody says otherwise, Hz.
+  // The frequency [Hz] up to which the waves are trusted. The tail begins there unless the description says otherwise.
   virtual double trusted_up_to() const = 0;
 
   virtual double significant_wave_height() const = 0;  // 4 sqrt(m0), m
@@ -44,7 +44,7 @@ class FrequencySpectrum {
   // The compass direction [rad] along which the first waves, or those at the peak, travel.
   virtual double leading_axis() const = 0;
 
-  // The same of the shortest waves up to `f` [Hz], which tell the wind's direction where nothing else does.
+  // The same of the shortest waves up to `f` [Hz]. A wind of unknown direction is assumed to blow along it.
   virtual double ShortWaveAxis(double f) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// A directional elevation spectrum in samples of wavenumber: the one form into which every sea is brought, whether it
-// was measured, computed by a model, described by a few numbers, or raised by a wind.
+// A directional elevation spectrum in samples of wavenumber: the common form of all seas, whether measured, computed by
+// a model, described by a few numbers, or raised by a wind.
 #pragma once
 
 #include <cstddef>

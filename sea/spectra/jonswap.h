@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct JonswapWaves {
   std::optional<double> spread = {};   // rad, as Cosine2sOfSpread() has it; absent: MitsuyasuS()
 };
 
+// Our choice for swell of which only height, period and direction are known: narrow in frequency and in direction.
+inline constexpr double kSwellGamma = 7;
+inline constexpr double kSwellSpread = 18 * std::numbers::pi / 180;  // rad
+
 // Several such waves together.
 class JonswapSpectrum final : public FrequencySpectrum {
  public:
@@ -32,8 +37,8 @@ class JonswapSpectrum final : public FrequencySpectrum {
   double highest_frequency() const override { return std::numeric_limits<double>::infinity(); }
   // 100 frequencies, equidistant in log f.
   std::vector<double> ComparedFrequencies(double lowest, double highest) const override;
-  // 2.5 times the highest peak frequency, where the sea of one wind is in equilibrium, and not below 0.4 Hz: swell says
-  // nothing of the wind.
+  // 2.5 times the highest peak frequency, where the sea of one wind is in equilibrium, and not below 0.4 Hz, because
+  // swell does not follow the wind. Both factors are our choice.
   double trusted_up_to() const override;
   double significant_wave_height() const override;
   double leading_axis() const override;  // that of the first waves

@@ -1,7 +1,9 @@
-// How well a described sea is known: what one measurement of a random sea leaves open, and what the tail leaves open.
+// How well a described sea is known: the sampling error of its measurement, and the uncertainty of its tail.
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "sea/spectra/described_sea.h"
 
@@ -19,5 +21,23 @@ struct SeaError {
 // model, whose spectra are expectations. Waves that are not a BinnedSpectrum have no sampling error.
 SeaError ErrorOfSea(const SeaDescription& description, double record_length,
                     const std::function<double(double k)>& weight);
+
+// The errors of one sea for many weights. Immutable.
+class SeaErrors {
+ public:
+  SeaErrors(const SeaDescription& description, double record_length);
+
+  SeaError operator()(const std::function<double(double k)>& weight) const;
+
+ private:
+  // What a bin adds to V without weight, and 2 / nu.
+  struct Bin {
+    double k, slope_variance, relative_variance;
+  };
+
+  HarmonicSpectrum spectrum_;
+  std::vector<Bin> bins_;
+  std::optional<HarmonicSpectrum> with_wind_tail_, with_level_tail_;
+};
 
 }  // namespace albtpu

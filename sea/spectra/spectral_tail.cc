@@ -7,6 +7,32 @@
 #include "sea/spectra/dispersion.h"
 
 namespace albtpu {
+namespace {
+
+constexpr TailRule kTailRules[] = {TailRule::kWind, TailRule::kRelax, TailRule::kLevel, TailRule::kNone};
+
+}  // namespace
+
+std::string_view Name(TailRule rule) {
+  switch (rule) {
+    case TailRule::kWind:
+      return "wind";
+    case TailRule::kRelax:
+      return "relax";
+    case TailRule::kLevel:
+      return "level";
+    case TailRule::kNone:
+      break;
+  }
+  return "none";
+}
+
+std::optional<TailRule> FindTailRule(std::string_view name) {
+  for (const TailRule rule : kTailRules) {
+    if (name == Name(rule)) return rule;
+  }
+  return std::nullopt;
+}
 
 double TailWeight(double k, double cutoff) {
   constexpr double kWidth = 0.15;  // in ln k

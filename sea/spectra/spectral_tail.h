@@ -2,6 +2,8 @@
 // resolved waves at a cut-off.
 #pragma once
 
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "sea/spectra/elfouhaily_spectrum.h"
@@ -16,17 +18,21 @@ enum class TailRule {
   kLevel,  // throughout
   kNone,   // there are no waves above the cut-off
 };
+std::string_view Name(TailRule rule);  // "wind", "relax", "level", "none"
+std::optional<TailRule> FindTailRule(std::string_view name);
 
-// The weight of the tail at `k`: from 0 through 1/2 at `cutoff` [rad/m] to 1.
+// The weight of the tail at `k`: from 0 through 1/2 at `cutoff` [rad/m] to 1. Its width is our choice: nine tenths of
+// the change lie within 25 % of the cut-off.
 double TailWeight(double k, double cutoff);
 
 // The power of q by which the wind's spectrum at `k` is multiplied: 0, max(0, 1 - log10(k / cutoff)), or 1.
 double LevelPower(TailRule rule, double k, double cutoff);
 
-// The waves of the wind alone: what Sampled() makes of them, from the one harmonic that this spectrum has, Delta / 2.
+// The waves of the wind alone: the result of Sampled(), computed from the one harmonic of this spectrum, Delta / 2.
 HarmonicSpectrum WindWaves(const ElfouhailySpectrum& wind, const std::vector<double>& wavenumbers);
 
-// q, the geometric mean of resolved over wind's S(k) between 0.75 `tail_from` and `tail_from` [Hz], held to 0.5 to 2.
+// q, the geometric mean of the resolved over the wind's S(k) between 0.75 `tail_from` and `tail_from` [Hz], limited to
+// 0.5 to 2. Both ranges are our choice: a few noisy bins shall not decide all short waves.
 struct TailLevel {
   double q = 1;
   int compared = 0;   // frequencies with energy in both; with none, q is 1

@@ -163,7 +163,8 @@ TEST(Campaign, RefusesNodesThatAreNotFiniteOrNegative) {
 }
 
 TEST(Campaign, RefusesStillAirAndABeamOfZeroWidth) {
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[0, 6]")), HasSubstr("'axes.wind_speed' must be above 0"));
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "[-1, 6]")),
+              HasSubstr("'axes.wind_speed' must be at least 0"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[0.1, 1]", "[0, 1]")), HasSubstr("'axes.footprint' must be above 0"));
 }
 

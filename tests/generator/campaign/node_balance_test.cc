@@ -53,6 +53,16 @@ TEST(NodeBalance, RemovesTheMeanError) {
   EXPECT_EQ(values[10], 49);
 }
 
+// Between a calm and the first wind, the curve is not that of the winds above.
+TEST(NodeBalance, KeepsTheFirstWindAboveACalm) {
+  const UncertaintyTable::Axes axes = Axes({0, 2, 3, 4}, {1});
+  std::vector<float> values = {0, 0, 8, 8, 27, 27, 64, 64};
+  const std::vector<float> exact = values;
+  BalanceNodes(axes, Quantity::kThu, values);
+  for (const int i : {0, 2, 6}) EXPECT_EQ(values[i], exact[i]);
+  EXPECT_LT(values[4], exact[4]);
+}
+
 TEST(NodeBalance, KeepsAtLeastHalfOfAQuantityThatCannotBeNegative) {
   const UncertaintyTable::Axes axes = Axes({1, 2, 3}, {1});
   std::vector<float> thu = {100, 100, 0.1f, 0.1f, 100, 100}, bias = thu;

@@ -1,7 +1,12 @@
 #include "generator/campaign/table_maker.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "generator/math/rounding.h"
 #include "sea/angle.h"
@@ -33,6 +38,30 @@ TEST(TableMaker, HasAtANodeTheResultOfItsSeaCase) {
   EXPECT_EQ(interpolated[Quantity::kTvu], Rounded(beam.tvu[1]).value);
   EXPECT_EQ(interpolated[Quantity::kBiasVertical], Rounded(beam.bias_vertical[1]).value);
   EXPECT_EQ(interpolated.standard_errors[Index(Quantity::kThu)], Rounded(beam.thu[1]).standard_error);
+}
+
+// Between a calm, which is exactly 0, and the next wind, values are in proportion to the wind.
+TEST(TableMaker, AnswersFromACalmOn) {
+  std::string text = TwoSeas().text;
+  text.replace(text.find("[3, 6]"), 6, "[0, 4]");
+  text.insert(text.find("[effort]"), "[sea]\nspectrum = \"elfouhaily\"\n");
+  const absl::StatusOr<UncertaintyTable> table = Make(*ParseCampaign(text));
+  ASSERT_TRUE(table.ok()) << table.status();
+  const auto at = [&](float wind) {
+    return Interpolate(*table,
+                       {.wind_speed = wind, .incidence = 20, .azimuth = 90, .footprint = 1, .depth = 10});
+  };
+  const PulseUncertainty calm = at(0), light = at(1), wind = at(4);
+  ASSERT_EQ(calm.outcome, Outcome::kInterpolated);
+  for (const Quantity quantity : kQuantities) {
+    EXPECT_EQ(calm[quantity], 0);
+    EXPECT_EQ(calm.standard_errors[Index(quantity)], 0);
+    EXPECT_FLOAT_EQ(light[quantity], wind[quantity] / 4);
+  }
+  const Provenance& provenance = table->provenance();
+  EXPECT_THAT(std::get<std::string>(provenance.attributes.at("spectrum")), testing::HasSubstr("Elfouhaily"));
+  EXPECT_EQ(std::get<std::vector<double>>(provenance.attributes.at("realizations")),
+            (std::vector<double>{40, 40}));
 }
 
 TEST(TableMaker, MakesTheSameTableOnAnyNumberOfThreads) {

@@ -96,6 +96,32 @@ class Table(unittest.TestCase):
             self.assertGreater(low, 0.99)
             self.assertLess(high, 1.01)
 
+    def test_traces_the_sea_of_a_file(self):
+        sea = self.path("sea.csv", "f,E,r2,alpha2\n0.1,0.2,0.9,290\n0.25,0.3,0.8,225\n0.4,0.05,0.6,225\n")
+        beam = ("--incidence", "15", "--footprint", "0.6", "--depth", "10", "--relative-error", "0.05", "--json")
+        of_sea = ("point", "--sea", sea, "--wind-speed", "6", "--wind-from", "225")
+
+        def answer(*arguments):
+            result = generate(*arguments, *beam)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)
+
+        along = answer(*of_sea, "--beam-azimuth", "45")
+        self.assertAlmostEqual(along["x_azimuth"], 45, 9)
+        same = answer(*of_sea, "--azimuth", "0")
+        self.assertEqual({**along, "seconds": 0}, {**same, "seconds": 0})
+        # The swell crosses: what lies to the right of the wind differs from what lies to its left.
+        self.assertNotAlmostEqual(answer(*of_sea, "--azimuth", "60")["tvu"][0],
+                                  answer(*of_sea, "--azimuth", "-60")["tvu"][0], 4)
+        self.assertLess(answer(*of_sea, "--tail", "none", "--azimuth", "0")["thu"][0], along["thu"][0])
+        self.assertEqual(answer("point", "--wind-speed", "0")["thu"], [0])
+
+        self.refused(1, *of_sea, "--sea-time", "2020-06-08T03:50Z", *beam)
+        self.refused(1, "point", "--sea", self.path("absent.csv"), *beam)
+        self.refused(2, *of_sea, "--fetch", "1000", *beam)
+        self.refused(2, "point", "--wind-speed", "5", "--tail", "wind", *beam)
+        self.refused(2, *of_sea, "--azimuth", "0", "--beam-azimuth", "45", *beam)
+
     def test_states_the_spectrum_in_the_table(self):
         self.campaign = self.path("other.toml", CAMPAIGN +
                                   '[sea]\nspectrum = "elfouhaily"\ncorrected_above = 30\n')
@@ -217,7 +243,7 @@ class Point(unittest.TestCase):
         self.assertLess(thu("--corrected-above", "1"), 0.5 * thu())
 
     def test_bad_flags_are_bad_usage(self):
-        for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"), ("--wind-speed", "0"),
+        for flag, value in (("--wind-speed", "nan"), ("--wind-speed", "-1"),
                             ("--incidence", "inf"), ("--incidence", "-3"), ("--incidence", "89"),
                             ("--footprint", "0"), ("--depth", "1,-2"), ("--depth", "deep"), ("--fetch", "nan"),
                             ("--fetch", "0"), ("--azimuth", "inf"), ("--profile", "square"),

@@ -36,6 +36,28 @@ void ExpectWithinErrors(const Estimate& a, const Estimate& b) {
   EXPECT_NEAR(a.value, b.value, 3.5 * std::hypot(a.standard_error, b.standard_error));
 }
 
+TEST(MonteCarlo, HasNoErrorsOverACalm) {
+  SeaCase sea_case = ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 2}});
+  sea_case.sea.waves = WindSea{.wind_speed_10m = 0};
+  for (const Estimator estimator : {Estimator::kControlVariate, Estimator::kPlain}) {
+    const SeaCaseResult result = Simulate(
+        sea_case,
+        {.realizations = 10, .most_realizations = 1000, .relative_error = 0.01, .estimator = estimator}, 5,
+        6);
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.realizations, 0);
+    ASSERT_EQ(result.beams.size(), 2);
+    for (const BeamUncertainty& beam : result.beams) {
+      ExpectSame(beam.refraction_along_wind, {});
+      ExpectSame(beam.refraction_cross_wind, {});
+      for (const auto* values : {&beam.thu, &beam.tvu, &beam.bias_along_beam, &beam.bias_vertical}) {
+        ASSERT_EQ(values->size(), sea_case.depths.size());
+        for (const Estimate& value : *values) ExpectSame(value, {});
+      }
+    }
+  }
+}
+
 TEST(MonteCarlo, DoesNotDependOnTheNumberOfThreads) {
   const SeaCase sea_case =
       ModerateSea({{.footprint = 0.25}, {.incidence = 0.3, .azimuth = 0.5, .footprint = 0.25}});

@@ -107,7 +107,7 @@ TEST(NdbcBulk, RefusesWhatIsDamaged) {
               HasSubstr("a date and time"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1  -1.  5.6  0.5  3.6 SSW  SE  STEEP  4.9 196"), HasSubstr("'-1.'"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  .01  0.5  3.6 SSW  SE  STEEP  4.9 196"),
-              HasSubstr("a period is 0.01 s"));
+              HasSubstr("has a period of 0.01 s"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 400  SE  STEEP  4.9 196"),
               HasSubstr("no direction"));
   EXPECT_THAT(error("2020 06 08 03 40  1.1   MM   MM   MM   MM  MM  MM  N/A    MM  MM"),

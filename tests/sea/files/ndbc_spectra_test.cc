@@ -135,6 +135,15 @@ const std::string kHistoryEnergy = kHistoryHeader + "2019 02 06 00 40   0.00   1
 const std::string kHistorySpread = kHistoryHeader + "2019 02 06 00 40     94     50    999\n";
 const std::string kHistoryDirection = kHistoryHeader + "2019 02 06 00 40    146     24     30\n";
 
+// Read as hundredths, fractions would make the waves isotropic.
+TEST(NdbcHistory, HasNoFractionsOfSpread) {
+  EXPECT_THAT(
+      ErrorOf({.energy = kHistoryEnergy,
+               .spread = kHistoryHeader + "2019 02 06 00 40   0.94   0.50    999\n",
+               .direction = kHistoryDirection}),
+      HasSubstr("its largest r2 is 0.94 (the history has hundredths, up to 100); multiply r2 by 100"));
+}
+
 TEST(NdbcHistory, HasHundredthsOfSpread) {
   const auto series =
       ReadNdbcSpectra({.energy = kHistoryEnergy, .spread = kHistorySpread, .direction = kHistoryDirection});
@@ -166,7 +175,7 @@ TEST(NdbcHistory, DoesNotMistakeDirectionsOrSpreadsForEnergy) {
 
 TEST(NdbcHistory, DoesNotGoWithRealTime) {
   EXPECT_THAT(ErrorOf({.energy = kHistoryEnergy, .spread = kSpread, .direction = kDirection}),
-              HasSubstr("is in real time unlike the file of energy"));
+              HasSubstr("is in real time (unlike the file of energy)"));
 }
 
 TEST(NdbcHistory, RefusesLinesOfAnotherLength) {

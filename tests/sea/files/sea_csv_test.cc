@@ -63,6 +63,7 @@ TEST(SeaCsvByWavenumber, IsTheSpectrumThatWasWritten) {
   ASSERT_TRUE(series.ok()) << series.status();
   const DescribedSea sea = Describe(series->records[0], {.wind_speed_10m = 8, .wind_from = 0.5});
   EXPECT_NEAR(sea.x_azimuth, 0.5 + std::numbers::pi, 1e-15);
+  EXPECT_NEAR(Describe(series->records[0], {.wind_from = 4}).x_azimuth, 4 - std::numbers::pi, 1e-15);
   EXPECT_EQ(sea.spectrum.s, apel.s);
   for (std::size_t i = 0; i < apel.size(); ++i) {
     if (apel.s[i] == 0) continue;
@@ -79,16 +80,17 @@ TEST(SeaCsv, RefusesWhatIsNoSea) {
   EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.1,2\n"),
               HasSubstr("line 3: f is 0.1 (expected more than the line before"));
   EXPECT_THAT(ErrorOf("f,E\n1e-300,2\n0.1,2\n"), HasSubstr("line 2: f is 1e-300 (expected 0.0001 to 100)"));
-  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,-1\n"), HasSubstr("line 3: E is -1 (expected 0 or more)"));
+  EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,-1\n"), HasSubstr("line 3: E is -1 (expected 0 to 1e+12)"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,2\n0.2,nan\n"), HasSubstr("'nan' is no number"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,\n"), HasSubstr("'' is no number"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,1\n"), HasSubstr("a sea of 1 lines"));
   EXPECT_THAT(ErrorOf("f,E\n"), HasSubstr("a sea of 0 lines"));
-  EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,41,230\n"),
-              HasSubstr("r2 is 41 (expected 0 to 1); divide hundredths"));
+  EXPECT_THAT(
+      ErrorOf("f,E,r2,alpha2\n0.1,1,41,230\n"),
+      HasSubstr("r2 is 41 (expected a fraction from 0 to 1); divide r2 by 100 if it is in hundredths"));
   EXPECT_THAT(ErrorOf("f,E,r2,alpha2\n0.1,1,0.4,361\n"), HasSubstr("alpha2 is 361"));
   EXPECT_THAT(ErrorOf("k,S,a2,b2\n0.1,1,0.9,0.9\n"), HasSubstr("harmonic 2 is 0.9, 0.9"));
-  EXPECT_THAT(ErrorOf("time,f,E\n2020-06-08 03:50,0.1,1\n"), HasSubstr("is no time such as"));
+  EXPECT_THAT(ErrorOf("time,f,E\n2020-06-08 03:50,0.1,1\n"), HasSubstr("is no time (expected UTC such as"));
   EXPECT_THAT(ErrorOf("f,E\n0.1,1\n0.2,3"), HasSubstr("its last line, 3, has no end"));
 }
 

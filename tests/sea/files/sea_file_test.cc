@@ -13,6 +13,7 @@
 #include <string>
 
 #include "sea/files/text_lines.h"
+#include "sea/sea_time.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "tests/temporary_folder.h"
 

@@ -116,6 +116,14 @@ TEST(SwanSpectra, IsRefusedWhereItWasCut) {
   }
 }
 
+TEST(SwanSpectra, RefusesDirectionsInRadians) {
+  const std::string radians =
+      Replaced(kHeader, "    10\n    55\n   100\n   145\n   190\n   235\n   280\n   325\n",
+               "0.17\n0.96\n1.75\n2.53\n3.32\n4.10\n4.89\n5.67\n");
+  EXPECT_THAT(ErrorOf(radians + kTime + kSpectrum),
+              HasSubstr("the directions reach from 0.17 to 5.67 degrees"));
+}
+
 TEST(SwanSpectra, RefusesWhatItCannotRead) {
   const std::string rest = kTime + kSpectrum;
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "AFREQ", "XFREQ") + rest), HasSubstr("line 8: begins with 'XFREQ'"));
@@ -124,7 +132,8 @@ TEST(SwanSpectra, RefusesWhatItCannotRead) {
       ErrorOf(Replaced(kHeader, "     1                                  time", "     2   time") + rest),
       HasSubstr("line 4: states '2' (expected 1)"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "20161011", "20161032")), HasSubstr("is no date and time"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "FACTOR", "VECTOR")), HasSubstr("'VECTOR' is none of FACTOR"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "FACTOR", "VECTOR")),
+              HasSubstr("'VECTOR' begins no spectrum (expected FACTOR"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(rest, "  50", " -50")), HasSubstr("has a density of"));
   EXPECT_THAT(ErrorOf(kHeader), HasSubstr("has no spectrum"));
   const std::string one_dimension =

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "sea/files/word_stream.h"
 
 namespace albtpu {
@@ -51,23 +53,11 @@ TEST(ParseNumber, TakesDecimalAndFortranForms) {
     EXPECT_FALSE(ParseNumber(word).has_value()) << word;
 }
 
-TEST(SecondsOf, CountsFrom1970) {
-  EXPECT_EQ(SecondsOf({.year = 1970, .month = 1, .day = 1}), 0);
-  EXPECT_EQ(SecondsOf({.year = 2000, .month = 3, .day = 1}), 951868800);  // date -u -d 2000-03-01 +%s
-  EXPECT_EQ(SecondsOf({.year = 2020, .month = 6, .day = 8, .hour = 3, .minute = 50}), 1591588200);
-  EXPECT_EQ(SecondsOf({.year = 1996, .month = 2, .day = 29, .hour = 23}), 825634800);
-  EXPECT_EQ(SecondsOf({.year = 1900, .month = 3, .day = 1}), -2203891200);
-  EXPECT_EQ(SecondsOfDigits("20220912", "060000"), 1662962400);
-}
-
-TEST(SecondsOf, RefusesWhatIsNoTime) {
-  EXPECT_FALSE(SecondsOf({.year = 2019, .month = 2, .day = 29}));
-  EXPECT_FALSE(SecondsOf({.year = 1900, .month = 2, .day = 29}));
-  EXPECT_FALSE(SecondsOf({.year = 2020, .month = 13, .day = 1}));
-  EXPECT_FALSE(SecondsOf({.year = 2020, .month = 0, .day = 1}));
-  EXPECT_FALSE(SecondsOf({.year = 2020, .month = 1, .day = 1, .hour = 24}));
-  EXPECT_FALSE(SecondsOfDigits("2022091", "060000"));
-  EXPECT_FALSE(SecondsOfDigits("20220912", "06000x"));
+TEST(SecondsOfDigits, AreThoseOfTheDateAndTimeOfDay) {
+  EXPECT_EQ(SecondsOfDigits("20220912", "060000"), 1662962400);  // date -u -d 2022-09-12T06:00 +%s
+  for (const auto& [date, time_of_day] : {std::pair("2022091", "060000"), std::pair("20220912", "06000x"),
+                                          std::pair("20220912", "240000"), std::pair("20220001", "060000")})
+    EXPECT_FALSE(SecondsOfDigits(date, time_of_day)) << date << " " << time_of_day;
 }
 
 TEST(Quoted, IsShortAndPrintable) {

@@ -110,17 +110,24 @@ TEST(Ww3Points, IsRefusedWhereItWasCut) {
   }
 }
 
+TEST(Ww3Points, RefusesDirectionsInDegrees) {
+  EXPECT_THAT(ErrorOf(Replaced(kHeader, "0.550E+01", "315.0E+00") + kRecord),
+              HasSubstr("a direction is 315 rad (expected 0 to 2 pi); write directions in radians"));
+}
+
 TEST(Ww3Points, RefusesWhatIsDamaged) {
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "8     1", "0     1") + kRecord),
-              HasSubstr("line 1: states no numbers of"));
+              HasSubstr("line 1: does not state the numbers of"));
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "2     8", "9999999 8") + kRecord),
-              HasSubstr("line 1: states no numbers of"));
+              HasSubstr("line 1: does not state the numbers of"));
   EXPECT_THAT(ErrorOf(Replaced(kHeader, "0.200E+00", "0.100E+00") + kRecord),
-              HasSubstr("frequencies do not increase"));
+              HasSubstr("frequency 2 is 0.1 Hz (expected 0.0001 to 100 Hz, increasing)"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "20220912", "20221312")),
               HasSubstr("line 5: '20221312 060000' is no"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")), HasSubstr("line 6: lacks"));
-  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")), HasSubstr("line 6: lacks"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "46.6", "-1.0")),
+              HasSubstr("line 6: does not state a possible"));
+  EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "1.45", "1E99")),
+              HasSubstr("line 6: does not state a possible"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "-.600E+00")), HasSubstr("a density of -0.6"));
   EXPECT_THAT(ErrorOf(kHeader + Replaced(kRecord, "0.600E+00", "NaN")),
               HasSubstr("'NaN' is not a spectral density"));

@@ -93,5 +93,12 @@ TEST(LevelAtCutoff, IsOneWithoutEnergyToCompare) {
   EXPECT_EQ(level.q, 1);
 }
 
+TEST(TailRule, HasAName) {
+  for (const TailRule rule : {TailRule::kWind, TailRule::kRelax, TailRule::kLevel, TailRule::kNone})
+    EXPECT_EQ(FindTailRule(Name(rule)), rule);
+  EXPECT_EQ(Name(TailRule::kRelax), "relax");
+  EXPECT_EQ(FindTailRule("calm"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace albtpu

@@ -1,0 +1,12 @@
+// The flags of albtpu-generate point.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "generator/commands/commands.h"
+
+namespace albtpu {
+
+void AddPoint(CLI::App& point, PointOptions& options, int& threads);
+
+}  // namespace albtpu

@@ -1,0 +1,50 @@
+// Any sea in samples of wavenumber as a spectrum from which waves can be drawn.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sea/positive_spreading.h"
+#include "sea/spectra/harmonic_spectrum.h"
+#include "sea/spectra/wave_spectrum.h"
+
+namespace albtpu {
+
+// What a table records of the sea.
+struct SpectrumText {
+  std::string name, reference, departures;
+};
+
+// Between the samples, k^3 S(k) and k^3 S(k) D(k, psi) are interpolated linearly in ln k, so that the even harmonics up
+// to the last one are those of the samples. (Between samples 5 % apart, S that is linear in k would add 0.25 % to the
+// slope variance of waves that fall as k^-3.) The spreading is that of a frozen surface, the same for waves that travel
+// opposite ways, and nowhere negative (positive_spreading.h). Immutable.
+class SampledSpectrum final : public WaveSpectrum {
+ public:
+  SampledSpectrum(const HarmonicSpectrum& spectrum, SpectrumText text);
+
+  double operator()(double k) const override;
+  double Spreading(double k, double psi) const override;
+  bool spreading_varies_with_wavenumber() const override { return true; }
+  double peak_wavenumber() const override;  // where k S(k) is greatest
+  WavenumberRange energetic_range() const override { return range_; }
+  std::string name() const override { return text_.name; }
+  std::string reference() const override { return text_.reference; }
+  std::string departures() const override { return text_.departures; }
+
+ private:
+  // The parts of the samples `at` and `at` + 1 in k^3 S(k); zeros outside the samples.
+  struct Between {
+    std::size_t at;
+    double first, second;
+  };
+  Between Find(double k) const;
+
+  std::vector<double> log_k_;
+  std::vector<double> saturation_;  // k^3 S(k)
+  std::vector<PositiveSpreading> spreading_;
+  WavenumberRange range_;
+  SpectrumText text_;
+};
+
+}  // namespace albtpu
