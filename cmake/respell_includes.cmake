@@ -4,6 +4,7 @@ foreach(header IN LISTS headers)
   cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" OUTPUT_VARIABLE installed)
   set(installed "$ENV{DESTDIR}${installed}/${header}")
   file(READ "${installed}" text)
-  string(REGEX REPLACE "(#include \")(tables|service/client)/([a-z]+/)?" "\\1albtpu/\\2/" text "${text}")
+  string(REGEX REPLACE "(#include \")(tables|sea|service/client|service/seas)/([a-z]+/)?" "\\1albtpu/\\2/"
+         text "${text}")
   file(WRITE "${installed}" "${text}")
 endforeach()

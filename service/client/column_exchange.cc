@@ -54,6 +54,7 @@ class Call {
   Call(grpc::GenericStub& stub, const ColumnTask& task, std::size_t begin)
       : task_(task), sent_(begin), answered_(begin) {
     request_without_pulses_.mutable_options()->set_table(task.table);
+    if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;
     ToWire(task.query, task.answers, request_without_pulses_);
     stream_ = stub.PrepareCall(&context_, kMethod, &events_);
     stream_->StartCall(Tag(kStarted));
@@ -139,9 +140,11 @@ class Call {
     response_.Clear();
     if (!answer.ok()) return answer.status();
     if (answer->table().digest() != task_.digest) {
-      return absl::AbortedError(absl::StrCat("table ", task_.table, " changed from digest ", task_.digest,
-                                             " to ", answer->table().digest(),
-                                             " during the query; run again"));
+      return absl::AbortedError(absl::StrCat(
+          task_.sea == nullptr ? absl::StrCat("table ", task_.table) : "the table of the sea",
+          " changed from digest ", task_.digest, " to ", answer->table().digest(),
+          task_.sea == nullptr ? " during the query; run again"
+                               : " during the query (another server computed it); ask a single server"));
     }
     answered_ += count;
     return absl::OkStatus();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "albtpu/v1/sea.pb.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
 
@@ -17,8 +18,9 @@ inline constexpr std::size_t kMostPulses = 65536;
 
 // A query about any number of pulses, and the memory for its answers. Messages take kMostPulses pulses at a time.
 struct ColumnTask {
-  const std::string& table;   // Its name.
-  const std::string& digest;  // The digest that every answer must come from.
+  const std::string& table;         // Its name; empty for a sea.
+  const std::string& digest;        // The digest that every answer must come from.
+  const albtpu::v1::SeaState* sea;  // Null for a table of the server's.
   const Query& query;
   const PulseColumns& pulses;
   const AnswerColumns& answers;

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "service/seas/sea_pulses.h"
 
 namespace albtpu::client {
 namespace {
@@ -27,6 +28,7 @@ TableSummary Summarize(std::string name, const UncertaintyTable& table) {
   summary.version = provenance.version;
   summary.title = provenance.title;
   summary.digest = table.digest();
+  summary.sea = SummaryOfSea(table);
   for (const Axis& axis : table.axes()) {
     summary.axes[Index(axis.id())] = {axis.nodes().front(), axis.nodes().back(), axis.size()};
   }
@@ -40,8 +42,10 @@ LocalSource::LocalSource(std::string name, const UncertaintyTable& table)
 
 absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses,
                                  const AnswerColumns& answers) {
-  if (absl::Status status = CheckLengths(pulses); !status.ok()) return status;
-  InterpolateOnAllCores(interpolator_, query, pulses, answers);
+  const PulseColumns used = summary_.sea ? OnOneSea(pulses) : pulses;
+  if (absl::Status status = CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used); !status.ok())
+    return status;
+  InterpolateOnAllCores(interpolator_, query, used, answers);
   return absl::OkStatus();
 }
 

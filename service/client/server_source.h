@@ -1,23 +1,16 @@
 // A source that queries a server.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "service/client/credentials.h"
+#include "service/client/patience.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
-
-// How often a query is retried when the server becomes unavailable. The pauses between the retries double each time;
-// the defaults add up to 12.7 s. Every answer received resets the count.
-struct Patience {
-  int retries = 7;
-  std::chrono::milliseconds first_pause{100};
-};
 
 // Opens a source that queries the server in columns: each message holds as many pulses as it may, and several messages
 // are sent ahead of the answers. The table is fixed when the source is opened, and every answer must come from the same

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
+#include "service/seas/sea_summary.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
 #include "tables/schema.h"
@@ -27,6 +29,7 @@ struct TableSummary {
   std::array<AxisRange, kAxisCount> axes;
   std::map<std::string, std::string> attributes;  // Further provenance, as text.
   bool is_default = false;                        // Used when no table is named.
+  std::optional<SeaSummary> sea;                  // If it is the table of one sea.
 };
 
 class UncertaintySource {

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "service/client/sea_wire.h"
 #include "tables/coverage.h"
 
 namespace albtpu::client {
@@ -92,6 +93,7 @@ TableSummary FromWire(const v1::Table& table) {
                                 static_cast<std::size_t>(axis.nodes_size())};
   }
   for (const auto& [key, value] : table.attributes()) summary.attributes[key] = Text(value);
+  if (table.has_sea()) summary.sea = FromWire(table.sea());
   return summary;
 }
 

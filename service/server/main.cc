@@ -170,7 +170,7 @@ int Run(const Options& options) {
   const sigset_t signals = BlockSignals();
   ServerMetrics metrics;
   CallLog call_log;
-  const Recorders recorders = {metrics.calls, metrics.access, call_log};
+  const Recorders recorders = {metrics.calls, metrics.access, metrics.seas, call_log};
   const CredentialFiles& files = options.credentials.files;
   // After BlockSignals(): this starts threads of gRPC, which must not receive the signals.
   const absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials =

@@ -2,12 +2,12 @@
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed and resumed; arrays and single pulses are
-queried; requests are invalid; streams are cancelled or never read; connections are silent or do not speak HTTP/2;
-tables are replaced. Every answer is compared with that of the table file. Prints what was done, and the resident memory
-of the server after a tenth of the time and at the end. Under load, from 10 minutes on, a growth of more than 5 %
-between the two is a failure. At rest, the load has paused and the server has given back its free memory; some MiB of
-what remains are caches of threads that come and go. Seeds are fixed, so that only timing differs between runs.
+At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses and pulses on
+seas are queried; requests are invalid; streams are cancelled or never read; connections are silent or do not speak
+HTTP/2; tables are replaced. Every answer is compared with that of the table file. Prints what was done, and the
+resident memory of the server after a tenth of the time and at the end. Under load, from 10 minutes on, a growth of more
+than 5 % between the two is a failure. At rest, the load has paused and the server has given back its free memory; some
+MiB of what remains are caches of threads that come and go. Seeds are fixed, so that only timing differs between runs.
 """
 
 import argparse
@@ -37,6 +37,7 @@ from serving import PATIENCE, Server, connect
 FLIGHT = ("--scanner", "across-track", "--water-level", "0", "--wind-speed", "5", "--footprint", "1")
 MOST_GROWTH = 1.05
 PAUSES = {"replace_table": 2, "silent_connections": 0.5, "strange_connections": 0.5, "invalid_requests": 0.1}  # s
+SEAS = 8
 FLAT_FROM = 10  # Minutes; a shorter run has too little load of each kind to judge whether memory is flat.
 EARLY = 0.1  # Of the running time.
 GIVEN_BACK = 10  # s; after this time the server has given back its free memory: service/allocator.cc.
@@ -110,6 +111,14 @@ class MixedLoad:
         with albtpu.connect(self.server.address, patience=PATIENCE) as service:
             answer = service.query(**self._some(slice(0, 1000)), table="spare")
             self._compare(answer, self.replacements[answer.table.digest])
+
+    def sea(self):
+        # Few seas: as many as are kept would fill the memory reserved for them, which is no growth.
+        i = next(self.numbers) % SEAS
+        sea = albtpu.Sea.jonswap(hs=0.2 + 0.1 * i, tp=4, waves_from=30 * i).with_wind(5)
+        pulses = self._some(slice(0, 1000))
+        with albtpu.connect(self.server.address, patience=PATIENCE) as service:
+            self._compare(service.query(sea=sea, **pulses), sea.compile(service).query(**pulses))
 
     def replace_table(self):
         self._replace_table(2 + next(self.numbers) % 2)

@@ -10,9 +10,10 @@
 
 namespace albtpu::server {
 
-ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers& workers,
+ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
                            const CallRecord& record, grpc::CallbackServerContext& context)
     : catalog_(std::move(catalog)),
+      seas_(seas),
       workers_(workers),
       record_(record),
       context_(context),
@@ -59,22 +60,37 @@ void ColumnStream::Proceed() {
   if (!handle) return End(context_.IsCancelled() ? grpc::Status::CANCELLED : grpc::Status::OK);
   current_begin_ = CallRecord::Clock::now();
   StartRead(&next_);
-  if (current_.Length() <= kMaxInlineBytes) return HandleRequest();
-  workers_.Run([this] { HandleRequest(); });
+  if (current_.Length() <= kMaxInlineBytes) return HandleRequest(nullptr);
+  workers_.Run([this] { HandleRequest(nullptr); });
 }
 
-grpc::Status ColumnStream::RunHandler() {
+grpc::Status ColumnStream::RunHandler(AnswerSources& sources) {
   const RequestScope scope(record_.request_id());
   OutcomeTally tally;
-  const grpc::Status status = HandleStreamColumns(*catalog_, current_, answer_, tally);
+  const grpc::Status status = HandleStreamColumns(sources, current_, answer_, tally);
   if (status.ok()) record_.CountAnswer(tally, current_begin_);
   return status;
 }
 
-void ColumnStream::HandleRequest() {
-  const grpc::Status status = context_.IsCancelled() ? grpc::Status::CANCELLED : RunHandler();
+void ColumnStream::HandleRequest(std::shared_ptr<const ServedTable> compiled) {
+  if (context_.IsCancelled()) return Fail(grpc::Status::CANCELLED);
+  AnswerSources sources(*catalog_, seas_, std::move(compiled));
+  const grpc::Status status = RunHandler(sources);
+  if (sources.wanted()) return AwaitSea(*sources.wanted());
+  if (!status.ok()) return Fail(status);
   current_.Clear();
-  if (status.ok()) return StartWrite(&answer_);
+  StartWrite(&answer_);
+}
+
+void ColumnStream::AwaitSea(const WantedSea& wanted) {
+  seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+    if (!table.ok()) return Fail(ToGrpcStatus(Within("query", table.status())));
+    workers_.Run([this, table = *table] { HandleRequest(table); });
+  });
+}
+
+void ColumnStream::Fail(const grpc::Status& status) {
+  current_.Clear();
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "service/server/calls/answer_sources.h"
 #include "service/server/ground/idle_watch.h"
 #include "service/server/ground/workers.h"
 #include "service/server/observe/records.h"
@@ -22,9 +23,9 @@ namespace albtpu::server {
 // Deletes itself when the call is done. `workers` must have admitted the call; its place is then released.
 class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  // Uses `catalog` for all answers.
-  ColumnStream(std::shared_ptr<const TableCatalog> catalog, Workers& workers, const CallRecord& record,
-               grpc::CallbackServerContext& context);
+  // Uses `catalog` for all answers without a sea. `seas` must outlive the call.
+  ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
+               const CallRecord& record, grpc::CallbackServerContext& context);
 
  private:
   void OnReadDone(bool ok) override;
@@ -33,12 +34,17 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
 
   // Does what is possible now: handles the waiting request, ends the call, or does nothing yet.
   void Proceed();
-  void HandleRequest();
-  grpc::Status RunHandler();
+  // `compiled` is the table of the request's sea, if it had to be compiled.
+  void HandleRequest(std::shared_ptr<const ServedTable> compiled);
+  grpc::Status RunHandler(AnswerSources& sources);
+  // Handles the request again when its sea is compiled.
+  void AwaitSea(const WantedSea& wanted);
+  void Fail(const grpc::Status& status);
   void End(const grpc::Status& status);
   void EndIdle();
 
   const std::shared_ptr<const TableCatalog> catalog_;
+  SeaTables& seas_;
   Workers& workers_;
   CallRecord record_;  // Used by one thread at a time: the one that handles a request or ends the call.
   grpc::CallbackServerContext& context_;

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/column_message.h"
+#include "service/server/calls/describe_sea.h"
 #include "service/server/calls/query_columns.h"
 #include "service/server/calls/query_rows.h"
 #include "service/server/ground/errors.h"
@@ -41,31 +42,41 @@ grpc::ByteBuffer Serialize(const google::protobuf::Message& message) {
 
 }  // namespace
 
-grpc::Status HandleQueryPulses(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& request,
                                grpc::ByteBuffer& response, OutcomeTally& tally) {
   return HandleParsed<v1::QueryPulsesRequest>(request, [&](const v1::QueryPulsesRequest& rows) {
     v1::QueryPulsesResponse answers;
-    const absl::Status status = QueryRows(catalog, rows, answers, tally);
+    const absl::Status status = QueryRows(sources, rows, answers, tally);
     if (status.ok()) response = Serialize(answers);
     return status;
   });
 }
 
-grpc::Status HandleQueryColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
                                 grpc::ByteBuffer& response, OutcomeTally& tally) {
   return HandleParsed<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
     ColumnMessage answers;
-    const absl::Status status = QueryColumns(catalog, columns, answers, tally);
+    const absl::Status status = QueryColumns(sources, columns, answers, tally);
     if (status.ok()) response = answers.Finish();
     return status;
   });
 }
 
-grpc::Status HandleStreamColumns(const TableCatalog& catalog, const grpc::ByteBuffer& request,
+grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request,
+                              grpc::ByteBuffer& response, OutcomeTally& /*tally*/) {
+  return HandleParsed<v1::CompileSeaRequest>(request, [&](const v1::CompileSeaRequest& wanted) {
+    v1::CompileSeaResponse compiled;
+    const absl::Status status = DescribeSea(sources, wanted, compiled);
+    if (status.ok()) response = Serialize(compiled);
+    return status;
+  });
+}
+
+grpc::Status HandleStreamColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
                                  grpc::ByteBuffer& response, OutcomeTally& tally) {
   return HandleParsed<v1::StreamColumnsRequest>(request, [&](const v1::StreamColumnsRequest& exchange) {
     ColumnMessage answers;
-    const absl::Status status = Within("query", QueryColumns(catalog, exchange.query(), answers, tally));
+    const absl::Status status = Within("query", QueryColumns(sources, exchange.query(), answers, tally));
     answers.Nest(v1::StreamColumnsResponse::kAnswerFieldNumber, 0);
     if (status.ok()) response = answers.Finish();
     return status;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "absl/status/statusor.h"
+#include "service/seas/sea_pulses.h"
 #include "service/server/calls/query_plan.h"
 #include "service/server/calls/request_columns.h"
 #include "service/server/tables/table_messages.h"
@@ -79,22 +80,25 @@ AnswerColumns AddColumns(const QueryPlan& plan, const QuantitySelection& selecti
 
 }  // namespace
 
-absl::Status QueryColumns(const TableCatalog& catalog, const v1::QueryColumnsRequest& request,
+absl::Status QueryColumns(AnswerSources& sources, const v1::QueryColumnsRequest& request,
                           ColumnMessage& response, OutcomeTally& tally) {
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
   if (!plan.ok()) return plan.status();
   const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
   if (!selection.ok()) return selection.status();
-  const absl::StatusOr<PulseColumns> pulses = ReadPulseColumns(request.pulses());
+  const absl::StatusOr<PulseColumns> pulses =
+      ReadPulseColumns(request.pulses(), plan->source->table.schema());
   if (!pulses.ok()) return pulses.status();
   v1::QueryColumnsResponse head;
   *head.mutable_table() = WriteReference(*plan->source);
   head.set_coverage(ToWire(plan->query.coverage));
   head.set_pulse_count(static_cast<int>(pulses->size));
   head.set_azimuth_absent((*pulses)[AxisId::kAzimuth].empty());
+  if (plan->source->sea) *head.mutable_sea() = WriteSea(*plan->source->sea);
   response.Add(head);
   const AnswerColumns answers = AddColumns(*plan, *selection, pulses->size, response);
-  InterpolateOnAllCores(plan->source->interpolator, plan->query, *pulses, answers);
+  InterpolateOnAllCores(plan->source->interpolator, plan->query,
+                        plan->source->sea ? OnOneSea(*pulses) : *pulses, answers);
   tally.Add({answers.outcomes, pulses->size}, {answers.outcome_axes, pulses->size});
   return absl::OkStatus();
 }

@@ -1,11 +1,27 @@
 #include "service/server/calls/query_plan.h"
 
+#include "absl/strings/str_cat.h"
+#include "service/server/ground/errors.h"
 #include "service/server/tables/wire_enums.h"
 
 namespace albtpu::server {
+namespace {
 
-absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const TableCatalog& catalog) {
-  const absl::StatusOr<const TableCatalog::Entry*> source = catalog.Find(options.table());
+absl::StatusOr<const ServedTable*> FindSource(const v1::QueryOptions& options, const v1::SeaState* sea,
+                                              AnswerSources& sources) {
+  if (sea == nullptr) return sources.Find(options.table());
+  if (options.table().empty()) return sources.Find(*sea);
+  return FieldViolation(
+      "options.table", absl::StrCat("options.table is '", options.table(),
+                                    "' (the request has a sea, whose table is another one); leave out one of "
+                                    "the two"));
+}
+
+}  // namespace
+
+absl::StatusOr<QueryPlan> PlanQuery(const v1::QueryOptions& options, const v1::SeaState* sea,
+                                    AnswerSources& sources) {
+  const absl::StatusOr<const ServedTable*> source = FindSource(options, sea, sources);
   if (!source.ok()) return source.status();
   const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
   if (!coverage.ok()) return coverage.status();

@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
+#include "service/seas/sea_pulses.h"
 #include "service/server/calls/query_plan.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
@@ -63,6 +64,7 @@ class RowColumns {
     if (places_.empty()) return;
     PulseColumns pulses{.size = places_.size(), .axis = {}};
     for (std::size_t i = 0; i < kAxisCount; ++i) pulses.axis[i] = axes_[i];
+    if (plan_.source->sea) pulses = OnOneSea(pulses);
     InterpolateOnAllCores(plan_.source->interpolator, plan_.query, pulses, AllocateAnswers());
     tally.Add(outcomes_, outcome_axes_);
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -140,14 +142,15 @@ class RowColumns {
 
 }  // namespace
 
-absl::Status QueryRows(const TableCatalog& catalog, const v1::QueryPulsesRequest& request,
+absl::Status QueryRows(AnswerSources& sources, const v1::QueryPulsesRequest& request,
                        v1::QueryPulsesResponse& response, OutcomeTally& tally) {
-  const absl::StatusOr<QueryPlan> plan = PlanQuery(request.options(), catalog);
+  const absl::StatusOr<QueryPlan> plan = PlanQuery(request, sources);
   if (!plan.ok()) return plan.status();
   const absl::Status status = CheckCount(*plan, request.pulses());
   if (!status.ok()) return status;
   *response.mutable_table() = WriteReference(*plan->source);
   response.set_coverage(ToWire(plan->query.coverage));
+  if (plan->source->sea) *response.mutable_sea() = WriteSea(*plan->source->sea);
   response.mutable_uncertainties()->Reserve(request.pulses_size());
   for (int i = 0; i < request.pulses_size(); ++i) response.add_uncertainties();
   for (bool with_azimuth : {true, false}) {

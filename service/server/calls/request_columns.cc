@@ -37,13 +37,14 @@ absl::Status CheckColumnBytes(const ColumnBytes& columns) {
 }
 
 // The error in the column of `axis`, or an empty string if it is valid. `count` is the length of the longest column.
-std::string ColumnError(const ColumnBytes& columns, AxisId axis, AxisId longest, std::size_t count) {
+std::string ColumnError(const ColumnBytes& columns, const TableSchema& schema, AxisId axis, AxisId longest,
+                        std::size_t count) {
   const std::size_t length = columns[Index(axis)]->size() / sizeof(float);
   if (length > kMaxPulses) {
     return absl::StrCat(Quoted(axis), " has ", length, " numbers: a message takes ", kMaxPulses,
                         " pulses at most; send several messages");
   }
-  if (length == 0 && !MayBeAbsent(axis)) {
+  if (length == 0 && schema.axes[Index(axis)].if_absent == IfAbsent::kRefuse) {
     return absl::StrCat(Quoted(axis), " is empty: send one number for each pulse, or one number for all");
   }
   if (length > 1 && length != count) {
@@ -53,12 +54,12 @@ std::string ColumnError(const ColumnBytes& columns, AxisId axis, AxisId longest,
   return "";
 }
 
-absl::Status CheckColumnLengths(const ColumnBytes& columns, AxisId longest) {
+absl::Status CheckColumnLengths(const ColumnBytes& columns, const TableSchema& schema, AxisId longest) {
   const std::size_t count = columns[Index(longest)]->size() / sizeof(float);
   if (count == 0) return FieldViolation("pulses", "there are no pulses: send at least one");
   FieldViolations violations;
   for (AxisId axis : kAxes) {
-    const std::string error = ColumnError(columns, axis, longest, count);
+    const std::string error = ColumnError(columns, schema, axis, longest, count);
     if (!error.empty()) violations.Add(Path(axis), error);
   }
   return violations.ToStatus();
@@ -66,12 +67,12 @@ absl::Status CheckColumnLengths(const ColumnBytes& columns, AxisId longest) {
 
 }  // namespace
 
-absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns) {
+absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns, const TableSchema& schema) {
   const ColumnBytes bytes = {&columns.wind_speed(), &columns.fetch(),     &columns.incidence(),
                              &columns.azimuth(),    &columns.footprint(), &columns.depth()};
   const AxisId longest = LongestColumn(bytes);
   absl::Status status = CheckColumnBytes(bytes);
-  if (status.ok()) status = CheckColumnLengths(bytes, longest);
+  if (status.ok()) status = CheckColumnLengths(bytes, schema, longest);
   if (!status.ok()) return status;
   PulseColumns pulses;
   pulses.size = bytes[Index(longest)]->size() / sizeof(float);

@@ -7,7 +7,8 @@
 
 namespace albtpu::server {
 
-// The result refers to the memory of `columns`. Fails as documented for `QueryColumns`.
-absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns);
+// The columns of a table of this kind. The result refers to the memory of `columns`. Fails as documented for
+// `QueryColumns`.
+absl::StatusOr<PulseColumns> ReadPulseColumns(const v1::PulseColumns& columns, const TableSchema& schema);
 
 }  // namespace albtpu::server

@@ -65,12 +65,12 @@ grpc::ServerUnaryReactor* Deliver(UnreadAnswers& unread, grpc::CallbackServerCon
 }
 
 // Runs the handler of a single call and records its answer.
-grpc::Status RunHandler(CallRecord& record, MessageHandler handler, const TableCatalog& catalog,
+grpc::Status RunHandler(CallRecord& record, MessageHandler handler, AnswerSources& sources,
                         const grpc::ByteBuffer& request, grpc::ByteBuffer& response) {
   const RequestScope scope(record.request_id());
   OutcomeTally tally;
-  const grpc::Status status = handler(catalog, request, response, tally);
-  if (status.ok()) record.CountAnswer(tally, record.begin());
+  const grpc::Status status = handler(sources, request, response, tally);
+  if (status.ok() && tally.pulses() > 0) record.CountAnswer(tally, record.begin());
   return status;
 }
 
@@ -80,40 +80,71 @@ class RefusedStream final : public ByteStream {
   void OnDone() override { delete this; }
 };
 
-// A long request, which waits for a worker. The workers must have admitted it; its place is released at the end.
-class LongCall final : public grpc::ServerUnaryReactor {
+}  // namespace
+
+// A request that waits for a worker, or first for its sea. The workers must have admitted it; its place is released at
+// the end.
+class UncertaintyService::LongCall final : public grpc::ServerUnaryReactor {
  public:
-  LongCall(Workers& workers, UnreadAnswers& unread, const CallRecord& record,
-           grpc::CallbackServerContext& context, MessageHandler handler,
-           std::shared_ptr<const TableCatalog> catalog, const grpc::ByteBuffer& request,
-           grpc::ByteBuffer& response)
-      : workers_(workers), record_(record), catalog_(std::move(catalog)) {
-    workers.Run([this, &unread, &context, handler, &request, &response] {
-      const grpc::Status status = context.IsCancelled()
-                                      ? grpc::Status::CANCELLED
-                                      : RunHandler(record_, handler, *catalog_, request, response);
-      record_.End(status);
-      // Counts no bytes: its place among the long calls already bounds them.
-      if (status.ok()) unread_.emplace(unread, context, 0);
-      Finish(status);
-    });
+  // `wanted` is the sea to be compiled first, if any.
+  LongCall(UncertaintyService& service, const CallRecord& record, grpc::CallbackServerContext& context,
+           MessageHandler handler, std::shared_ptr<const TableCatalog> catalog,
+           const grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+           const std::optional<WantedSea>& wanted)
+      : service_(service),
+        record_(record),
+        context_(context),
+        handler_(handler),
+        catalog_(std::move(catalog)),
+        request_(request),
+        response_(response) {
+    if (wanted) {
+      AwaitSea(*wanted);
+    } else {
+      service_.workers_.Run([this] { HandleRequest(nullptr); });
+    }
   }
 
  private:
+  void AwaitSea(const WantedSea& wanted) {
+    service_.seas_.Compile(wanted.key, wanted.sea, [this](const SeaTables::Result& table) {
+      if (!table.ok()) return End(ToGrpcStatus(table.status()));
+      service_.workers_.Run([this, table = *table] { HandleRequest(table); });
+    });
+  }
+
+  void HandleRequest(std::shared_ptr<const ServedTable> compiled) {
+    if (context_.IsCancelled()) return End(grpc::Status::CANCELLED);
+    AnswerSources sources(*catalog_, service_.seas_, std::move(compiled));
+    const grpc::Status status = RunHandler(record_, handler_, sources, request_, response_);
+    if (sources.wanted()) return AwaitSea(*sources.wanted());
+    End(status);
+  }
+
+  void End(const grpc::Status& status) {
+    record_.End(status);
+    // Counts no bytes: its place among the long calls already bounds them.
+    if (status.ok()) unread_.emplace(service_.unread_, context_, 0);
+    Finish(status);
+  }
+
   void OnDone() override {
-    workers_.Release();
+    service_.workers_.Release();
     delete this;
   }
 
-  Workers& workers_;
-  CallRecord record_;
+  UncertaintyService& service_;
+  CallRecord record_;  // Used by one thread at a time.
+  grpc::CallbackServerContext& context_;
+  const MessageHandler handler_;
   const std::shared_ptr<const TableCatalog> catalog_;
+  const grpc::ByteBuffer& request_;
+  grpc::ByteBuffer& response_;
   std::optional<UnreadAnswers::Entry> unread_;
 };
 
-}  // namespace
-
 grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandler handler,
+                                                     std::size_t inline_bytes,
                                                      grpc::CallbackServerContext& context,
                                                      const grpc::ByteBuffer& request,
                                                      grpc::ByteBuffer& response) {
@@ -121,31 +152,41 @@ grpc::ServerUnaryReactor* UncertaintyService::Handle(Method method, MessageHandl
   if (!request.Valid()) return Fail(context, record, NotReceived(context));
   const std::shared_ptr<const TableCatalog> catalog = tables_.current();
   const std::size_t length = request.Length();
-  if (length > kMaxInlineBytes) {
-    if (!workers_.Admit()) return Fail(context, record, TooManyCalls());
-    return new LongCall(workers_, unread_, record, context, handler, catalog, request, response);
+  std::optional<WantedSea> wanted;
+  if (length <= inline_bytes) {
+    if (!unread_.HasRoomFor(length)) return Fail(context, record, TooManyUnread());
+    AnswerSources sources(*catalog, seas_);
+    const grpc::Status status = RunHandler(record, handler, sources, request, response);
+    wanted = sources.wanted();
+    if (!wanted && !status.ok()) return Fail(context, record, status);
+    if (!wanted) return Deliver(unread_, context, record, length + response.Length());
   }
-  if (!unread_.HasRoomFor(length)) return Fail(context, record, TooManyUnread());
-  const grpc::Status status = RunHandler(record, handler, *catalog, request, response);
-  if (!status.ok()) return Fail(context, record, status);
-  return Deliver(unread_, context, record, length + response.Length());
+  if (!workers_.Admit()) return Fail(context, record, TooManyCalls());
+  return new LongCall(*this, record, context, handler, catalog, request, response, wanted);
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::QueryPulses(grpc::CallbackServerContext* context,
                                                           const grpc::ByteBuffer* request,
                                                           grpc::ByteBuffer* response) {
-  return Handle(Method::kQueryPulses, HandleQueryPulses, *context, *request, *response);
+  return Handle(Method::kQueryPulses, HandleQueryPulses, kMaxInlineBytes, *context, *request, *response);
 }
 
 grpc::ServerUnaryReactor* UncertaintyService::QueryColumns(grpc::CallbackServerContext* context,
                                                            const grpc::ByteBuffer* request,
                                                            grpc::ByteBuffer* response) {
-  return Handle(Method::kQueryColumns, HandleQueryColumns, *context, *request, *response);
+  return Handle(Method::kQueryColumns, HandleQueryColumns, kMaxInlineBytes, *context, *request, *response);
+}
+
+// Never at once: the file of a table takes milliseconds.
+grpc::ServerUnaryReactor* UncertaintyService::CompileSea(grpc::CallbackServerContext* context,
+                                                         const grpc::ByteBuffer* request,
+                                                         grpc::ByteBuffer* response) {
+  return Handle(Method::kCompileSea, HandleCompileSea, 0, *context, *request, *response);
 }
 
 ByteStream* UncertaintyService::StreamColumns(grpc::CallbackServerContext* context) {
   CallRecord record(recorders_, Method::kStreamColumns, *context);
-  if (workers_.Admit()) return new ColumnStream(tables_.current(), workers_, record, *context);
+  if (workers_.Admit()) return new ColumnStream(tables_.current(), seas_, workers_, record, *context);
   const grpc::Status refusal = TooManyCalls();
   record.End(refusal);
   return new RefusedStream(refusal);

@@ -8,6 +8,7 @@
 #include "service/server/calls/unread_answers.h"
 #include "service/server/ground/workers.h"
 #include "service/server/observe/records.h"
+#include "service/server/seas/sea_tables.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
@@ -17,13 +18,15 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
     v1::UncertaintyService::WithRawCallbackMethod_QueryColumns<
         v1::UncertaintyService::WithRawCallbackMethod_StreamColumns<
             v1::UncertaintyService::WithCallbackMethod_ListTables<
-                v1::UncertaintyService::WithCallbackMethod_GetTable<v1::UncertaintyService::Service>>>>>;
+                v1::UncertaintyService::WithCallbackMethod_GetTable<
+                    v1::UncertaintyService::WithRawCallbackMethod_CompileSea<
+                        v1::UncertaintyService::Service>>>>>>;
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
   // `tables` and `recorders` must outlive the service.
   UncertaintyService(const LiveTables& tables, const Recorders& recorders)
-      : tables_(tables), recorders_(recorders), unread_(recorders.metrics) {}
+      : tables_(tables), recorders_(recorders), unread_(recorders.metrics), seas_(recorders.seas, recorders.log) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;
@@ -37,10 +40,14 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
                                        v1::ListTablesResponse* response) override;
   grpc::ServerUnaryReactor* GetTable(grpc::CallbackServerContext* context, const v1::GetTableRequest* request,
                                      v1::GetTableResponse* response) override;
+  grpc::ServerUnaryReactor* CompileSea(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                       grpc::ByteBuffer* response) override;
 
  private:
-  // Handles short requests at once, long ones on a worker.
-  grpc::ServerUnaryReactor* Handle(Method method, MessageHandler handler,
+  class LongCall;
+
+  // Handles requests up to `inline_bytes` at once, unless their sea is to be compiled first; others on a worker.
+  grpc::ServerUnaryReactor* Handle(Method method, MessageHandler handler, std::size_t inline_bytes,
                                    grpc::CallbackServerContext& context, const grpc::ByteBuffer& request,
                                    grpc::ByteBuffer& response);
 
@@ -48,6 +55,7 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
   const Recorders& recorders_;
   Workers workers_;
   UnreadAnswers unread_;
+  SeaTables seas_;
 };
 
 }  // namespace albtpu::server

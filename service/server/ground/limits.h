@@ -31,6 +31,25 @@ inline constexpr std::size_t kMaxInlineBytes = std::size_t{192} << 10;
 // pulses in rows.
 inline constexpr int kMaxBulkCalls = 128;
 
+// What a sea of a request may have. Spectra of buoys and models have 25 to 100 frequencies, the program's own over
+// wavenumber 281. With six harmonics such a sea takes 57 KiB. A component costs up to a millisecond of the time to
+// compile a sea; partitions of models have three to seven.
+inline constexpr std::size_t kMaxSeaSamples = 512;
+inline constexpr std::size_t kMaxSeaComponents = 16;
+
+// Wrong fields of a sea that an error lists: its details are metadata, within kMaxMetadataBytes.
+inline constexpr std::size_t kMaxSeaViolations = 8;
+
+// Seas that may wait to be compiled; requests with further ones fail with RESOURCE_EXHAUSTED. A sea takes 10 to 40 ms
+// of a processor, so none waits for longer than a second. Callers who wait for the same sea count once here, and each
+// among the kMaxBulkCalls.
+inline constexpr std::size_t kMaxWaitingSeas = 16;
+
+// Tables of seas that are kept for later requests: some 110 of 2.3 MiB, four days of hourly seas. A stream over time
+// uses one or two at a time. The number counts if tables become smaller.
+inline constexpr std::size_t kMaxSeaTables = 512;
+inline constexpr std::size_t kMaxSeaTableBytes = std::size_t{256} << 20;
+
 // Calls in progress on one connection; further ones wait in the client. A connection that sends more after it has
 // acknowledged this limit is closed; before the acknowledgement gRPC 1.51 enforces no limit.
 inline constexpr int kMaxCallsPerConnection = 64;

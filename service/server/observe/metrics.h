@@ -18,15 +18,24 @@
 
 #include "service/server/observe/outcome_tally.h"
 #include "service/server/observe/process_metrics.h"
+#include "service/server/observe/sea_metrics.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {
 
 // The methods that appear in the log and the metrics. Those that take pulses come first.
-enum class Method { kQueryPulses, kQueryColumns, kStreamColumns, kListTables, kGetTable, kReloadTables };
+enum class Method {
+  kQueryPulses,
+  kQueryColumns,
+  kStreamColumns,
+  kListTables,
+  kGetTable,
+  kCompileSea,
+  kReloadTables
+};
 
-inline constexpr std::array<const char*, 6> kMethodNames = {"QueryPulses", "QueryColumns", "StreamColumns",
-                                                            "ListTables",  "GetTable",     "ReloadTables"};
+inline constexpr std::array<const char*, 7> kMethodNames = {
+    "QueryPulses", "QueryColumns", "StreamColumns", "ListTables", "GetTable", "CompileSea", "ReloadTables"};
 
 constexpr std::size_t Index(Method method) { return static_cast<std::size_t>(method); }
 constexpr const char* Name(Method method) { return kMethodNames[Index(method)]; }
@@ -118,6 +127,7 @@ struct ServerMetrics {
   CallMetrics calls{*registry};
   AccessMetrics access{*registry};
   ReloadMetrics reloads{*registry};
+  SeaMetrics seas{*registry};
 };
 
 }  // namespace albtpu::server

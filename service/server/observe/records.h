@@ -36,6 +36,7 @@ class CallLog {
 struct Recorders {
   CallMetrics& metrics;
   AccessMetrics& access;
+  SeaMetrics& seas;
   CallLog& log;
 };
 
@@ -50,7 +51,7 @@ class CallRecord {
   Clock::time_point begin() const { return begin_; }
   const RequestId& request_id() const { return request_id_; }
 
-  // Counts an answer to a request that arrived, or in a stream began to be handled, at `requested`.
+  // Counts an answer with pulses to a request that arrived, or in a stream began to be handled, at `requested`.
   void CountAnswer(const OutcomeTally& tally, Clock::time_point requested);
 
   // Called once, last, and before gRPC is told of the end: after that the context may no longer exist. A caller whose

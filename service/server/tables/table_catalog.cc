@@ -16,9 +16,8 @@ absl::StatusOr<std::shared_ptr<const TableCatalog::Entry>> Read(const TableFile&
   const FileIdentity identity = IdentityOf(file.path);
   absl::StatusOr<UncertaintyTable> table = ReadTable(file.path);
   if (!table.ok()) return table.status();
-  ColumnInterpolator interpolator(*table);
   return std::make_shared<const TableCatalog::Entry>(
-      TableCatalog::Entry{file.FullName(), *std::move(table), std::move(interpolator), identity});
+      TableCatalog::Entry{{file.FullName(), *std::move(table)}, identity});
 }
 
 // Joins the messages of several failures.

@@ -10,20 +10,16 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "service/server/ground/file_identity.h"
+#include "service/server/tables/served_table.h"
 #include "tables/file/table_folder.h"
-#include "tables/query/column_query.h"
-#include "tables/uncertainty_table.h"
 
 namespace albtpu::server {
 
 // Immutable. Every table in it has been read and checked completely.
 class TableCatalog {
  public:
-  struct Entry {
-    std::string name;  // NAME or NAME/VERSION.
-    UncertaintyTable table;
-    ColumnInterpolator interpolator;  // Of the table.
-    FileIdentity identity;            // Of the file, before it was read.
+  struct Entry : ServedTable {
+    FileIdentity identity;  // Of the file, before it was read.
   };
 
   // Reads all tables of `folder` (table_folder.h says which files are tables). `default_table`, unless empty, is the

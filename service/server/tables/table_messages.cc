@@ -46,26 +46,38 @@ struct AttributeWriter {
 
 }  // namespace
 
-v1::TableReference WriteReference(const TableCatalog::Entry& entry) {
+v1::SeaSummary WriteSea(const SeaSummary& sea) {
+  v1::SeaSummary message;
+  message.set_x_azimuth(sea.x_azimuth);
+  message.set_significant_wave_height(sea.significant_wave_height);
+  message.set_wind_speed(sea.wind_speed_10m);
+  message.set_water_depth(sea.water_depth);
+  message.set_tail_from(sea.tail_from);
+  message.set_share_measured(sea.share_measured);
+  message.mutable_assumptions()->Assign(sea.assumptions.begin(), sea.assumptions.end());
+  return message;
+}
+
+v1::TableReference WriteReference(const ServedTable& served) {
   v1::TableReference message;
-  message.set_name(entry.name);
-  message.set_id(entry.table.provenance().id);
-  message.set_version(entry.table.provenance().version);
-  message.set_digest(entry.table.digest());
+  message.set_name(served.name);
+  message.set_id(served.table.provenance().id);
+  message.set_version(served.table.provenance().version);
+  message.set_digest(served.table.digest());
   return message;
 }
 
-v1::TableSummary WriteSummary(const TableCatalog::Entry& entry) {
+v1::TableSummary WriteSummary(const ServedTable& served) {
   v1::TableSummary message;
-  *message.mutable_reference() = WriteReference(entry);
-  message.set_title(entry.table.provenance().title);
+  *message.mutable_reference() = WriteReference(served);
+  message.set_title(served.table.provenance().title);
   return message;
 }
 
-v1::Table WriteTableMessage(const TableCatalog::Entry& entry) {
-  const UncertaintyTable& table = entry.table;
+v1::Table WriteTableMessage(const ServedTable& served) {
+  const UncertaintyTable& table = served.table;
   v1::Table message;
-  *message.mutable_reference() = WriteReference(entry);
+  *message.mutable_reference() = WriteReference(served);
   message.set_title(table.provenance().title);
   for (const Axis& axis : table.axes()) *message.add_axes() = WriteAxis(axis);
   for (Quantity quantity : kQuantities) {
@@ -73,6 +85,7 @@ v1::Table WriteTableMessage(const TableCatalog::Entry& entry) {
     if (variable != nullptr) *message.add_quantities() = WriteQuantity(quantity, *variable);
   }
   message.set_campaign(table.provenance().campaign);
+  if (served.sea) *message.mutable_sea() = WriteSea(*served.sea);
   for (const auto& [name, value] : table.provenance().attributes) {
     std::visit(AttributeWriter{(*message.mutable_attributes())[name]}, value);
   }

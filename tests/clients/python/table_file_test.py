@@ -1,9 +1,10 @@
 """Queries of a table file.
 
-Usage: table_file_test.py ALBTPU_SYNTHETIC_TABLE
+Usage: table_file_test.py ALBTPU_SYNTHETIC_TABLE INTERPOLATE_RANDOM_PULSES
 """
 
 import hashlib
+import io
 import pathlib
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ from scipy.interpolate import RegularGridInterpolator
 import albtpu
 from random_pulses import AXES, pulses_of_all_kinds
 
-SYNTHETIC_TABLE = sys.argv[1]
+SYNTHETIC_TABLE, INTERPOLATE = sys.argv[1:3]
 PULSE = dict(wind_speed=5, fetch=5000, incidence=10, azimuth=30, footprint=0.5, depth=8)
 
 
@@ -207,7 +208,7 @@ class TableFile(unittest.TestCase):
                                 (attribute("fetch", "interpolation", "cubic"), "'cubic'"),
                                 (attribute("/", "coverage", "1 sigma"), "'1 sigma'"),
                                 (attribute("/", "table_kind", "lake"),
-                                 "changed.h5: is a table of kind 'lake': expected kind 'sea_surface'$"),
+                                 "changed.h5: is a table of kind 'lake': expected kind 'sea_surface' or 'one_sea'$"),
                                 (attribute("/", "table_kind", "sea_surface"),
                                  "attribute 'table_kind' is 'sea_surface': files of that kind do not have it$"),
                                 (attribute("/", "table_kind", 1), "attribute 'table_kind' of '/' is a number")):
@@ -218,6 +219,56 @@ class TableFile(unittest.TestCase):
             seal(path)
             with self.assertRaisesRegex(albtpu.TableFileError, problem):
                 albtpu.open_table(path)
+
+
+class TableOfOneSea(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, folder)
+        cls.path = folder / "sea.h5"
+        subprocess.run([SYNTHETIC_TABLE, cls.path, "--sea"], check=True)
+        cls.source = albtpu.open_table(cls.path)
+
+    def test_names_its_kind(self):
+        table = self.source.table()
+        self.assertEqual(table.kind, "one_sea")
+        self.assertNotIn("table_kind", table.attributes)
+        self.assertIn("0 to 180", table.axes["azimuth"].long_name)
+
+    def test_agrees_with_the_interpolation_of_the_library(self):
+        csv = subprocess.check_output([INTERPOLATE, self.path, "3000"], text=True)
+        theirs = np.genfromtxt(io.StringIO(csv), delimiter=",", names=True)
+        answer = self.source.query(**{axis: theirs[axis] for axis in AXES}, standard_errors=True)
+        self.assertTrue(answer.interpolated.all())
+        for name in albtpu.QUANTITIES:
+            np.testing.assert_allclose(answer.values[name], theirs[name], rtol=1e-5, atol=1e-9, err_msg=name)
+            np.testing.assert_allclose(answer.standard_errors[name], theirs[f"{name}_standard_error"], rtol=1e-5,
+                                       atol=1e-9, err_msg=name)
+
+    def test_repeats_after_half_a_turn_and_has_no_mirror(self):
+        thu = self.source.query(**{**PULSE, "azimuth": np.array([30, 210, -150, 390, -510])}).thu
+        np.testing.assert_array_equal(thu, np.full(5, thu[0]))
+        mirrored = self.source.query(**{**PULSE, "azimuth": np.array([-30, 150])}).thu
+        self.assertEqual(mirrored[0], mirrored[1])
+        self.assertNotEqual(mirrored[0], thu[0])
+
+    def test_answers_at_any_wind_and_fetch(self):
+        thu = self.source.query(**{**PULSE, "wind_speed": np.array([0, 6.5, 100, np.inf]),
+                                   "fetch": np.array([1e-3, 1, 1e9, np.inf])}).thu
+        np.testing.assert_array_equal(thu, np.full(4, thu[0]))
+        self.assertFalse(np.isnan(thu[0]))
+        self.assertEqual(self.source.query(**{**PULSE, "wind_speed": -1}).outcome, "OUT_OF_DOMAIN:wind_speed:below")
+
+    def test_returns_the_worst_azimuth_without_one(self):
+        pulse = {name: number for name, number in PULSE.items() if name != "azimuth"}
+        for coverage in ("2sigma", "p95"):
+            worst = self.source.query(**pulse, coverage=coverage)
+            self.assertTrue(worst.azimuth_absent)
+            at_nodes = self.source.query(**pulse, azimuth=self.source.table().axes["azimuth"].nodes, coverage=coverage)
+            for name in albtpu.QUANTITIES:
+                largest = at_nodes.values[name][np.abs(at_nodes.values[name]).argmax()]
+                np.testing.assert_allclose(worst.values[name], largest, rtol=1e-6, err_msg=name)
 
 
 def seal(path):

@@ -27,7 +27,7 @@ class RunningServer {
         WriteTable(albtpu::testing::SyntheticTable(options), folder_ / "quick.h5", Existing::kReplace);
     EXPECT_TRUE(written.ok()) << written;
     tables_.emplace(server::TableCatalog::Load(folder_ / "", "").value());
-    server_ = server::Server::Start(*tables_, {metrics_.calls, metrics_.access, log_},
+    server_ = server::Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, log_},
                                     server::ListenAddress::Parse(listen).value())
                   .value();
   }

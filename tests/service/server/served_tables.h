@@ -63,7 +63,7 @@ class ServedTables : public ::testing::Test {
   }
 
   absl::StatusOr<std::unique_ptr<Server>> Start(const std::string& address) {
-    return Server::Start(*tables_, {metrics_.calls, metrics_.access, log_},
+    return Server::Start(*tables_, {metrics_.calls, metrics_.access, metrics_.seas, log_},
                          OrDie(ListenAddress::Parse(address)));
   }
 

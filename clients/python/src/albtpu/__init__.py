@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
                      TableNotFoundError, UnreachableError)
 from .schema import AXES, QUANTITIES
+from .sea import Sea
 from .source import UncertaintySource
-from .tables import Axis, Quantity, Table, TableReference, TableSummary
+from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary
 from .uncertainties import Uncertainties
 
 if TYPE_CHECKING:
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
     from .table_file import TableFile, open_table
 
 __version__ = "0.1.0"
-__all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Service", "ServiceError",
-           "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
+__all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
+           "ServiceError", "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "geometry", "open_table"]
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .schema import ENDLESS_AXES, SEA_SURFACE
 from .tables import Axis
 
 Doubles = NDArray[np.float64]
@@ -21,21 +22,21 @@ class Brackets(NamedTuple):
     fraction: Doubles  # Of the distance to the next node, on the scale of the axis, 0 to 1; undefined where not inside.
 
 
-def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
-    """The domain of an axis includes its first and last node.
+def locate(kind: str, name: str, axis: Axis, coordinate: Doubles) -> Brackets:
+    """The domain of an axis of a table of this kind includes its first and last node.
 
-    Azimuths are folded into 0 to 90 degrees. Fetches above the last node are set to it, and an axis with a
-    single fetch covers any fetch above zero.
+    Azimuths are folded. On an endless axis, coordinates above the last node are set to it; with a single node,
+    it covers any coordinate above zero, and zero unless its scale is logarithmic.
     """
     nodes = axis.nodes.astype(np.float64)
     valid = np.isfinite(coordinate)
     if name == "azimuth":
-        half_turn = np.fmod(np.abs(coordinate), 180.0)
-        coordinate = np.minimum(half_turn, 180.0 - half_turn)
-    if name == "fetch":
+        coordinate = _fold(kind, coordinate)
+    if name in ENDLESS_AXES[kind]:
         valid = valid | (coordinate == np.inf)
         if nodes.size == 1:
-            coordinate = np.where(coordinate > 0, nodes[0], coordinate)
+            held = coordinate > 0 if axis.scale == "log" else coordinate >= 0
+            coordinate = np.where(held, nodes[0], coordinate)
         coordinate = np.minimum(coordinate, nodes[-1])
     inside = (coordinate >= nodes[0]) & (coordinate <= nodes[-1])
     if nodes.size == 1:
@@ -44,3 +45,11 @@ def locate(name: str, axis: Axis, coordinate: Doubles) -> Brackets:
     if axis.scale == "log":
         nodes, coordinate = np.log(nodes), np.log(coordinate)
     return Brackets(valid, inside, lower, (coordinate - nodes[lower]) / (nodes[lower + 1] - nodes[lower]))
+
+
+def _fold(kind: str, azimuth: Doubles) -> Doubles:
+    """As FoldAzimuth in tables/axis.h, where half a turn is added in single precision."""
+    rest = np.fmod(np.abs(azimuth), 180.0)
+    if kind == SEA_SURFACE:
+        return np.minimum(rest, 180.0 - rest)
+    return np.where((azimuth < 0) & (rest > 0), (180.0 - rest).astype(np.float32), rest)

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ArgumentError
 
-__all__ = ["Beams", "SEA_WATER_INDEX", "azimuth_from_downwind", "beams", "footprint"]
+__all__ = ["Beams", "SEA_WATER_INDEX", "azimuth_from_downwind", "azimuth_on_sea", "beams", "footprint"]
 
 Doubles = NDArray[np.float64]
 
@@ -100,9 +100,24 @@ def azimuth_from_downwind(beam_azimuth: ArrayLike, wind_from: ArrayLike) -> Doub
     >>> azimuth_from_downwind([0, 90, 180], wind_from=270)
     array([270.,   0.,  90.])
     """
-    downwind = np.asarray(wind_from, np.float64) + 180
-    folded = np.asarray(np.mod(np.asarray(beam_azimuth, np.float64) - downwind, 360))
-    return np.where(folded >= 360, 0.0, folded)  # A tiny negative number modulo 360 is 360.
+    return _full_turn(np.asarray(beam_azimuth, np.float64) - (np.asarray(wind_from, np.float64) + 180))
+
+
+def azimuth_on_sea(beam_azimuth: ArrayLike, x_azimuth: ArrayLike) -> Doubles:
+    """The azimuth of a beam from the x axis of a sea, in [0, 360) degrees, as queries with a sea take it.
+
+    `beam_azimuth` is where the beam travels to, `x_azimuth` that of the sea (albtpu.SeaSummary, or an attribute of its
+    table): both in degrees clockwise from true north. Azimuths on a sea turn the other way.
+
+    >>> azimuth_on_sea([0, 90, 180], x_azimuth=45)
+    array([ 45., 315., 225.])
+    """
+    return _full_turn(np.asarray(x_azimuth, np.float64) - np.asarray(beam_azimuth, np.float64))
+
+
+def _full_turn(angle: Doubles) -> Doubles:
+    turned = np.asarray(np.mod(angle, 360))
+    return np.where(turned >= 360, 0.0, turned)  # A tiny negative number modulo 360 is 360.
 
 
 def _column(name: str, values: ArrayLike) -> Doubles:

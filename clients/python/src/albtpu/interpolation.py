@@ -37,7 +37,7 @@ class Interpolator:
 
     def __init__(self, content: TableContent, values: Sequence[str], standard_errors: Sequence[str],
                  constant: Columns) -> None:
-        self._axes = content.table.axes
+        self._kind, self._axes = content.table.kind, content.table.axes
         self._constant = self._locate(constant)
         self._log = [name for name in values if content.table.quantities[name].scale == "log"]
         self._grids: list[tuple[list[tuple[str, bool]], _Grid]] = []
@@ -70,36 +70,31 @@ class Interpolator:
         return PulseNumbers(outcomes, outcome_axes, values, standard_errors, radius)
 
     def _locate(self, columns: Columns) -> dict[str, Brackets]:
-        return {axis: locate(axis, self._axes[axis], column.astype(np.float64))
+        return {axis: locate(self._kind, axis, self._axes[axis], column.astype(np.float64))
                 for axis, column in columns.items()}
 
 
-def larger_of(downwind: PulseNumbers, crosswind: PulseNumbers) -> PulseNumbers:
-    """The numbers for pulses without azimuth, from those at 0 and 90 degrees.
+def larger_of(a: PulseNumbers, b: PulseNumbers) -> PulseNumbers:
+    """The numbers for pulses without azimuth, from those at two azimuths.
 
     Each value is the larger in magnitude, with its standard error. A pulse without a number at either azimuth
     has none: INVALID takes precedence over OUT_OF_DOMAIN, then the first axis.
     """
-    worse = (crosswind.outcomes > downwind.outcomes) | (
-        (crosswind.outcomes == downwind.outcomes) & (crosswind.outcome_axes < downwind.outcome_axes))
-    crosswind_is_larger = {name: np.abs(crosswind.values[name]) > np.abs(value)
-                           for name, value in downwind.values.items()}
+    worse = (b.outcomes > a.outcomes) | ((b.outcomes == a.outcomes) & (b.outcome_axes < a.outcome_axes))
+    b_is_larger = {name: np.abs(b.values[name]) > np.abs(value) for name, value in a.values.items()}
 
-    def chosen(ours: dict[str, Doubles], theirs: dict[str, Doubles]) -> dict[str, Doubles]:
-        return {name: np.where(crosswind_is_larger[name], theirs[name], ours[name]) for name in ours}
+    def chosen(of_a: dict[str, Doubles], of_b: dict[str, Doubles]) -> dict[str, Doubles]:
+        return {name: np.where(b_is_larger[name], of_b[name], of_a[name]) for name in of_a}
 
-    radius = downwind.radius_over_thu
-    if "thu" in downwind.values:
-        thu_0, thu_90 = downwind.values["thu"], crosswind.values["thu"]
-        radius_0, radius_90 = thu_0 * downwind.radius_over_thu, thu_90 * crosswind.radius_over_thu
-        radius = np.where(
-            thu_0 >= thu_90,
-            np.where(radius_0 >= radius_90, downwind.radius_over_thu, radius_90 / thu_0),
-            np.where(radius_90 >= radius_0, crosswind.radius_over_thu, radius_0 / thu_90))
-    return PulseNumbers(np.maximum(downwind.outcomes, crosswind.outcomes),
-                        np.where(worse, crosswind.outcome_axes, downwind.outcome_axes),
-                        chosen(downwind.values, crosswind.values),
-                        chosen(downwind.standard_errors, crosswind.standard_errors), radius)
+    radius = a.radius_over_thu
+    if "thu" in a.values:
+        thu_a, thu_b = a.values["thu"], b.values["thu"]
+        radius_a, radius_b = thu_a * a.radius_over_thu, thu_b * b.radius_over_thu
+        radius = np.where(thu_a >= thu_b,
+                          np.where(radius_a >= radius_b, a.radius_over_thu, radius_b / thu_a),
+                          np.where(radius_b >= radius_a, b.radius_over_thu, radius_a / thu_b))
+    return PulseNumbers(np.maximum(a.outcomes, b.outcomes), np.where(worse, b.outcome_axes, a.outcome_axes),
+                        chosen(a.values, b.values), chosen(a.standard_errors, b.standard_errors), radius)
 
 
 class _Grid:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import ArgumentError
 from .names import check_name
 from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS
+from .sea import Sea
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class Query:
     s44_order: str | None
     best_s44_order: bool
     table: str | None
+    sea: Sea | None = None  # In place of a table.
 
     @property
     def size(self) -> int:
@@ -53,28 +55,43 @@ def _single(column: NDArray[Any]) -> NDArray[np.float32]:
 
 def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[str] | None, coverage: str,
                standard_errors: bool, s44_order: str | None, best_s44_order: bool,
-               table: str | None) -> Query:
-    """Checks the arguments of a query. Raises ArgumentError."""
+               table: str | None, sea: Sea | None = None, on_one_sea: bool = False) -> Query:
+    """Checks the arguments of a query. Raises ArgumentError.
+
+    `on_one_sea`: the table is that of one sea, which needs neither wind speed nor fetch.
+    """
+    optional = ("wind_speed", "fetch", "azimuth") if on_one_sea else ("fetch", "azimuth")
+    if "wind_speed" not in optional and pulses["wind_speed"] is None:
+        raise ArgumentError("wind_speed is missing: give it in m/s, or the sea")
     arrays = {axis: _read_column(axis, values) for axis, values in pulses.items()
-              if values is not None or axis not in ("fetch", "azimuth")}
+              if values is not None or axis not in optional}
     shape = _common_shape(arrays)
     # reshape(-1) copies a broadcast array, which takes the least memory in single precision.
     flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
-            else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()}
+            else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()
+            if not (sea is not None and axis in ("wind_speed", "fetch"))}
     check_table(table)
+    _check_sea(sea, table)
     check_name("coverage", coverage, COVERAGES)
     if s44_order is not None:
         check_name("s44_order", s44_order, S44_ORDERS[1:])
     return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
                  columns=flat, quantities=_read_quantities(quantities), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
-                 best_s44_order=bool(best_s44_order), table=table)
+                 best_s44_order=bool(best_s44_order), table=table, sea=sea)
 
 
 def check_table(name: str | None) -> None:
     """Raises ArgumentError unless `name` is text or None."""
     if not isinstance(name, (str, type(None))):
         raise ArgumentError(f"table is {name!r}: it should be a name, or omitted")
+
+
+def _check_sea(sea: object, table: str | None) -> None:
+    if not isinstance(sea, (Sea, type(None))):
+        raise ArgumentError(f"sea is {sea!r}: it should be an albtpu.Sea, or omitted")
+    if sea is not None and table is not None:
+        raise ArgumentError(f"both sea and table='{table}' are given: a sea has a table of its own; omit one of them")
 
 
 def _read_column(axis: str, values: ArrayLike | None) -> NDArray[Any]:

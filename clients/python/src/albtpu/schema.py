@@ -21,6 +21,22 @@ AXES: dict[str, Description] = {
     "depth": Description("m", "depth below the located surface"),
 }
 
+# The kinds of tables that are read, and their axes. A table of one sea folds azimuths into half a turn only, and its
+# wind speed and fetch, of one node each, are of no effect: any coordinate counts as the node.
+SEA_SURFACE, ONE_SEA = "sea_surface", "one_sea"
+AXES_OF_KIND: dict[str, dict[str, Description]] = {
+    SEA_SURFACE: AXES,
+    ONE_SEA: AXES | {
+        "wind_speed": Description("m s-1", "wind speed at 10 m above the sea, of this sea: any other counts as it"),
+        "fetch": Description("m", "fetch, of no effect: any counts as the node"),
+        "azimuth": Description(
+            "degree", "azimuth of the beam from the x axis of the sea, folded into 0 to 180 degrees"),
+    },
+}
+GREATEST_AZIMUTH = {SEA_SURFACE: 90.0, ONE_SEA: 180.0}  # degrees, after folding
+# The axes on which any coordinate above the last node counts as the last node.
+ENDLESS_AXES = {SEA_SURFACE: ("fetch",), ONE_SEA: ("wind_speed", "fetch")}
+
 # The effects of the sea surface on a pulse. On the wire, a quantity is its position here, counted from 1.
 QUANTITIES: dict[str, Description] = {
     "refraction_along_wind": Description("degree", "uncertainty of the direction in water, along the wind"),

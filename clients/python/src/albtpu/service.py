@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import grpc
 import numpy as np
@@ -13,12 +13,17 @@ from .errors import ArgumentError
 from .progress import Progress
 from .query import Query, check_table
 from .retries import Retries, service_error
+from .schema import ONE_SEA, SEA_SURFACE
+from .sea import Sea
 from .source import UncertaintySource
 from .stream import ColumnStream
-from .tables import AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
+from .tables import Answered, AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
 from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
+
+if TYPE_CHECKING:
+    from .table_file import TableFile
 
 _SCALES = ("", "linear", "log")  # Indexed by their numbers on the wire.
 
@@ -62,14 +67,20 @@ class Service(UncertaintySource):
     def table(self, name: str | None = None) -> Table:
         """As in UncertaintySource. Raises TableNotFoundError, which lists the existing names."""
         check_table(name)
-        table = self._call(self._stub.GetTable, wire.GetTableRequest(table=name)).table
-        return Table(
-            TableReference.of(table.reference), table.title,
-            {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
-                             _SCALES[axis.scale]) for axis in table.axes},
-            {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
-                                     quantity.has_standard_error) for quantity in table.quantities},
-            table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())})
+        return _table(self._call(self._stub.GetTable, wire.GetTableRequest(table=name)).table)
+
+    def sea_table(self, sea: Sea) -> Table:
+        """The table that the server computes of a sea, as `table` describes one of its own.
+
+        Its attributes say what the sea was taken to be, for example `x_azimuth` and `share_measured`.
+        """
+        return _table(self._call(self._stub.CompileSea, wire.CompileSeaRequest(sea=sea.message())).table)
+
+    def compile(self, sea: Sea) -> TableFile:
+        """The table of a sea with all its values, to be queried without the service. Needs h5py."""
+        from .table_file import TableFile
+        request = wire.CompileSeaRequest(sea=sea.message(), with_file=True)
+        return TableFile("sea", self._call(self._stub.CompileSea, request).file)
 
     def close(self) -> None:
         self._open_stub = None
@@ -81,15 +92,17 @@ class Service(UncertaintySource):
             raise ArgumentError(f"the service at {self._target} is closed: connect again")
         return self._open_stub
 
-    def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> TableReference:
+    def _answer(self, query: Query, columns: AnswerColumns, progress: Progress) -> Answered:
         if query.size == 0:
-            return self.table(query.table).reference
+            table = self.table(query.table) if query.sea is None else self.sea_table(query.sea)
+            return Answered(table.reference)
         stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
         return stream.run(Retries(self._channel, self._patience))
 
-    def _axes(self, reference: TableReference) -> Mapping[str, Axis]:
+    def _axes(self, query: Query, reference: TableReference) -> Mapping[str, Axis]:
         if reference.digest not in self._known_axes:
-            self._known_axes[reference.digest] = super()._axes(reference)
+            self._known_axes[reference.digest] = (
+                super()._axes(query, reference) if query.sea is None else self.sea_table(query.sea).axes)
         return self._known_axes[reference.digest]
 
     def _call(self, method: Any, request: Any) -> Any:
@@ -100,6 +113,17 @@ class Service(UncertaintySource):
             except grpc.RpcError as error:
                 if not retries.wait_after(error):
                     raise service_error(self._target, error) from error
+
+
+def _table(table: Any) -> Table:
+    return Table(
+        TableReference.of(table.reference), table.title,
+        {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
+                         _SCALES[axis.scale]) for axis in table.axes},
+        {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
+                                 quantity.has_standard_error) for quantity in table.quantities},
+        table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())},
+        ONE_SEA if table.HasField("sea") else SEA_SURFACE)
 
 
 def _attribute(value: Any) -> AttributeValue:

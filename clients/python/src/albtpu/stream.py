@@ -16,7 +16,7 @@ from .progress import Progress
 from .query import Query
 from .retries import Retries, service_error
 from .schema import COVERAGES, QUANTITIES, S44_ORDERS
-from .tables import TableReference
+from .tables import Answered, SeaSummary, TableReference
 from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
@@ -38,9 +38,10 @@ class ColumnStream:
         self._progress, self._timeout = progress, timeout
         self._answered = 0  # Pulses.
         self._table: TableReference | None = None
+        self._sea: SeaSummary | None = None
 
-    def run(self, retries: Retries) -> TableReference:
-        """Returns the table that answered. The query must have at least one pulse. Raises ServiceError."""
+    def run(self, retries: Retries) -> Answered:
+        """Returns what answered. The query must have at least one pulse. Raises ServiceError."""
         while self._answered < self._query.size:
             before = self._answered
             try:
@@ -51,7 +52,7 @@ class ColumnStream:
                 if not retries.wait_after(error):
                     raise service_error(self._target, error) from error
         assert self._table is not None
-        return self._table
+        return Answered(self._table, self._sea)
 
     def _run_once(self) -> None:
         sender = _Sender(self._query, self._answered, self._timeout)
@@ -74,6 +75,7 @@ class ColumnStream:
         """Writes the answer to the next batch into its place. The columns of the batch had `length` elements."""
         table = TableReference.of(answer.table)
         self._table = self._table or table
+        self._sea = SeaSummary.of(answer.sea) if answer.HasField("sea") else None
         if table.digest != self._table.digest:
             raise TableChangedError(
                 f"server {self._target}: table {table.name} changed from digest {self._table.digest} to "
@@ -128,13 +130,15 @@ class _Sender:
             standard_errors=self._query.standard_errors, best_s44_order=self._query.best_s44_order,
             s44_order=S44_ORDERS.index(self._query.s44_order or ""))
         quantities = [numbers.index(name) + 1 for name in self._query.quantities]
+        sea = self._query.sea.message() if self._query.sea else None
         for begin in range(self._begin, self._query.size, _BATCH):
             if not self._wait():
                 return
             columns = self._query.batch(begin, min(begin + _BATCH, self._query.size))
             self.lengths.append(max(column.size for column in columns.values()))
             pulses = {axis: column.tobytes() for axis, column in columns.items()}
-            yield wire.StreamColumnsRequest(query=dict(options=options, pulses=pulses, quantities=quantities))
+            yield wire.StreamColumnsRequest(
+                query=dict(options=options, pulses=pulses, quantities=quantities, sea=sea))
         for _ in range(_IN_FLIGHT):
             if not self._wait():
                 return

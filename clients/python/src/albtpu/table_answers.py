@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,7 +11,7 @@ from .coverage import FACTOR_95
 from .interpolation import Interpolator, PulseNumbers, larger_of
 from .query import Query
 from .s44 import best_orders, limits, remaining
-from .schema import BIASES, INTERPOLATED, QUANTITIES, REFRACTIONS
+from .schema import BIASES, ENDLESS_AXES, INTERPOLATED, QUANTITIES, REFRACTIONS, SEA_SURFACE
 from .table_reader import TableContent
 from .uncertainties import AnswerColumns
 
@@ -27,10 +29,10 @@ class TableAnswers:
             wanted.update(("thu", "tvu", *REFRACTIONS))
         values = [name for name in QUANTITIES if name in wanted and name in content.values]
         errors = [name for name in values if query.standard_errors and name in content.standard_errors]
-        columns = {"fetch": np.array([np.inf])} | dict(query.columns)
+        columns = {axis: np.array([np.inf]) for axis in ENDLESS_AXES[content.table.kind]} | dict(query.columns)
         azimuths: list[dict[str, NDArray[np.float32]]] = [{}]
         if "azimuth" not in columns:
-            azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in (0, 90)]
+            azimuths = [{"azimuth": np.array([azimuth], np.float32)} for azimuth in _azimuths(content)]
         with np.errstate(all="ignore"):  # Values for a constant out of domain are never used.
             constant = {axis: column.astype(np.float32) for axis, column in columns.items() if column.size == 1}
             self._interpolators = [Interpolator(content, values, errors, constant | azimuth)
@@ -42,7 +44,7 @@ class TableAnswers:
         pulses = self._query.batch(begin, end)
         with np.errstate(all="ignore"):  # Values for pulses out of domain are discarded below.
             two_sigma = [interpolate(pulses, count) for interpolate in self._interpolators]
-            numbers = two_sigma[0] if len(two_sigma) == 1 else larger_of(*two_sigma)
+            numbers = reduce(larger_of, two_sigma)
             columns.outcomes[block], columns.outcome_axes[block] = numbers.outcomes, numbers.outcome_axes
             without_number = numbers.outcomes != INTERPOLATED
             for target, source in ((columns.values, numbers.values),
@@ -69,3 +71,9 @@ class TableAnswers:
             thu_limit, tvu_limit = limits(str(self._query.s44_order), depth)
             columns.remaining_thu[block] = remaining(thu_limit, thu)
             columns.remaining_tvu[block] = remaining(tvu_limit, tvu)
+
+
+def _azimuths(content: TableContent) -> list[float]:
+    """The azimuths of which a pulse without azimuth takes the worst."""
+    nodes: list[float] = content.table.axes["azimuth"].nodes.tolist()
+    return [0, 90] if content.table.kind == SEA_SURFACE else nodes

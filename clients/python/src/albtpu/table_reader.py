@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import TableFileError
-from .schema import AXES, BIASES, QUANTITIES, REFRACTIONS, STANDARD_ERROR
+from .schema import (AXES_OF_KIND, BIASES, GREATEST_AZIMUTH, QUANTITIES, REFRACTIONS, SEA_SURFACE,
+                     STANDARD_ERROR)
 from .seal import check_seal
 from .tables import AttributeValue, Axis, Quantity, Table, TableReference
 
@@ -24,8 +25,8 @@ Floats = NDArray[np.float32]
 # Limits of tables/FORMAT.md.
 _MOST_VALUES, _MOST_NODES, _LEAST_DISTANCE, _GREATEST_NODE, _GREATEST_VALUE = 2**28, 65536, 1e-6, 1e9, 1e6
 _FILTERS = {h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_FLETCHER32}
-_KIND, _SEA_SURFACE = "table_kind", "sea_surface"
-_RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_digest", "campaign")
+_KIND = "table_kind"
+_RESERVED = ("Conventions", "id", "version", "title", "coverage", "content_digest", "campaign", _KIND)
 
 
 class TableContent(NamedTuple):
@@ -55,10 +56,10 @@ def open_sealed(file: bytes) -> Iterator[h5py.File]:
 
 def read_content(name: str, file: h5py.File) -> TableContent:
     """Reads a table from an open file. Raises TableFileError."""
-    _check_kind(file)
+    kind = _read_kind(file)
     if (coverage := _text(file, "coverage")) != "2 sigma":
         raise TableFileError(f"attribute 'coverage' is '{coverage}': it should be '2 sigma'")
-    axes = {axis: _read_axis(file, axis) for axis in AXES}
+    axes = {axis: _read_axis(file, axis, kind) for axis in AXES_OF_KIND[kind]}
     values, standard_errors, quantities = {}, {}, {}
     for quantity, (units, long_name) in QUANTITIES.items():
         if not _has(file, quantity):
@@ -72,31 +73,35 @@ def read_content(name: str, file: h5py.File) -> TableContent:
         quantities[quantity] = Quantity(units, long_name, scale, quantity in standard_errors)
     reference = TableReference(name, _text(file, "id"), _text(file, "version"), _text(file, "content_digest"))
     attributes = {key: plain_attribute(value) for key, value in sorted(file.attrs.items()) if key not in _RESERVED}
-    table = Table(reference, _text(file, "title"), axes, quantities, _text(file, "campaign"), attributes)
+    table = Table(reference, _text(file, "title"), axes, quantities, _text(file, "campaign"), attributes, kind)
     return TableContent(table, values, standard_errors)
 
 
-def _check_kind(file: h5py.File) -> None:
-    """Refuses other kinds of tables. Tables of the sea surface never name their kind."""
+def _read_kind(file: h5py.File) -> str:
+    """Refuses kinds of tables that are not known. Tables of the sea surface never name their kind."""
     if _KIND not in file.attrs:
-        return
+        return SEA_SURFACE
     kind = _text(file, _KIND)
-    if kind == _SEA_SURFACE:
+    if kind == SEA_SURFACE:
         raise TableFileError(f"attribute '{_KIND}' is '{kind}': files of that kind do not have it")
-    raise TableFileError(f"is a table of kind '{kind}': expected kind '{_SEA_SURFACE}'")
+    if kind not in AXES_OF_KIND:
+        expected = " or ".join(f"'{known}'" for known in AXES_OF_KIND)
+        raise TableFileError(f"is a table of kind '{kind}': expected kind {expected}")
+    return kind
 
 
-def _read_axis(file: h5py.File, axis: str) -> Axis:
-    nodes = _floats(file, "axis", axis, AXES[axis].units)
+def _read_axis(file: h5py.File, axis: str, kind: str) -> Axis:
+    description = AXES_OF_KIND[kind][axis]
+    nodes = _floats(file, "axis", axis, description.units)
     if nodes.ndim != 1 or not 0 < nodes.size <= _MOST_NODES:
         raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and "
                              f"1 to {_MOST_NODES} nodes")
-    largest = 90 if axis == "azimuth" else _GREATEST_NODE
+    largest = GREATEST_AZIMUTH[kind] if axis == "azimuth" else _GREATEST_NODE
     increase = bool((np.diff(nodes.astype(float)) >= _LEAST_DISTANCE).all())
     if not (nodes[0] >= 0 and nodes[-1] <= largest and increase):
         raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, "
                              f"or are above {largest:g}")
-    return Axis(nodes, *AXES[axis], _scale(file[axis], "axis", axis, nodes))
+    return Axis(nodes, *description, _scale(file[axis], "axis", axis, nodes))
 
 
 def _read_values(file: h5py.File, name: str, quantity: str, axes: dict[str, Axis]) -> Floats:

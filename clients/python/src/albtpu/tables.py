@@ -25,6 +25,41 @@ class TableReference(NamedTuple):
         return cls(message.name, message.id, message.version, message.digest)
 
 
+class SeaSummary(NamedTuple):
+    """What a sea was taken to be."""
+
+    x_azimuth: float  # degrees of the compass, from which azimuths count: albtpu.geometry.azimuth_on_sea
+    significant_wave_height: float  # m, 4 sqrt(m0) of the whole sea
+    wind_speed: float  # m/s at 10 m, given or taken from the waves
+    water_depth: float  # m; infinity for deep water
+    tail_from: float  # Hz, from where the waves of the wind are joined; 0 without known waves
+    share_measured: float  # of the known waves in the variance of slope at a footprint of 0.6 m, 0 to 1
+    assumptions: tuple[str, ...]  # What was taken where nothing is known: one sentence each.
+
+    @classmethod
+    def of(cls, message: Any) -> SeaSummary:
+        """From albtpu.v1.SeaSummary."""
+        return cls(message.x_azimuth, message.significant_wave_height, message.wind_speed, message.water_depth,
+                   message.tail_from, message.share_measured, tuple(message.assumptions))
+
+    @classmethod
+    def of_attributes(cls, attributes: dict[str, AttributeValue]) -> SeaSummary:
+        """From the attributes of the table of a sea."""
+        def number(name: str, absent: float = 0.0) -> float:
+            return float(attributes.get(name, absent))  # type: ignore[arg-type]
+
+        return cls(number("x_azimuth"), number("significant_wave_height"), number("wind_speed_10m"),
+                   number("water_depth", float("inf")), number("tail_from"), number("share_measured"),
+                   tuple(str(attributes.get("assumptions", "")).split("\n")) if "assumptions" in attributes else ())
+
+
+class Answered(NamedTuple):
+    """What answered a query."""
+
+    table: TableReference
+    sea: SeaSummary | None = None  # If the table is that of one sea.
+
+
 class TableSummary(NamedTuple):
     """An entry in the list of a server's tables."""
 
@@ -61,3 +96,4 @@ class Table:
     quantities: dict[str, Quantity]  # Those that the table has.
     campaign: str  # The campaign file (TOML) that it was made from; empty for tables of published numbers.
     attributes: dict[str, AttributeValue]  # All other attributes of the file.
+    kind: str = "sea_surface"  # Of winds and fetches; "one_sea": of one sea, whose azimuths span half a turn.

@@ -13,7 +13,7 @@ from .errors import ArgumentError
 from .query import Query
 from .schema import (AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS,
                      STANDARD_ERROR)
-from .tables import TableReference
+from .tables import Answered
 
 if TYPE_CHECKING:
     import xarray
@@ -59,11 +59,12 @@ class Uncertainties:
     in `units`. Those that the query did not request raise AttributeError.
 
     table:            the table that answered: name, id, version, digest.
+    sea:              what the sea was taken to be (albtpu.SeaSummary); None if the table is not that of a sea.
     coverage:         "2sigma" or "p95", of all quantities except the biases and S-44.
     azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
     pulses:           the coordinates of the query by axis, as arrays of its shape.
     values:           the quantities by name.
-    standard_errors:  their Monte Carlo standard errors by name; empty if not requested.
+    standard_errors:  their standard errors by name, of the Monte Carlo or of a sea; empty if not requested.
     outcomes:         1 INTERPOLATED, 2 OUT_OF_DOMAIN, 3 INVALID (uint8); `outcome` has the words.
     outcome_axes:     the axis that caused it, its position in albtpu.AXES from 1; 0 if interpolated.
     outcome_sides:    where a pulse out of domain is on that axis: 1 below the first node, 2 above the last; 0 for
@@ -80,14 +81,15 @@ class Uncertainties:
     bias_along_beam: Floats
     bias_vertical: Floats
 
-    def __init__(self, query: Query, columns: AnswerColumns, table: TableReference) -> None:
+    def __init__(self, query: Query, columns: AnswerColumns, answered: Answered) -> None:
         def shaped(column: NDArray[Any]) -> NDArray[Any]:
             return column.reshape(query.shape)
 
         def maybe_shaped(column: NDArray[Any] | None) -> NDArray[Any] | None:
             return None if column is None else shaped(column)
 
-        self.table = table
+        self.table = answered.table
+        self.sea = answered.sea
         self.coverage = query.coverage
         self.azimuth_absent = "azimuth" not in query.pulses
         self.pulses = query.pulses

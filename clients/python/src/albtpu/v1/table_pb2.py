@@ -12,10 +12,11 @@ _sym_db = _symbol_database.Default()
 
 
 from albtpu.v1 import pulse_pb2 as albtpu_dot_v1_dot_pulse__pb2
+from albtpu.v1 import sea_pb2 as albtpu_dot_v1_dot_sea__pb2
 from albtpu.v1 import uncertainty_pb2 as albtpu_dot_v1_dot_uncertainty__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15\x61lbtpu/v1/table.proto\x12\talbtpu.v1\x1a\x15\x61lbtpu/v1/pulse.proto\x1a\x1b\x61lbtpu/v1/uncertainty.proto\"K\n\x0eTableReference\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\n\n\x02id\x18\x02 \x01(\t\x12\x0f\n\x07version\x18\x03 \x01(\t\x12\x0e\n\x06\x64igest\x18\x04 \x01(\t\"K\n\x0cTableSummary\x12,\n\treference\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12\r\n\x05title\x18\x02 \x01(\t\"\x8a\x01\n\tTableAxis\x12\x1d\n\x04\x61xis\x18\x01 \x01(\x0e\x32\x0f.albtpu.v1.Axis\x12\x0c\n\x04name\x18\x02 \x01(\t\x12\r\n\x05units\x18\x03 \x01(\t\x12\x11\n\tlong_name\x18\x04 \x01(\t\x12\x1f\n\x05scale\x18\x05 \x01(\x0e\x32\x10.albtpu.v1.Scale\x12\r\n\x05nodes\x18\x06 \x03(\x02\"\xa3\x01\n\rTableQuantity\x12%\n\x08quantity\x18\x01 \x01(\x0e\x32\x13.albtpu.v1.Quantity\x12\x0c\n\x04name\x18\x02 \x01(\t\x12\r\n\x05units\x18\x03 \x01(\t\x12\x11\n\tlong_name\x18\x04 \x01(\t\x12\x1f\n\x05scale\x18\x05 \x01(\x0e\x32\x10.albtpu.v1.Scale\x12\x1a\n\x12has_standard_error\x18\x06 \x01(\x08\"\"\n\x10\x41ttributeNumbers\x12\x0e\n\x06values\x18\x01 \x03(\x01\"~\n\x0e\x41ttributeValue\x12\x0e\n\x04text\x18\x01 \x01(\tH\x00\x12\x11\n\x07integer\x18\x02 \x01(\x03H\x00\x12\x10\n\x06number\x18\x03 \x01(\x01H\x00\x12.\n\x07numbers\x18\x04 \x01(\x0b\x32\x1b.albtpu.v1.AttributeNumbersH\x00\x42\x07\n\x05value\"\xac\x02\n\x05Table\x12,\n\treference\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12\r\n\x05title\x18\x02 \x01(\t\x12\"\n\x04\x61xes\x18\x03 \x03(\x0b\x32\x14.albtpu.v1.TableAxis\x12,\n\nquantities\x18\x04 \x03(\x0b\x32\x18.albtpu.v1.TableQuantity\x12\x10\n\x08\x63\x61mpaign\x18\x05 \x01(\t\x12\x34\n\nattributes\x18\x06 \x03(\x0b\x32 .albtpu.v1.Table.AttributesEntry\x1aL\n\x0f\x41ttributesEntry\x12\x0b\n\x03key\x18\x01 \x01(\t\x12(\n\x05value\x18\x02 \x01(\x0b\x32\x19.albtpu.v1.AttributeValue:\x02\x38\x01*?\n\x05Scale\x12\x15\n\x11SCALE_UNSPECIFIED\x10\x00\x12\x10\n\x0cSCALE_LINEAR\x10\x01\x12\r\n\tSCALE_LOG\x10\x02\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15\x61lbtpu/v1/table.proto\x12\talbtpu.v1\x1a\x15\x61lbtpu/v1/pulse.proto\x1a\x13\x61lbtpu/v1/sea.proto\x1a\x1b\x61lbtpu/v1/uncertainty.proto\"K\n\x0eTableReference\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\n\n\x02id\x18\x02 \x01(\t\x12\x0f\n\x07version\x18\x03 \x01(\t\x12\x0e\n\x06\x64igest\x18\x04 \x01(\t\"K\n\x0cTableSummary\x12,\n\treference\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12\r\n\x05title\x18\x02 \x01(\t\"\x8a\x01\n\tTableAxis\x12\x1d\n\x04\x61xis\x18\x01 \x01(\x0e\x32\x0f.albtpu.v1.Axis\x12\x0c\n\x04name\x18\x02 \x01(\t\x12\r\n\x05units\x18\x03 \x01(\t\x12\x11\n\tlong_name\x18\x04 \x01(\t\x12\x1f\n\x05scale\x18\x05 \x01(\x0e\x32\x10.albtpu.v1.Scale\x12\r\n\x05nodes\x18\x06 \x03(\x02\"\xa3\x01\n\rTableQuantity\x12%\n\x08quantity\x18\x01 \x01(\x0e\x32\x13.albtpu.v1.Quantity\x12\x0c\n\x04name\x18\x02 \x01(\t\x12\r\n\x05units\x18\x03 \x01(\t\x12\x11\n\tlong_name\x18\x04 \x01(\t\x12\x1f\n\x05scale\x18\x05 \x01(\x0e\x32\x10.albtpu.v1.Scale\x12\x1a\n\x12has_standard_error\x18\x06 \x01(\x08\"\"\n\x10\x41ttributeNumbers\x12\x0e\n\x06values\x18\x01 \x03(\x01\"~\n\x0e\x41ttributeValue\x12\x0e\n\x04text\x18\x01 \x01(\tH\x00\x12\x11\n\x07integer\x18\x02 \x01(\x03H\x00\x12\x10\n\x06number\x18\x03 \x01(\x01H\x00\x12.\n\x07numbers\x18\x04 \x01(\x0b\x32\x1b.albtpu.v1.AttributeNumbersH\x00\x42\x07\n\x05value\"\xd0\x02\n\x05Table\x12,\n\treference\x18\x01 \x01(\x0b\x32\x19.albtpu.v1.TableReference\x12\r\n\x05title\x18\x02 \x01(\t\x12\"\n\x04\x61xes\x18\x03 \x03(\x0b\x32\x14.albtpu.v1.TableAxis\x12,\n\nquantities\x18\x04 \x03(\x0b\x32\x18.albtpu.v1.TableQuantity\x12\x10\n\x08\x63\x61mpaign\x18\x05 \x01(\t\x12\x34\n\nattributes\x18\x06 \x03(\x0b\x32 .albtpu.v1.Table.AttributesEntry\x12\"\n\x03sea\x18\x07 \x01(\x0b\x32\x15.albtpu.v1.SeaSummary\x1aL\n\x0f\x41ttributesEntry\x12\x0b\n\x03key\x18\x01 \x01(\t\x12(\n\x05value\x18\x02 \x01(\x0b\x32\x19.albtpu.v1.AttributeValue:\x02\x38\x01*?\n\x05Scale\x12\x15\n\x11SCALE_UNSPECIFIED\x10\x00\x12\x10\n\x0cSCALE_LINEAR\x10\x01\x12\r\n\tSCALE_LOG\x10\x02\x62\x06proto3')
 
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, globals())
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'albtpu.v1.table_pb2', globals())
@@ -24,22 +25,22 @@ if _descriptor._USE_C_DESCRIPTORS == False:
   DESCRIPTOR._options = None
   _TABLE_ATTRIBUTESENTRY._options = None
   _TABLE_ATTRIBUTESENTRY._serialized_options = b'8\001'
-  _SCALE._serialized_start=1016
-  _SCALE._serialized_end=1079
-  _TABLEREFERENCE._serialized_start=88
-  _TABLEREFERENCE._serialized_end=163
-  _TABLESUMMARY._serialized_start=165
-  _TABLESUMMARY._serialized_end=240
-  _TABLEAXIS._serialized_start=243
-  _TABLEAXIS._serialized_end=381
-  _TABLEQUANTITY._serialized_start=384
-  _TABLEQUANTITY._serialized_end=547
-  _ATTRIBUTENUMBERS._serialized_start=549
-  _ATTRIBUTENUMBERS._serialized_end=583
-  _ATTRIBUTEVALUE._serialized_start=585
-  _ATTRIBUTEVALUE._serialized_end=711
-  _TABLE._serialized_start=714
-  _TABLE._serialized_end=1014
-  _TABLE_ATTRIBUTESENTRY._serialized_start=938
-  _TABLE_ATTRIBUTESENTRY._serialized_end=1014
+  _SCALE._serialized_start=1073
+  _SCALE._serialized_end=1136
+  _TABLEREFERENCE._serialized_start=109
+  _TABLEREFERENCE._serialized_end=184
+  _TABLESUMMARY._serialized_start=186
+  _TABLESUMMARY._serialized_end=261
+  _TABLEAXIS._serialized_start=264
+  _TABLEAXIS._serialized_end=402
+  _TABLEQUANTITY._serialized_start=405
+  _TABLEQUANTITY._serialized_end=568
+  _ATTRIBUTENUMBERS._serialized_start=570
+  _ATTRIBUTENUMBERS._serialized_end=604
+  _ATTRIBUTEVALUE._serialized_start=606
+  _ATTRIBUTEVALUE._serialized_end=732
+  _TABLE._serialized_start=735
+  _TABLE._serialized_end=1071
+  _TABLE_ATTRIBUTESENTRY._serialized_start=995
+  _TABLE_ATTRIBUTESENTRY._serialized_end=1071
 # @@protoc_insertion_point(module_scope)

@@ -1,4 +1,5 @@
 from albtpu.v1 import pulse_pb2 as _pulse_pb2
+from albtpu.v1 import sea_pb2 as _sea_pb2
 from albtpu.v1 import uncertainty_pb2 as _uncertainty_pb2
 from google.protobuf.internal import containers as _containers
 from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
@@ -30,7 +31,7 @@ class AttributeValue(_message.Message):
     def __init__(self, text: _Optional[str] = ..., integer: _Optional[int] = ..., number: _Optional[float] = ..., numbers: _Optional[_Union[AttributeNumbers, _Mapping]] = ...) -> None: ...
 
 class Table(_message.Message):
-    __slots__ = ["attributes", "axes", "campaign", "quantities", "reference", "title"]
+    __slots__ = ["attributes", "axes", "campaign", "quantities", "reference", "sea", "title"]
     class AttributesEntry(_message.Message):
         __slots__ = ["key", "value"]
         KEY_FIELD_NUMBER: _ClassVar[int]
@@ -43,14 +44,16 @@ class Table(_message.Message):
     CAMPAIGN_FIELD_NUMBER: _ClassVar[int]
     QUANTITIES_FIELD_NUMBER: _ClassVar[int]
     REFERENCE_FIELD_NUMBER: _ClassVar[int]
+    SEA_FIELD_NUMBER: _ClassVar[int]
     TITLE_FIELD_NUMBER: _ClassVar[int]
     attributes: _containers.MessageMap[str, AttributeValue]
     axes: _containers.RepeatedCompositeFieldContainer[TableAxis]
     campaign: str
     quantities: _containers.RepeatedCompositeFieldContainer[TableQuantity]
     reference: TableReference
+    sea: _sea_pb2.SeaSummary
     title: str
-    def __init__(self, reference: _Optional[_Union[TableReference, _Mapping]] = ..., title: _Optional[str] = ..., axes: _Optional[_Iterable[_Union[TableAxis, _Mapping]]] = ..., quantities: _Optional[_Iterable[_Union[TableQuantity, _Mapping]]] = ..., campaign: _Optional[str] = ..., attributes: _Optional[_Mapping[str, AttributeValue]] = ...) -> None: ...
+    def __init__(self, reference: _Optional[_Union[TableReference, _Mapping]] = ..., title: _Optional[str] = ..., axes: _Optional[_Iterable[_Union[TableAxis, _Mapping]]] = ..., quantities: _Optional[_Iterable[_Union[TableQuantity, _Mapping]]] = ..., campaign: _Optional[str] = ..., attributes: _Optional[_Mapping[str, AttributeValue]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
 
 class TableAxis(_message.Message):
     __slots__ = ["axis", "long_name", "name", "nodes", "scale", "units"]

@@ -1,4 +1,5 @@
 from albtpu.v1 import pulse_pb2 as _pulse_pb2
+from albtpu.v1 import sea_pb2 as _sea_pb2
 from albtpu.v1 import table_pb2 as _table_pb2
 from albtpu.v1 import uncertainty_pb2 as _uncertainty_pb2
 from google.protobuf.internal import containers as _containers
@@ -7,6 +8,22 @@ from google.protobuf import message as _message
 from typing import ClassVar as _ClassVar, Iterable as _Iterable, Mapping as _Mapping, Optional as _Optional, Union as _Union
 
 DESCRIPTOR: _descriptor.FileDescriptor
+
+class CompileSeaRequest(_message.Message):
+    __slots__ = ["sea", "with_file"]
+    SEA_FIELD_NUMBER: _ClassVar[int]
+    WITH_FILE_FIELD_NUMBER: _ClassVar[int]
+    sea: _sea_pb2.SeaState
+    with_file: bool
+    def __init__(self, sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ..., with_file: bool = ...) -> None: ...
+
+class CompileSeaResponse(_message.Message):
+    __slots__ = ["file", "table"]
+    FILE_FIELD_NUMBER: _ClassVar[int]
+    TABLE_FIELD_NUMBER: _ClassVar[int]
+    file: bytes
+    table: _table_pb2.Table
+    def __init__(self, table: _Optional[_Union[_table_pb2.Table, _Mapping]] = ..., file: _Optional[bytes] = ...) -> None: ...
 
 class GetTableRequest(_message.Message):
     __slots__ = ["table"]
@@ -33,23 +50,26 @@ class ListTablesResponse(_message.Message):
     def __init__(self, tables: _Optional[_Iterable[_Union[_table_pb2.TableSummary, _Mapping]]] = ..., default_table: _Optional[str] = ...) -> None: ...
 
 class QueryColumnsRequest(_message.Message):
-    __slots__ = ["options", "pulses", "quantities"]
+    __slots__ = ["options", "pulses", "quantities", "sea"]
     OPTIONS_FIELD_NUMBER: _ClassVar[int]
     PULSES_FIELD_NUMBER: _ClassVar[int]
     QUANTITIES_FIELD_NUMBER: _ClassVar[int]
+    SEA_FIELD_NUMBER: _ClassVar[int]
     options: QueryOptions
     pulses: _pulse_pb2.PulseColumns
     quantities: _containers.RepeatedScalarFieldContainer[_uncertainty_pb2.Quantity]
-    def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_uncertainty_pb2.Quantity, str]]] = ...) -> None: ...
+    sea: _sea_pb2.SeaState
+    def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Union[_pulse_pb2.PulseColumns, _Mapping]] = ..., quantities: _Optional[_Iterable[_Union[_uncertainty_pb2.Quantity, str]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
 
 class QueryColumnsResponse(_message.Message):
-    __slots__ = ["azimuth_absent", "coverage", "outcome_axes", "outcomes", "pulse_count", "s44", "sea_surface", "sea_surface_standard_error", "table"]
+    __slots__ = ["azimuth_absent", "coverage", "outcome_axes", "outcomes", "pulse_count", "s44", "sea", "sea_surface", "sea_surface_standard_error", "table"]
     AZIMUTH_ABSENT_FIELD_NUMBER: _ClassVar[int]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
     OUTCOMES_FIELD_NUMBER: _ClassVar[int]
     OUTCOME_AXES_FIELD_NUMBER: _ClassVar[int]
     PULSE_COUNT_FIELD_NUMBER: _ClassVar[int]
     S44_FIELD_NUMBER: _ClassVar[int]
+    SEA_FIELD_NUMBER: _ClassVar[int]
     SEA_SURFACE_FIELD_NUMBER: _ClassVar[int]
     SEA_SURFACE_STANDARD_ERROR_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
@@ -59,10 +79,11 @@ class QueryColumnsResponse(_message.Message):
     outcomes: bytes
     pulse_count: int
     s44: _uncertainty_pb2.S44Columns
+    sea: _sea_pb2.SeaSummary
     sea_surface: _uncertainty_pb2.SeaSurfaceColumns
     sea_surface_standard_error: _uncertainty_pb2.SeaSurfaceColumns
     table: _table_pb2.TableReference
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., sea_surface: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., sea_surface_standard_error: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., s44: _Optional[_Union[_uncertainty_pb2.S44Columns, _Mapping]] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., pulse_count: _Optional[int] = ..., outcomes: _Optional[bytes] = ..., outcome_axes: _Optional[bytes] = ..., azimuth_absent: bool = ..., sea_surface: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., sea_surface_standard_error: _Optional[_Union[_uncertainty_pb2.SeaSurfaceColumns, _Mapping]] = ..., s44: _Optional[_Union[_uncertainty_pb2.S44Columns, _Mapping]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
 
 class QueryOptions(_message.Message):
     __slots__ = ["best_s44_order", "coverage", "s44_order", "standard_errors", "table"]
@@ -79,22 +100,26 @@ class QueryOptions(_message.Message):
     def __init__(self, table: _Optional[str] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., standard_errors: bool = ..., best_s44_order: bool = ..., s44_order: _Optional[_Union[_uncertainty_pb2.S44Order, str]] = ...) -> None: ...
 
 class QueryPulsesRequest(_message.Message):
-    __slots__ = ["options", "pulses"]
+    __slots__ = ["options", "pulses", "sea"]
     OPTIONS_FIELD_NUMBER: _ClassVar[int]
     PULSES_FIELD_NUMBER: _ClassVar[int]
+    SEA_FIELD_NUMBER: _ClassVar[int]
     options: QueryOptions
     pulses: _containers.RepeatedCompositeFieldContainer[_pulse_pb2.Pulse]
-    def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Iterable[_Union[_pulse_pb2.Pulse, _Mapping]]] = ...) -> None: ...
+    sea: _sea_pb2.SeaState
+    def __init__(self, options: _Optional[_Union[QueryOptions, _Mapping]] = ..., pulses: _Optional[_Iterable[_Union[_pulse_pb2.Pulse, _Mapping]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaState, _Mapping]] = ...) -> None: ...
 
 class QueryPulsesResponse(_message.Message):
-    __slots__ = ["coverage", "table", "uncertainties"]
+    __slots__ = ["coverage", "sea", "table", "uncertainties"]
     COVERAGE_FIELD_NUMBER: _ClassVar[int]
+    SEA_FIELD_NUMBER: _ClassVar[int]
     TABLE_FIELD_NUMBER: _ClassVar[int]
     UNCERTAINTIES_FIELD_NUMBER: _ClassVar[int]
     coverage: _uncertainty_pb2.Coverage
+    sea: _sea_pb2.SeaSummary
     table: _table_pb2.TableReference
     uncertainties: _containers.RepeatedCompositeFieldContainer[_uncertainty_pb2.PulseUncertainty]
-    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., uncertainties: _Optional[_Iterable[_Union[_uncertainty_pb2.PulseUncertainty, _Mapping]]] = ...) -> None: ...
+    def __init__(self, table: _Optional[_Union[_table_pb2.TableReference, _Mapping]] = ..., coverage: _Optional[_Union[_uncertainty_pb2.Coverage, str]] = ..., uncertainties: _Optional[_Iterable[_Union[_uncertainty_pb2.PulseUncertainty, _Mapping]]] = ..., sea: _Optional[_Union[_sea_pb2.SeaSummary, _Mapping]] = ...) -> None: ...
 
 class StreamColumnsRequest(_message.Message):
     __slots__ = ["query"]

@@ -8,6 +8,13 @@ from albtpu.v1 import uncertainty_service_pb2 as albtpu_dot_v1_dot_uncertainty__
 class UncertaintyServiceStub(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
 
+    The table is one of the server's, or that of a sea: a request may carry a `SeaState`, of which the server computes a
+    table. It keeps the tables of the last seas, but no state of its callers: every request carries its sea. With a sea,
+    `wind_speed` and `fetch` of the pulses are not used and may be absent. `azimuth` counts from the x axis of the sea,
+    counter-clockwise seen from above (`SeaSummary.x_azimuth`), with a period of 180 degrees; without it, each quantity
+    is the largest in magnitude over all azimuths. The invalid fields of a sea have paths such as
+    `sea.components.components[1].peak_period`.
+
     A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
     message that says what would be right, only if it cannot be read as pulses or selects no table.
 
@@ -49,10 +56,22 @@ class UncertaintyServiceStub(object):
                 request_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableRequest.SerializeToString,
                 response_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableResponse.FromString,
                 )
+        self.CompileSea = channel.unary_unary(
+                '/albtpu.v1.UncertaintyService/CompileSea',
+                request_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaRequest.SerializeToString,
+                response_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaResponse.FromString,
+                )
 
 
 class UncertaintyServiceServicer(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
+
+    The table is one of the server's, or that of a sea: a request may carry a `SeaState`, of which the server computes a
+    table. It keeps the tables of the last seas, but no state of its callers: every request carries its sea. With a sea,
+    `wind_speed` and `fetch` of the pulses are not used and may be absent. `azimuth` counts from the x axis of the sea,
+    counter-clockwise seen from above (`SeaSummary.x_azimuth`), with a period of 180 degrees; without it, each quantity
+    is the largest in magnitude over all azimuths. The invalid fields of a sea have paths such as
+    `sea.components.components[1].peak_period`.
 
     A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
     message that says what would be right, only if it cannot be read as pulses or selects no table.
@@ -73,6 +92,8 @@ class UncertaintyServiceServicer(object):
         would exceed 4 MiB); a number that is not a value of its enum.
         * NOT_FOUND: there is no table with that name; the message lists the existing names.
         * FAILED_PRECONDITION: no table was named and there is no default; the message lists the existing names.
+        * With a sea, INVALID_ARGUMENT: a field of the sea is out of its range, or a table is named, too.
+        RESOURCE_EXHAUSTED: too many other seas are waiting to be computed; wait and try again.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -85,7 +106,7 @@ class UncertaintyServiceServicer(object):
         Errors:
         * INVALID_ARGUMENT: no pulses; more than 65 536 pulses; a required column that is empty; a column whose length in
         bytes is not a multiple of 4; columns of different lengths; a number that is not a value of its enum.
-        * NOT_FOUND, FAILED_PRECONDITION: as for `QueryPulses`.
+        * NOT_FOUND, FAILED_PRECONDITION, and the errors of a sea: as for `QueryPulses`.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -93,8 +114,9 @@ class UncertaintyServiceServicer(object):
 
     def StreamColumns(self, request_iterator, context):
         """Many queries of `QueryColumns` in one call, with one response for each request, in the order of the requests. For
-        files and whole surveys. Each request has the limits of `QueryColumns` and may select another table or other
-        columns than the one before.
+        files and whole surveys. Each request has the limits of `QueryColumns` and stands alone: it may select another
+        table, another sea or other columns than the one before. A request without a sea is answered from a table, whatever
+        the one before had. A series of seas over time is one stream.
 
         Send a few requests ahead of the responses (four, for example), so that neither side waits for the other, and
         read while you write: the server holds at most two requests and one response of a stream, so it soon stops
@@ -122,6 +144,16 @@ class UncertaintyServiceServicer(object):
         """Axes, quantities and provenance of one table.
 
         Errors: NOT_FOUND and FAILED_PRECONDITION as for `QueryPulses`.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
+    def CompileSea(self, request, context):
+        """The table of a sea: axes, quantities and provenance, and on request all values as a file. Queries with the same sea
+        are answered from this table.
+
+        Errors: those of a sea, as for `QueryPulses`.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -155,6 +187,11 @@ def add_UncertaintyServiceServicer_to_server(servicer, server):
                     request_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableRequest.FromString,
                     response_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableResponse.SerializeToString,
             ),
+            'CompileSea': grpc.unary_unary_rpc_method_handler(
+                    servicer.CompileSea,
+                    request_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaRequest.FromString,
+                    response_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaResponse.SerializeToString,
+            ),
     }
     generic_handler = grpc.method_handlers_generic_handler(
             'albtpu.v1.UncertaintyService', rpc_method_handlers)
@@ -164,6 +201,13 @@ def add_UncertaintyServiceServicer_to_server(servicer, server):
  # This class is part of an EXPERIMENTAL API.
 class UncertaintyService(object):
     """Uncertainty of airborne lidar bathymetry, pulse by pulse, from lookup tables.
+
+    The table is one of the server's, or that of a sea: a request may carry a `SeaState`, of which the server computes a
+    table. It keeps the tables of the last seas, but no state of its callers: every request carries its sea. With a sea,
+    `wind_speed` and `fetch` of the pulses are not used and may be absent. `azimuth` counts from the x axis of the sea,
+    counter-clockwise seen from above (`SeaSummary.x_azimuth`), with a period of 180 degrees; without it, each quantity
+    is the largest in magnitude over all azimuths. The invalid fields of a sea have paths such as
+    `sea.components.components[1].peak_period`.
 
     A pulse never makes a call fail: a pulse without an answer gets its own outcome. A call fails as a whole, with a
     message that says what would be right, only if it cannot be read as pulses or selects no table.
@@ -257,5 +301,22 @@ class UncertaintyService(object):
         return grpc.experimental.unary_unary(request, target, '/albtpu.v1.UncertaintyService/GetTable',
             albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableRequest.SerializeToString,
             albtpu_dot_v1_dot_uncertainty__service__pb2.GetTableResponse.FromString,
+            options, channel_credentials,
+            insecure, call_credentials, compression, wait_for_ready, timeout, metadata)
+
+    @staticmethod
+    def CompileSea(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_unary(request, target, '/albtpu.v1.UncertaintyService/CompileSea',
+            albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaRequest.SerializeToString,
+            albtpu_dot_v1_dot_uncertainty__service__pb2.CompileSeaResponse.FromString,
             options, channel_credentials,
             insecure, call_credentials, compression, wait_for_ready, timeout, metadata)

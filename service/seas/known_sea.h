@@ -1,0 +1,38 @@
+// What is known of a sea: all that determines its table.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "absl/status/statusor.h"
+#include "sea/files/sea_series.h"
+#include "sea/spectra/described_sea.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+
+class SeaCompiler;
+
+// Equal seas have the same table in process, on a server and from a file, bit for bit on the same instruction set.
+struct KnownSea {
+  // Without waves the sea is the fully developed sea of the wind. A WholeSea is complete: the wind's direction is its x
+  // axis, wind speed and depth are only stated, and the rest has no effect.
+  std::variant<std::monostate, BinnedWaves, WaveComponents, WholeSea> waves = {};
+  std::optional<double> wind_speed_10m = {};  // m/s, from 0
+  std::optional<double> wind_from = {};       // compass direction, rad
+  std::optional<double> water_depth = {};     // m, above 0
+  TailRule tail = TailRule::kRelax;
+  std::optional<double> tail_from = {};  // Hz, above 0
+  double record_length =
+      std::numeric_limits<double>::infinity();  // s, of measured waves; infinity for others
+};
+
+// The sea of a record. Where `told` and the record both have a number, that of `told` counts; the `waves` of `told` are
+// not used.
+KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& told, double record_length);
+
+// The table of the sea. InvalidArgument if a table cannot hold its numbers.
+absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea);
+
+}  // namespace albtpu

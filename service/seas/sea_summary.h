@@ -1,0 +1,26 @@
+// What a sea was taken to be: its frame, its main numbers and what was assumed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+
+struct SeaSummary {
+  // Compass direction of the x axis, degrees, from which azimuths count: BeamAzimuth() of sea_attributes.h.
+  double x_azimuth = 0;
+  double significant_wave_height = 0;  // m, 4 sqrt(m0) of the whole sea
+  double wind_speed_10m = 0;           // m/s, given or taken from the waves
+  double water_depth = 0;              // m; infinity for deep water
+  double tail_from = 0;                // Hz, where the wind's waves are joined; 0 without known waves
+  double share_measured = 0;  // of the known waves in the variance of slope at a footprint of 0.6 m, 0 to 1
+  std::vector<std::string> assumptions;  // what was assumed where nothing is known: one sentence each
+};
+
+// Of a table of one sea, from its attributes; nothing for other tables.
+std::optional<SeaSummary> SummaryOfSea(const UncertaintyTable& table);
+
+}  // namespace albtpu

@@ -1,0 +1,114 @@
+#include "service/client/sea_sources.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "sea/table/sea_table.h"
+#include "service/client/sea_wire.h"
+#include "service/server/seas/sea_request.h"
+#include "tests/service/client/column_memory.h"
+#include "tests/service/client/running_server.h"
+#include "tests/service/known_seas.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::SeasOfAllForms;
+using ::testing::HasSubstr;
+
+PulseMemory RandomPulses(std::size_t count) {
+  std::mt19937 random(1);
+  const auto draw = [&](float from, float to) {
+    return from + (to - from) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24);
+  };
+  PulseMemory pulses;
+  for (std::size_t i = 0; i < count; ++i)
+    pulses.Add({draw(-5, 20), draw(-1, 1e5), draw(-1, 32), draw(-400, 400), draw(0.05f, 7), draw(-1, 65)});
+  return pulses;
+}
+
+TEST(SeaSources, GiveTheSameBitsInProcessAndOnAServer) {
+  const RunningServer server;
+  const auto local = LocalSeas();
+  const auto remote = ServerSeas(server.address()).value();
+  PulseMemory pulses = RandomPulses(70000);  // More than one message, inside and outside the table.
+  const Query query = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b};
+  for (const KnownSea& sea : SeasOfAllForms()) {
+    const auto here = local->Open(sea).value(), there = remote->Open(sea).value();
+    EXPECT_EQ(here->table().digest, there->table().digest);
+    AnswerMemory ours(pulses.size()), theirs(pulses.size());
+    ASSERT_TRUE(here->Answer(query, pulses.columns(), ours.columns()).ok());
+    ASSERT_TRUE(there->Answer(query, pulses.columns(), theirs.columns()).ok());
+    EXPECT_TRUE(ours == theirs);
+  }
+}
+
+TEST(SeaSources, SayTheSameOfASea) {
+  const RunningServer server;
+  const auto local = LocalSeas();
+  const auto remote = ServerSeas(server.address()).value();
+  for (const KnownSea& sea : SeasOfAllForms()) {
+    const auto ours = local->Open(sea).value(), theirs = remote->Open(sea).value();
+    const SeaSummary here = ours->table().sea.value(), there = theirs->table().sea.value();
+    EXPECT_EQ(here.x_azimuth, there.x_azimuth);
+    EXPECT_EQ(here.significant_wave_height, there.significant_wave_height);
+    EXPECT_EQ(here.wind_speed_10m, there.wind_speed_10m);
+    EXPECT_EQ(here.water_depth, there.water_depth);
+    EXPECT_EQ(here.tail_from, there.tail_from);
+    EXPECT_EQ(here.share_measured, there.share_measured);
+    EXPECT_EQ(here.assumptions, there.assumptions);
+    EXPECT_EQ(ours->table().attributes, theirs->table().attributes);
+  }
+}
+
+TEST(SeaSources, IgnoreWindAndFetchOfPulses) {
+  const auto source = LocalSeas()->Open(albtpu::testing::DescribedWaves()).value();
+  PulseMemory pulses = RandomPulses(3000);
+  AnswerMemory with(pulses.size()), without(pulses.size());
+  ASSERT_TRUE(source->Answer({}, pulses.columns(), with.columns()).ok());
+  pulses.axis(AxisId::kWindSpeed).clear();
+  pulses.axis(AxisId::kFetch).clear();
+  ASSERT_TRUE(source->Answer({}, pulses.columns(), without.columns()).ok());
+  EXPECT_TRUE(with == without);
+}
+
+TEST(SeaSources, SayWhichNumberOfASeaIsWrong) {
+  const RunningServer server;
+  const auto seas = ServerSeas(server.address()).value();
+  const auto source = seas->Open({.wind_speed_10m = 200});
+  EXPECT_EQ(source.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(source.status().message()), HasSubstr("wind_speed is 200 m/s (expected 0 to 150)"));
+}
+
+TEST(SeaSources, OpenSeasFromSeveralThreads) {
+  const RunningServer server;
+  const auto seas = ServerSeas(server.address()).value();
+  std::vector<std::string> digests(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < digests.size(); ++i) {
+    threads.emplace_back([&, i] {
+      const auto source = seas->Open(albtpu::testing::WindSea(5.0 + static_cast<double>(i % 2)));
+      if (source.ok()) digests[i] = (*source)->table().digest;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_NE(digests[0], digests[1]);
+  for (std::size_t i = 2; i < digests.size(); ++i) EXPECT_EQ(digests[i], digests[i % 2]);
+}
+
+TEST(SeaWire, KeepsEveryBit) {
+  const SeaCompiler compiler;
+  for (const KnownSea& sea : SeasOfAllForms()) {
+    const auto read = server::ReadSea(ToWire(sea));
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(CompileSea(compiler, *read).value().digest(), CompileSea(compiler, sea).value().digest());
+    EXPECT_EQ(ToWire(*read).SerializeAsString(), ToWire(sea).SerializeAsString());
+  }
+}
+
+}  // namespace
+}  // namespace albtpu::client
