@@ -1,5 +1,6 @@
 #include "survey/answers/batch.h"
 
+#include "sea/table/sea_attributes.h"
 #include "tables/pulse.h"
 
 namespace albtpu::client {
@@ -41,11 +42,37 @@ void AnswerBatch::FindSides(const PulseBatch& pulses, const TableAxes& axes) {
   }
 }
 
-absl::Status AnswerPulses(UncertaintySource& source, const Query& query, const PulseBatch& pulses,
+namespace {
+
+// The table of a sea counts azimuths counter-clockwise from its x axis, which is downwind, and needs no wind.
+absl::Status AskSea(UncertaintySource& sea, const Query& query, const PulseBatch& pulses,
+                    const AnswerColumns& answers) {
+  const double zero = pulses.azimuths_from_north ? sea.table().sea->x_azimuth : 0;
+  std::vector<float> azimuths = pulses.axis[Index(AxisId::kAzimuth)];
+  for (float& azimuth : azimuths) azimuth = static_cast<float>(BeamAzimuth(azimuth, zero));
+  PulseColumns columns = pulses.columns();
+  columns.axis[Index(AxisId::kAzimuth)] = azimuths;
+  columns.axis[Index(AxisId::kWindSpeed)] = columns.axis[Index(AxisId::kFetch)] = {};
+  return sea.Answer(query, columns, answers);
+}
+
+}  // namespace
+
+AnswerSource::AnswerSource(UncertaintySource& source)
+    : AnswerSource(source.table(), [&source](const Query& query, const PulseBatch& pulses,
+                                             const AnswerSelection& selection, AnswerBatch& answers) {
+        const AnswerColumns columns = answers.Resize(pulses.size, selection);
+        if (source.table().sea.has_value()) return AskSea(source, query, pulses, columns);
+        return source.Answer(query, pulses.columns(), columns);
+      }) {}
+
+absl::Status AnswerPulses(const AnswerSource& source, const Query& query, const PulseBatch& pulses,
                           const AnswerSelection& selection, AnswerBatch& answers) {
-  const AnswerColumns columns = answers.Resize(pulses.size, selection);
-  if (pulses.size == 0) return absl::OkStatus();
-  absl::Status status = source.Answer(query, pulses.columns(), columns);
+  if (pulses.size == 0) {
+    answers.Resize(0, selection);
+    return absl::OkStatus();
+  }
+  absl::Status status = source.answer_(query, pulses, selection, answers);
   if (status.ok()) answers.FindSides(pulses, source.table().axes);
   return status;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -35,6 +36,10 @@ constexpr const char* CoverageText(Coverage coverage) {
 struct PulseBatch {
   std::size_t size = 0;
   std::array<std::vector<float>, kAxisCount> axis;
+  // Where the sea differs by time or has an axis of its own: the instants [s since 1970, UTC], one per pulse or none,
+  // and whether azimuths count clockwise from true north, rather than from downwind.
+  std::vector<double> times = {};
+  bool azimuths_from_north = false;
 
   std::vector<float>& operator[](AxisId id) { return axis[Index(id)]; }
   PulseColumns columns() const;
@@ -74,8 +79,28 @@ struct AnswerBatch {
   std::span<const float> operator[](Quantity quantity) const { return values[Index(quantity)]; }
 };
 
+// What answers batches: a table, or the sea at the time of each pulse (survey/seas). Any number of threads may ask.
+class AnswerSource {
+ public:
+  using Answer =
+      std::function<absl::Status(const Query&, const PulseBatch&, const AnswerSelection&, AnswerBatch&)>;
+
+  AnswerSource(UncertaintySource& source);  // NOLINT: each table answers. Must outlive it.
+  AnswerSource(const TableSummary& table, Answer answer) : table_(&table), answer_(std::move(answer)) {}
+
+  // The table, or the one of a sea, whose axes all seas share.
+  const TableSummary& table() const { return *table_; }
+
+ private:
+  friend absl::Status AnswerPulses(const AnswerSource&, const Query&, const PulseBatch&,
+                                   const AnswerSelection&, AnswerBatch&);
+
+  const TableSummary* table_;
+  Answer answer_;
+};
+
 // Queries `source` for all pulses and replaces the contents of `answers`, sides included.
-absl::Status AnswerPulses(UncertaintySource& source, const Query& query, const PulseBatch& pulses,
+absl::Status AnswerPulses(const AnswerSource& source, const Query& query, const PulseBatch& pulses,
                           const AnswerSelection& selection, AnswerBatch& answers);
 
 }  // namespace albtpu::client

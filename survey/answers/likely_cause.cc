@@ -168,6 +168,11 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
       }
       return {"no water surface is known there",
               "check --water-classes, or give the height of the water by --water-level"};
+    case NoPulse::kNoSea:
+      return {"the file of the sea has no record near their times",
+              "check that it is of these days, in UTC; choose one of its times by --sea-time, or bridge "
+              "longer gaps "
+              "by --sea-gap"};
     case NoPulse::kAboveWater:
       break;
   }

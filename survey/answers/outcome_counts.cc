@@ -41,6 +41,8 @@ std::string_view OutcomeName(NoPulse why) {
       return "UNCERTAIN_TRAJECTORY";
     case NoPulse::kNoSurface:
       return "NO_SURFACE";
+    case NoPulse::kNoSea:
+      return "NO_SEA";
     case NoPulse::kAboveWater:
       break;
   }

@@ -16,9 +16,10 @@ enum class NoPulse : std::uint8_t {
   kNoTrajectory,         // No position of the sensor is known at its time.
   kUncertainTrajectory,  // The position is too uncertain for an incidence.
   kNoSurface,            // No water surface is known there.
+  kNoSea,                // The series of the sea has no state at its time.
   kAboveWater,           // The point lies above the water surface.
 };
-inline constexpr std::size_t kNoPulseCount = 4;
+inline constexpr std::size_t kNoPulseCount = 5;
 
 std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 

@@ -26,6 +26,13 @@ ordered_json NamesAndSizes(const Files& files) {
 
 }  // namespace
 
+bool BeamPlan::has_direction() const {
+  if (const auto* scan = std::get_if<AcrossTrackScan>(&source)) return scan->flight_direction.has_value();
+  if (const auto* constant = std::get_if<ConstantIncidence>(&source))
+    return constant->beam_azimuth.has_value();
+  return true;
+}
+
 std::vector<std::string> FilesOf(const BeamPlan& plan) {
   std::vector<std::string> files;
   if (plan.trajectories != nullptr) {
@@ -68,7 +75,7 @@ ordered_json Parameters(const BeamPlan& plan) {
   if (plan.water_level_file.has_value()) json["water_level_file"] = NameAndSize(*plan.water_level_file);
   json["water_classes"] = plan.water_classes;
   json["metres_per_unit"] = or_null(plan.metres_per_unit);  // Null: as the coordinate system states.
-  json["wind_speed"] = JsonNumber(plan.wind_speed);
+  json["wind_speed"] = plan.any_sea ? ordered_json() : JsonNumber(plan.wind_speed);
   // Null if the sea is fully developed.
   json["fetch"] = plan.fetch.has_value() ? JsonNumber(*plan.fetch) : ordered_json();
   json["wind_from"] = or_null(plan.wind_from);

@@ -55,6 +55,7 @@ struct DivergingBeam {
 struct BeamPlan {
   BeamSource source = ConstantIncidence();
   std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
+  bool any_sea = false;                          // Not a table of winds: azimuths count from north.
   std::optional<float> azimuth;                  // degree from downwind, of all beams.
   std::optional<double> wind_from;               // degree, true
   float wind_speed = 0;                          // m/s at 10 m
@@ -75,6 +76,8 @@ struct BeamPlan {
     return std::holds_alternative<TrajectoryFromFiles>(source) ||
            std::holds_alternative<TrajectoryFromReturns>(source);
   }
+  // Whether the true direction of each beam is known.
+  bool has_direction() const;
 };
 
 // The files that the plan reads: trajectories, their errors, water levels.

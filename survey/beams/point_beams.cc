@@ -149,7 +149,7 @@ void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::
     for (std::size_t i = 0; i < rows.size(); ++i) selected[i] = values[rows[i]];
   };
   pulses.size = rows.size();
-  pulses[AxisId::kWindSpeed].assign(1, plan.wind_speed);
+  pulses[AxisId::kWindSpeed].assign(plan.any_sea ? 0 : 1, plan.wind_speed);
   pulses[AxisId::kFetch].assign(plan.fetch.has_value() ? 1 : 0, plan.fetch.value_or(0));
   column(beams.incidence, pulses[AxisId::kIncidence]);
   column(beams.depth, pulses[AxisId::kDepth]);
@@ -161,9 +161,12 @@ void MakePulses(const BeamPlan& plan, const PointBeams& beams, std::vector<std::
   pulses[AxisId::kAzimuth].clear();
   if (plan.azimuth.has_value()) {
     pulses[AxisId::kAzimuth].assign(1, *plan.azimuth);
+  } else if (plan.any_sea && plan.has_direction()) {
+    column(beams.beam_azimuth, pulses[AxisId::kAzimuth]);
   } else if (plan.wind_from.has_value()) {
     column(beams.azimuth, pulses[AxisId::kAzimuth]);
   }
+  pulses.azimuths_from_north = plan.any_sea && !plan.azimuth.has_value();
 }
 
 }  // namespace albtpu::client

@@ -121,8 +121,16 @@ absl::Status SetFootprint(const BeamOptions& options, bool details, BeamPlan& pl
   return absl::OkStatus();
 }
 
+// Over any sea the direction of a beam is known from the wind, or from north; or not at all.
+absl::Status CheckDirectionOnce(const BeamPlan& plan) {
+  if (!plan.azimuth.has_value() || !plan.has_direction()) return absl::OkStatus();
+  return UsageError(
+      "las: the direction of the beam is given twice; give --azimuth (from downwind), or its true direction");
+}
+
 absl::Status SetAzimuth(const BeamOptions& options, bool details, BeamPlan& plan) {
   plan.azimuth = options.fixed[Index(AxisId::kAzimuth)];
+  if (plan.any_sea) return CheckDirectionOnce(plan);
   plan.wind_from = options.wind_from;
   if (plan.azimuth.has_value() && plan.wind_from.has_value()) {
     return UsageError(
@@ -163,18 +171,22 @@ absl::Status SetWater(const BeamOptions& options, BeamPlan& plan) {
 
 }  // namespace
 
-absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, bool details) {
+absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, bool details, bool any_sea) {
   const absl::StatusOr<WayFlag> way = ChosenWay(options);
   if (!way.ok()) return way.status();
   if (absl::Status status = CheckFlagsOf(*way, options); !status.ok()) return status;
   const absl::StatusOr<BeamSource> source = Source(*way, options);
   if (!source.ok()) return source.status();
-  if (!options.fixed[Index(AxisId::kWindSpeed)].has_value()) {
-    return UsageError("las: --wind-speed is missing; give the wind speed at 10 m in m/s");
+  const std::optional<float>& wind_speed = options.fixed[Index(AxisId::kWindSpeed)];
+  if (!wind_speed.has_value() && !any_sea) {
+    return UsageError(
+        "las: --wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
+        "--survey");
   }
   BeamPlan plan;
   plan.source = *source;
-  plan.wind_speed = *options.fixed[Index(AxisId::kWindSpeed)];
+  plan.any_sea = any_sea;
+  plan.wind_speed = wind_speed.value_or(0);
   plan.fetch = options.fixed[Index(AxisId::kFetch)];
   plan.metres_per_unit = options.metres_per_unit;
   plan.refractive_index = options.water_index.value_or(kSeaWaterIndex);

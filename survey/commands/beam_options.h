@@ -34,7 +34,7 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options);
 std::set<int> ParseClasses(const std::string& flag, const std::string& text);
 
 // IsUsageError if something needed is missing, is given in two ways or has no effect. `details`: the geometry of each
-// beam is written, too.
-absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, bool details);
+// beam is written, too. `any_sea`: the sea is told, by which the wind is its own.
+absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, bool details, bool any_sea);
 
 }  // namespace albtpu::client

@@ -11,7 +11,8 @@ namespace albtpu::client {
 inline constexpr char kWhereAnswersComeFrom[] =
     "Without --server and --table, the default one of the installed tables answers, in this process. The\n"
     "environment variable ALBTPU_TABLES names another folder of tables.\n"
-    "Exit code: 0 if every pulse got an outcome, and of the pulses in files at least half a number, 2 for bad\n"
+    "Exit code: 0 if every pulse got an outcome, and of the pulses in files at least half a number, 2 for "
+    "bad\n"
     "usage, 1 for a failure.";
 
 using Run = std::function<absl::Status()>;
@@ -20,6 +21,7 @@ void AddPulseCommand(CLI::App& program, Run& run);
 void AddCsvCommand(CLI::App& program, Run& run);
 void AddLasCommand(CLI::App& program, Run& run);
 void AddTrajectoryCommand(CLI::App& program, Run& run);
+void AddSeaCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 

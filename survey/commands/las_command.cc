@@ -8,7 +8,6 @@
 #include "absl/strings/str_join.h"
 #include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
-#include "survey/commands/interpolation_error.h"
 #include "survey/commands/las_options.h"
 #include "survey/exit_status.h"
 #include "survey/files/annotation_run.h"
@@ -35,6 +34,7 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
                                  {"points", annotated.classes.points()},
                                  {"points_by_class", annotated.classes.Json()},
                                  {"geometry", annotated.geometry}};
+  if (!annotated.sea.is_null()) json["sea"] = annotated.sea;
   if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
   return json;
 }
@@ -42,7 +42,7 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
 class LasFiles {
  public:
   LasFiles(const LasOptions& options, const LasAnnotation& annotation, std::optional<LasKind> kind,
-           UncertaintySource& source)
+           const AnswerSource& source)
       : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
 
   absl::StatusOr<AnnotatedFile> Annotate(const Job& job, FileProgress& progress) {
@@ -88,7 +88,7 @@ class LasFiles {
   const LasOptions& options_;
   const LasAnnotation& annotation_;
   std::optional<LasKind> kind_;  // Of the outputs.
-  UncertaintySource& source_;
+  AnswerSource source_;
   bool resolution_noted_ = false;
   std::uint64_t points_ = 0, bathymetric_ = 0;
 };
@@ -120,7 +120,9 @@ CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
 }
 
 absl::Status RunLas(const LasOptions& options) {
-  absl::StatusOr<LasAnnotation> annotation = Annotation(options);
+  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea);
+  if (!sea.ok()) return sea.status();
+  absl::StatusOr<LasAnnotation> annotation = Annotation(options, *sea);
   if (!annotation.ok()) return annotation.status();
   const absl::StatusOr<std::optional<LasKind>> kind = OutputKind(options);
   if (!kind.ok()) return kind.status();
@@ -130,27 +132,30 @@ absl::Status RunLas(const LasOptions& options) {
       FindJobs("las", {Extension(LasKind::kLas), Extension(LasKind::kLaz)}, file_options);
   if (!jobs.ok()) return jobs.status();
   if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
-  const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
-  if (!source.ok()) return source.status();
-  if (options.style.standard_errors) Note(InterpolationErrorNote((*source)->table()));
-  LasFiles files(options, *annotation, *kind, **source);
-  RunVerdict verdict(ContextOf(annotation->plan, (*source)->table()), "chosen point");
+  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  if (!answerer.ok()) return answerer.status();
+  annotation->seas = answerer->timeline();
+  const AnswerSource source = answerer->source();
+  if (options.style.standard_errors) Note(answerer->ErrorNote());
+  LasFiles files(options, *annotation, *kind, source);
+  RunVerdict verdict(ContextOf(annotation->plan, source.table()), "chosen point");
   const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
     const std::string problem = verdict.Add(job.output.string(), answers);
     if (!problem.empty() && jobs->size() > 1) Note(problem);
   };
-  const std::vector<std::string> read = FilesOf(annotation->plan);
+  std::vector<std::string> read = FilesOf(annotation->plan);
+  if (sea->file.has_value()) read.push_back(*sea->file);
   const absl::Status status = AnnotateFiles(
       *jobs,
       {.command = "las",
        .records = "points",
-       .parameters = Parameters(*annotation, options.format),
+       .parameters = Parameters(*annotation, *sea, options.format),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
        .annotate = [&](const Job& job, FileProgress& progress) { return files.Annotate(job, progress); },
        .finished = judge},
-      (*source)->table());
+      source.table());
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
     return absl::FailedPreconditionError(

@@ -15,6 +15,7 @@ namespace albtpu::client {
 void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFileOptions(command, ".las", options.files, options.existing);
   AddBeamOptions(command, options.beams);
+  AddSeaOptions(command, options.sea);
   command
       .add_option_function<std::string>(
           "--classes",
@@ -56,8 +57,11 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
       "--wind-speed 5 --wind-from 250 --details");
 }
 
-absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options) {
-  absl::StatusOr<BeamPlan> plan = MakePlan(options.beams, options.details);
+absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const ToldSea& sea) {
+  BeamOptions beams = options.beams;
+  if (absl::Status status = TakeWind(sea, beams.fixed); !status.ok()) return status;
+  if (!beams.wind_from.has_value()) beams.wind_from = sea.wind_from;
+  absl::StatusOr<BeamPlan> plan = MakePlan(beams, options.details, sea.has_waves());
   if (!plan.ok()) return plan.status();
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
   for (const int point_class : options.classes.value_or(std::set<int>{DefaultClass(kFirstModernFormat)})) {
@@ -68,6 +72,7 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options) {
   }
   return LasAnnotation{.classes = options.classes,
                        .plan = *std::move(plan),
+                       .seas = nullptr,
                        .details = options.details,
                        .style = options.style};
 }
@@ -87,8 +92,10 @@ absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options) {
   return options.format.has_value() ? options.format : named;
 }
 
-nlohmann::ordered_json Parameters(const LasAnnotation& annotation, std::optional<LasKind> format) {
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const ToldSea& sea,
+                                  std::optional<LasKind> format) {
   nlohmann::ordered_json json = Parameters(annotation.plan);
+  if (sea.has_waves()) json["sea"] = Parameters(sea);
   json["classes"] = nullptr;  // The default of the point format.
   if (annotation.classes.has_value()) json["classes"] = *annotation.classes;
   json["details"] = annotation.details;

@@ -9,6 +9,7 @@
 #include "absl/status/statusor.h"
 #include "survey/commands/beam_options.h"
 #include "survey/commands/options.h"
+#include "survey/commands/sea_options.h"
 #include "survey/files/file_jobs.h"
 #include "survey/las/las_annotation.h"
 #include "survey/las/las_kind.h"
@@ -22,6 +23,7 @@ struct LasOptions {
   bool details = false;
   std::optional<LasKind> format;  // --format
   Existing existing = Existing::kKeep;
+  SeaOptions sea;
   SourceOptions source;
   AnswerStyle style;
 };
@@ -29,14 +31,15 @@ struct LasOptions {
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
 
-// IsUsageError if something needed is missing, is given in two ways or has no effect.
-absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options);
+// IsUsageError if something needed is missing, is given in two ways or has no effect. `sea` is what ToldBy() gives.
+absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const ToldSea& sea);
 
 // The kind that --format or the name of a single output asks for; absent: that of each input. IsUsageError when the two
 // contradict each other.
 absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options);
 
-// Annotation and --format as a summary states them.
-nlohmann::ordered_json Parameters(const LasAnnotation& annotation, std::optional<LasKind> format);
+// Annotation, sea and --format as a summary states them.
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const ToldSea& sea,
+                                  std::optional<LasKind> format);
 
 }  // namespace albtpu::client

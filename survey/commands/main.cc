@@ -35,6 +35,7 @@ int Main(int argc, char** argv) {
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
   AddTrajectoryCommand(program, run);
+  AddSeaCommand(program, run);
   AddTablesCommand(program, run);
   AddHealthCommand(program, run);
   try {

@@ -70,6 +70,21 @@ const char* DescribeBeamInput(PulseInput input) {
   }
 }
 
+void AddBeamInput(CLI::App& command, PulseInput input, FixedInputs& fixed) {
+  const bool is_direction = input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom;
+  command
+      .add_option_function<std::string>(
+          FlagName(input),
+          [input, is_direction, &fixed](const std::string& text) {
+            const std::optional<float> value = ParseFloat(text);
+            CheckNumber(FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative, false);
+            fixed[input] = value;
+          },
+          DescribeBeamInput(input))
+      ->type_name("NUMBER")
+      ->group(input == PulseInput::kWindFrom ? group::kSea : group::kPulse);
+}
+
 // Each of them means TLS.
 void AddCredentialOptions(CLI::App& command, CLI::Option* server, Credentials& credentials) {
   const auto add = [&](const char* flag, std::string& path, const char* description) {
@@ -198,22 +213,12 @@ void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed) {
       ->group(is_of_the_sea ? group::kSea : group::kPulse);
 }
 
+void AddWindFrom(CLI::App& command, FixedInputs& fixed) {
+  AddBeamInput(command, PulseInput::kWindFrom, fixed);
+}
+
 void AddBeamInputs(CLI::App& command, FixedInputs& fixed) {
-  for (const PulseInput input : kBeamInputs) {
-    const bool is_direction = input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom;
-    command
-        .add_option_function<std::string>(
-            FlagName(input),
-            [input, is_direction, &fixed](const std::string& text) {
-              const std::optional<float> value = ParseFloat(text);
-              CheckNumber(FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative,
-                          false);
-              fixed[input] = value;
-            },
-            DescribeBeamInput(input))
-        ->type_name("NUMBER")
-        ->group(input == PulseInput::kWindFrom ? group::kSea : group::kPulse);
-  }
+  for (const PulseInput input : kBeamInputs) AddBeamInput(command, input, fixed);
 }
 
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,

@@ -18,7 +18,8 @@ namespace albtpu::client {
 // The headings under which --help lists options.
 namespace group {
 inline constexpr char kPulse[] = "The pulse";
-inline constexpr char kBeam[] = "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
+inline constexpr char kBeam[] =
+    "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
 inline constexpr char kSea[] = "The sea";
 inline constexpr char kPoints[] = "The points";
 inline constexpr char kFiles[] = "Files";
@@ -48,6 +49,9 @@ void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);
 
 // --beam-azimuth, --wind-from, --altitude and --divergence, one value for all pulses.
 void AddBeamInputs(CLI::App& command, FixedInputs& fixed);
+
+// --wind-from alone.
+void AddWindFrom(CLI::App& command, FixedInputs& fixed);
 
 // Whether numbers below zero make sense.
 enum class Sign { kAny, kNotNegative };

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -9,6 +10,7 @@
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/pulse_text.h"
+#include "survey/commands/sea_options.h"
 #include "survey/exit_status.h"
 
 namespace albtpu::client {
@@ -16,20 +18,31 @@ namespace {
 
 struct PulseOptions {
   FixedInputs inputs;
+  SeaOptions sea;
   SourceOptions source;
   AnswerStyle style;
   bool json = false;
 };
 
 absl::Status RunPulse(const PulseOptions& options) {
-  const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(options.inputs);
+  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea);
+  if (!sea.ok()) return sea.status();
+  FixedInputs inputs = options.inputs;
+  if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;
+  const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
-  const absl::StatusOr<std::unique_ptr<UncertaintySource>> source = OpenSource(options.source);
-  if (!source.ok()) return source.status();
-  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, options.style, **source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  if (!answerer.ok()) return answerer.status();
+  if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
+  const bool from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
+  const AnswerSource source = answerer->source();
+  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, options.style, source, from_north);
   if (!answer.ok()) return answer.status();
-  const TableSummary& table = (*source)->table();
-  std::cout << (options.json ? PulseJson(*answer, table) : PulseText(*answer, table));
+  if (options.json) {
+    std::cout << PulseJson(*answer, source.table(), answerer->SeaJson());
+  } else {
+    std::cout << PulseText(*answer, source.table(), answerer->SeaText());
+  }
   return FlushStandardOutput();
 }
 
@@ -40,6 +53,7 @@ void AddPulseCommand(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
   for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->inputs.coordinates);
   AddBeamInputs(*command, options->inputs);
+  AddSeaOptions(*command, options->sea);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")

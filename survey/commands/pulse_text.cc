@@ -24,6 +24,14 @@ std::string CoordinateText(AxisId axis, std::optional<float> value) {
   return absl::StrCat(FormatFloat(*value), " ", std::string(Describe(axis).units));
 }
 
+// The coordinate of an axis. An azimuth from north is stated from downwind, as others are.
+std::optional<float> Stated(AxisId axis, const PulseAnswer& answer, const TableSummary& table) {
+  const std::optional<float>& value = answer.pulse[Index(axis)];
+  if (axis != AxisId::kAzimuth || !value.has_value() || !answer.azimuth_from_north) return value;
+  const double azimuth = *value - table.sea->x_azimuth;
+  return static_cast<float>(azimuth < -180 ? azimuth + 360 : azimuth);
+}
+
 std::string Line(std::string_view label, std::string_view text) {
   return absl::StrFormat("%-24s %s\n", std::string(label), std::string(text));
 }
@@ -105,9 +113,11 @@ std::string WhyNoNumber(const AnswerBatch& answer, const TableSummary& table) {
 }  // namespace
 
 absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle style,
-                                     UncertaintySource& source) {
-  PulseAnswer answer{.pulse = pulse, .style = style, .stated = {}, .p95 = {}};
-  const PulseBatch batch = OnePulse(pulse);
+                                     const AnswerSource& source, bool azimuth_from_north) {
+  PulseAnswer answer{
+      .pulse = pulse, .azimuth_from_north = azimuth_from_north, .style = style, .stated = {}, .p95 = {}};
+  PulseBatch batch = OnePulse(pulse);
+  batch.azimuths_from_north = azimuth_from_north;
   AnswerSelection surface;
   UncertaintySummary::Select(surface);
   absl::Status status =
@@ -119,24 +129,27 @@ absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle 
   return answer;
 }
 
-std::string PulseText(const PulseAnswer& answer, const TableSummary& table) {
+std::string PulseText(const PulseAnswer& answer, const TableSummary& table, const std::string& sea) {
   std::string text = Line("table", absl::StrCat(table.id, " ", table.version, ": ", table.title)) +
                      Line("digest", table.digest);
+  if (!sea.empty()) text += absl::StrCat("the sea", sea, "\n");
   for (const AxisId axis : kAxes) {
-    text += Line(Describe(axis).name, CoordinateText(axis, answer.pulse[Index(axis)]));
+    if (!sea.empty() && IsOfSea(InputOf(axis))) continue;
+    text += Line(Describe(axis).name, CoordinateText(axis, Stated(axis, answer, table)));
   }
   text += Line("outcome", OutcomeName(answer.stated, 0));
   if (!answer.stated.interpolated(0)) return text + WhyNoNumber(answer.stated, table) + "\n";
   for (const Quantity quantity : kQuantities) {
     text += Line(Describe(quantity).name, ValueText(quantity, answer));
   }
-  return text + InterpolationErrorText(table) + S44Text(answer);
+  if (!table.sea.has_value()) text += InterpolationErrorText(table);
+  return text + S44Text(answer);
 }
 
-std::string PulseJson(const PulseAnswer& answer, const TableSummary& table) {
+std::string PulseJson(const PulseAnswer& answer, const TableSummary& table, const Json& sea) {
   Json object;
   for (const AxisId axis : kAxes) {
-    const std::optional<float>& value = answer.pulse[Index(axis)];
+    const std::optional<float> value = Stated(axis, answer, table);
     object[std::string(Describe(axis).name)] = value.has_value() ? JsonNumber(*value) : Json();
   }
   const AnswerCells cells(answer.style);
@@ -150,6 +163,7 @@ std::string PulseJson(const PulseAnswer& answer, const TableSummary& table) {
   object["digest"] = table.digest;
   object["coverage"] = answer.style.coverage == Coverage::kTwoSigma ? "2sigma" : "p95";
   AddInterpolationErrors(table, object);
+  object.update(sea);
   return object.dump(2) + "\n";
 }
 

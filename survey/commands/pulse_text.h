@@ -1,10 +1,10 @@
 // The answer for one pulse, for people and for programs.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "service/client/uncertainty_source.h"
 #include "survey/answers/batch.h"
 #include "survey/csv/csv_pulses.h"
 
@@ -12,23 +12,25 @@ namespace albtpu::client {
 
 struct PulseAnswer {
   FixedCoordinates pulse;
+  bool azimuth_from_north = false;
   AnswerStyle style;
   AnswerBatch stated;  // All cells, in the style; one answer.
   AnswerBatch p95;     // THU, TVU and best order, at 95 %; one answer.
 };
 
-// All axes but fetch and azimuth must be given.
+// All axes that the source needs must be given. `azimuth_from_north`: not from downwind.
 absl::StatusOr<PulseAnswer> AskPulse(const FixedCoordinates& pulse, AnswerStyle style,
-                                     UncertaintySource& source);
+                                     const AnswerSource& source, bool azimuth_from_north = false);
 
 // Lines with units, coverage, the table, its interpolation error and every order of S-44; for a pulse out of domain,
-// the range that the table covers.
-std::string PulseText(const PulseAnswer& answer, const TableSummary& table);
+// the range that the table covers. `sea` are lines about the sea, each after a line feed; empty for a table of winds.
+std::string PulseText(const PulseAnswer& answer, const TableSummary& table, const std::string& sea = "");
 
 // One flat object and a newline: the coordinates by the names of the axes, the columns of AnswerCells, then
 // `azimuth_absent`, `table`, `version`, `digest`, `coverage` (2sigma or p95), and of each quantity but the biases
 // `*_interpolation_error_rms` and `*_interpolation_error_percentile_99` (fractions). Null where there is no number; so
-// is the fetch of a fully developed sea.
-std::string PulseJson(const PulseAnswer& answer, const TableSummary& table);
+// is the fetch of a fully developed sea. Over any sea wind_speed and fetch are null, and the members of `sea` follow.
+std::string PulseJson(const PulseAnswer& answer, const TableSummary& table,
+                      const nlohmann::ordered_json& sea = nlohmann::ordered_json::object());
 
 }  // namespace albtpu::client

@@ -84,6 +84,17 @@ absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOption
   return OpenFile((*tables)[*chosen].FullName(), (*tables)[*chosen].path);
 }
 
+absl::StatusOr<std::unique_ptr<SeaSources>> OpenSeaSources(const SourceOptions& options) {
+  for (const auto& [flag, value] : {std::pair("--table", &options.file), {"--table-name", &options.name}}) {
+    if (value->empty()) continue;
+    return UsageError(absl::StrCat(flag,
+                                   " cannot be used with a sea (its table is compiled from its waves); leave "
+                                   "out one of them"));
+  }
+  if (options.server.empty()) return LocalSeas();
+  return ServerSeas(options.server, {}, options.credentials);
+}
+
 absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& options) {
   if (absl::Status status = CheckName(options); !status.ok()) return status;
   std::vector<TableSummary> tables;

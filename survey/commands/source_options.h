@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "service/client/credentials.h"
+#include "service/client/sea_sources.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::client {
@@ -20,6 +21,9 @@ struct SourceOptions {
 };
 
 absl::StatusOr<std::unique_ptr<UncertaintySource>> OpenSource(const SourceOptions& options);
+
+// Where seas are compiled: in this process, or on the server. UsageError if a table is named, too.
+absl::StatusOr<std::unique_ptr<SeaSources>> OpenSeaSources(const SourceOptions& options);
 
 // All tables of the source, or those that `options.name` names.
 absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& options);

@@ -38,7 +38,7 @@ struct Chunk {
 class BlockWork {
  public:
   BlockWork(const CsvReader& reader, const CsvPulses& columns, AnswerStyle style, std::string default_ending,
-            UncertaintySource& source)
+            const AnswerSource& source)
       : name_(reader.name()),
         columns_(columns),
         style_(style),
@@ -118,7 +118,7 @@ class BlockWork {
   AnswerCells cells_;
   AnswerSelection selection_;
   std::string default_ending_;
-  UncertaintySource& source_;
+  AnswerSource source_;
 };
 
 std::string AnnotatedHeader(const CsvRecord& header, const std::string& ending,
@@ -153,7 +153,7 @@ absl::Status AnnotateRecords(CsvReader& reader, const BlockWork& work, AnswerSty
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const FixedInputs& fixed, AnswerStyle style,
-                                         UncertaintySource& source, FileProgress& progress) {
+                                         const AnswerSource& source, FileProgress& progress) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   absl::StatusOr<CsvReader> reader = CsvReader::Open(input);
   if (!reader.ok()) return reader.status();

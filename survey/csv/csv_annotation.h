@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "absl/status/statusor.h"
-#include "service/client/uncertainty_source.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/uncertainty_summary.h"
 #include "survey/csv/csv_pulses.h"
@@ -33,6 +32,6 @@ struct AnnotatedCsv {
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const FixedInputs& fixed, AnswerStyle style,
-                                         UncertaintySource& source, FileProgress& progress);
+                                         const AnswerSource& source, FileProgress& progress);
 
 }  // namespace albtpu::client

@@ -95,6 +95,12 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvReco
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::optional<PulseInput> input = FindInput(names[i]);
     if (!input.has_value()) continue;
+    if (fixed.any_sea && IsOfSea(*input)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(name, " line 1: column '", names[i],
+                       "' contradicts the sea that is told (which has a wind of its own); leave "
+                       "out the column, or the sea"));
+    }
     column_of[Index(*input)] = i;
     origins[Index(*input)] = InputOrigin::kColumn;
   }
@@ -108,9 +114,15 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvReco
     origins[i] = InputOrigin::kFlag;
     pulses.fixed_[i] = *fixed[input];
   }
+  if (fixed.any_sea && origins[Index(PulseInput::kBeamAzimuth)] != InputOrigin::kNone) {
+    origins[Index(PulseInput::kWindFrom)] = InputOrigin::kFlag;
+    pulses.fixed_[Index(PulseInput::kWindFrom)] = kWindForNorth;
+    pulses.azimuths_from_north_ = true;
+  }
   if (absl::Status status = CheckWays(origins, absl::StrCat(name, " line 1")); !status.ok()) return status;
   for (const AxisId axis : kAxes) {
     const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
+    if (fixed.any_sea && IsOfSea(InputOf(axis))) continue;
     if (!given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names, origins);
   }
   for (const OtherWay& way : kOtherWays) {  // Half of a way is like any other column.
@@ -149,6 +161,7 @@ void CsvPulses::FindCoordinates(const FixedInputs& fixed, const InputOrigins& or
 void CsvPulses::Clear(CsvPulseBatches& batches) const {
   for (PulseBatch* batch : {&batches.with_azimuth, &batches.without_azimuth}) {
     batch->size = 0;
+    batch->azimuths_from_north = azimuths_from_north_;
     for (const AxisId axis : kAxes) {
       (*batch)[axis].clear();
       if (constant_[Index(axis)].has_value()) (*batch)[axis].push_back(*constant_[Index(axis)]);

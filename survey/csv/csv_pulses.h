@@ -53,9 +53,10 @@ class CsvPulses {
   std::vector<AxisId> varying_;         // The others, without those that are absent from all pulses.
   std::vector<AxisId> from_other_way_;  // Of these, those that have no column of their own.
   bool may_have_azimuth_ = false;       // Where no cell of it is empty.
+  bool azimuths_from_north_ = false;    // Over any sea, from beam_azimuth.
 };
 
-// A single pulse at the fixed coordinates; fetch and azimuth may be absent.
+// A single pulse at the fixed coordinates; those that have none are absent.
 PulseBatch OnePulse(const FixedCoordinates& fixed);
 
 }  // namespace albtpu::client

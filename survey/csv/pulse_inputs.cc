@@ -112,7 +112,9 @@ absl::Status CheckWays(const InputOrigins& origins, const std::string& where) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<FixedCoordinates> CoordinatesOf(const FixedInputs& fixed) {
+absl::StatusOr<FixedCoordinates> CoordinatesOf(FixedInputs fixed) {
+  if (fixed.any_sea && fixed[PulseInput::kBeamAzimuth].has_value())
+    fixed[PulseInput::kWindFrom] = kWindForNorth;
   InputOrigins origins;
   PulseNumbers numbers = {};
   for (std::size_t i = 0; i < kPulseInputCount; ++i) {
@@ -126,7 +128,7 @@ absl::StatusOr<FixedCoordinates> CoordinatesOf(const FixedInputs& fixed) {
     if (coordinates[Index(axis)].has_value()) continue;
     if (IsGivenByOtherWay(axis, origins)) {
       coordinates[Index(axis)] = FromOtherWay(axis, numbers);
-    } else if (!MayBeAbsent(axis)) {
+    } else if (!MayBeAbsent(axis) && !(fixed.any_sea && IsOfSea(InputOf(axis)))) {
       return UsageError(absl::StrCat("pulse: ", FlagName(axis), " is missing; give it in ",
                                      std::string(Describe(axis).units),
                                      axis == AxisId::kFootprint ? ", or --altitude and --divergence" : ""));

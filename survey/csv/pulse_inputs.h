@@ -48,6 +48,9 @@ using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
 struct FixedInputs {
   FixedCoordinates coordinates = {};
   std::array<std::optional<float>, kBeamInputs.size()> beam = {};
+  // A sea is told, which has its own wind: pulses have no wind speed, fetch and direction of the wind, and an azimuth
+  // that stands for a beam_azimuth counts from north.
+  bool any_sea = false;
 
   const std::optional<float>& operator[](PulseInput input) const {
     return Index(input) < kAxisCount ? coordinates[Index(input)] : beam[Index(input) - kAxisCount];
@@ -69,6 +72,14 @@ inline constexpr OtherWay kOtherWays[] = {
 // The numbers of one pulse, by PulseInput.
 using PulseNumbers = std::array<float, kPulseInputCount>;
 
+// The direction of the wind by which azimuths count from north: beam_azimuth - (wind_from + 180 degrees).
+inline constexpr float kWindForNorth = -180;
+
+// Whether pulses have an input over any sea.
+constexpr bool IsOfSea(PulseInput input) {
+  return input == PulseInput::kWindSpeed || input == PulseInput::kFetch || input == PulseInput::kWindFrom;
+}
+
 // The axis from the two inputs of its other way and the incidence, rounded once. A finite number beyond the range of
 // float32 becomes the largest float32 of its sign: it is out of domain, not infinite.
 float FromOtherWay(AxisId axis, const PulseNumbers& numbers);
@@ -87,6 +98,6 @@ absl::Status CheckWays(const InputOrigins& origins, const std::string& where);
 
 // The coordinates of a pulse that flags alone give, for the command `pulse`. IsUsageError if one that may not be absent
 // is missing, and where CheckWays fails.
-absl::StatusOr<FixedCoordinates> CoordinatesOf(const FixedInputs& fixed);
+absl::StatusOr<FixedCoordinates> CoordinatesOf(FixedInputs fixed);
 
 }  // namespace albtpu::client

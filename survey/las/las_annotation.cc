@@ -16,6 +16,7 @@
 #include "survey/las/las_writer.h"
 #include "survey/laz/items/chunk_encoder.h"
 #include "survey/number_text.h"
+#include "survey/seas/sea_facts.h"
 
 namespace albtpu::client {
 namespace {
@@ -61,7 +62,7 @@ std::uint64_t BytesOf(const LasReader& reader, std::uint64_t points) {
 
 // Copies the file of `reader` to that of `annotated`, with the uncertainty of its points.
 absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const LasAnnotation& annotation,
-                            const LasBeams& beams, UncertaintySource& source, FileProgress::File& progress,
+                            const LasBeams& beams, const AnswerSource& source, FileProgress::File& progress,
                             AnnotatedLas& annotated) {
   const LasHeader& header = reader.header();
   const std::uint64_t most_records =
@@ -72,7 +73,8 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
   absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader, kPulseReach, kPulseReach);
   if (!runs.ok()) return runs.status();
   if (absl::Status status = writer.Begin(); !status.ok()) return status;
-  const LasChunkWork work(header, annotation, beams.geometry(), beams.has_surface_returns(), source);
+  const LasChunkWork work(header, annotation, beams.geometry(), beams.utc(), beams.has_surface_returns(),
+                          source);
   std::uint64_t written_records = 0;
   const absl::Status status = RunOrderedPipeline(
       [&] {
@@ -105,7 +107,7 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
 
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
-                                         const LasAnnotation& annotation, UncertaintySource& source,
+                                         const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<LasKind> kind) {
   if (absl::Status status = CheckNotTheSameFile(input, output); !status.ok()) return status;
   const absl::StatusOr<LasReader> reader = LasReader::Open(input);
@@ -135,6 +137,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                          .surface = {},
                          .incidence = {},
                          .geometry = {},
+                         .sea = {},
                          .notes = {},
                          .file = *std::move(file)};
   const absl::Status status =
@@ -154,6 +157,12 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   if (!annotation.plan.water_classes.empty()) {
     annotated.geometry["water_surface"] = annotated.surface.Json();
     annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
+  }
+  if (annotation.seas != nullptr) {
+    const auto [first, last] = (*beams)->records();
+    annotated.sea = SeasJson(*annotation.seas, first, last);
+    const std::vector<std::string> notes = SeasNotes(*annotation.seas, first, last);
+    annotated.notes.insert(annotated.notes.end(), notes.begin(), notes.end());
   }
   if (annotated.copc_index_left_out) {
     annotated.notes.push_back(

@@ -30,6 +30,7 @@ struct AnnotatedLas {
   SurfaceCounts surface;
   CoordinateSpread incidence;       // degree
   nlohmann::ordered_json geometry;  // How the beams were found, for a summary.
+  nlohmann::ordered_json sea;       // The same of the sea; null where a table of winds answers.
   std::vector<std::string> notes;   // The same for the user, a line each.
   OutputFile file;                  // Complete; Commit() gives it its name.
 };
@@ -40,7 +41,7 @@ struct AnnotatedLas {
 // the output is the input, and when the input is modified meanwhile.
 absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
-                                         const LasAnnotation& annotation, UncertaintySource& source,
+                                         const LasAnnotation& annotation, const AnswerSource& source,
                                          FileProgress& progress, std::optional<LasKind> kind = std::nullopt);
 
 }  // namespace albtpu::client

@@ -6,13 +6,30 @@
 #include "absl/strings/str_format.h"
 #include "survey/beams/file_track.h"
 #include "survey/beams/pair_rays.h"
+#include "survey/trajectories/point_clock.h"
 
 namespace albtpu::client {
 namespace {
 
+bool GoesByTime(const LasAnnotation& annotation) {
+  return annotation.seas != nullptr && annotation.seas->by_time();
+}
+
+PointTimes TimesOf(const LasReader& reader, const LasPrescan& prescan) {
+  return {.span = {prescan.first_time, prescan.last_time},
+          .form = reader.header().adjusted_gps_time ? PointTimeForm::kAdjustedStandard
+                                                    : PointTimeForm::kWeekSeconds};
+}
+
 // Times are needed to find the position of the sensor or the water level at a point.
-absl::Status CheckTimes(const LasReader& reader, const BeamPlan& plan) {
+absl::Status CheckTimes(const LasReader& reader, const LasAnnotation& annotation) {
   if (HasGpsTime(reader.header().point_format)) return absl::OkStatus();
+  const BeamPlan& plan = annotation.plan;
+  if (GoesByTime(annotation)) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+        "), so that the records of the sea cannot be told apart; choose one of them by --sea-time"));
+  }
   if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat(
       reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
@@ -31,9 +48,7 @@ TrackedFile FileOf(const LasReader& reader, const LasPlace& place, const LasPres
   return {.name = reader.name(),
           .frame = place.frame,
           .map = place.map,
-          .times = {.span = {prescan.first_time, prescan.last_time},
-                    .form = reader.header().adjusted_gps_time ? PointTimeForm::kAdjustedStandard
-                                                              : PointTimeForm::kWeekSeconds},
+          .times = TimesOf(reader, prescan),
           .extent = {.x_min = prescan.least[0],
                      .x_max = prescan.greatest[0],
                      .y_min = prescan.least[1],
@@ -74,6 +89,20 @@ absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, 
   return absl::OkStatus();
 }
 
+absl::Status LasBeams::FindSeas(const LasReader& reader, const SeaTimeline& seas) {
+  if (!seas.by_time()) {
+    records_ = {seas.fixed().first, seas.fixed().second};
+    return absl::OkStatus();
+  }
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a sea.
+  const absl::StatusOr<double> utc =
+      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.told().file);
+  if (!utc.ok()) return utc.status();
+  utc_ = *utc;
+  records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
+  return absl::OkStatus();
+}
+
 void LasBeams::NoteLevel() {
   if (2 * prescan_.off_level <= prescan_.level_returns) return;
   notes_.push_back(
@@ -87,7 +116,7 @@ void LasBeams::NoteLevel() {
 absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader,
                                                          const LasAnnotation& annotation) {
   const BeamPlan& plan = annotation.plan;
-  if (absl::Status status = CheckTimes(reader, plan); !status.ok()) return status;
+  if (absl::Status status = CheckTimes(reader, annotation); !status.ok()) return status;
   std::unique_ptr<LasBeams> beams(new LasBeams());
   absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
   if (!place.ok()) return place.status();
@@ -100,7 +129,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader
     if (!levels.ok()) return levels.status();
     beams->levels_ = *std::move(levels);
   }
-  if (plan.has_track() || !plan.water_classes.empty()) {
+  if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
     absl::StatusOr<LasPrescan> prescan =
         Prescan(reader, beams->place_.frame,
                 {.classes = annotation.ClassesOf(reader.header().point_format),
@@ -111,6 +140,9 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader
     if (!prescan.ok()) return prescan.status();
     beams->prescan_ = *std::move(prescan);
     beams->NoteLevel();
+  }
+  if (annotation.seas != nullptr) {
+    if (absl::Status status = beams->FindSeas(reader, *annotation.seas); !status.ok()) return status;
   }
   const WaterHeights water = {
       .surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,

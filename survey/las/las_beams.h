@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -25,6 +26,10 @@ class LasBeams {
 
   const BeamGeometry& geometry() const { return *geometry_; }
   bool has_surface_returns() const { return prescan_.surface_returns > 0; }
+  // UTC [s since 1970] = time of a point + it; where the sea goes by time.
+  double utc() const { return utc_; }
+  // The first and the last record of the sea between which the chosen points lie; where there is a sea.
+  const std::pair<std::size_t, std::size_t>& records() const { return records_; }
 
   nlohmann::ordered_json Json() const { return json_; }
   std::vector<std::string> Notes() const { return notes_; }
@@ -32,6 +37,7 @@ class LasBeams {
  private:
   LasBeams() = default;
   void NoteLevel();  // Where most returns from the surface lie far from the level.
+  absl::Status FindSeas(const LasReader& reader, const SeaTimeline& seas);
   absl::Status FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
 
   LasPlace place_;
@@ -39,6 +45,8 @@ class LasBeams {
   std::optional<WaterLevelSeries> levels_;
   std::unique_ptr<const SensorTrack> track_;
   std::optional<BeamGeometry> geometry_;
+  double utc_ = 0;
+  std::pair<std::size_t, std::size_t> records_;
   nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
   std::vector<std::string> notes_;
 };

@@ -17,11 +17,14 @@ std::set<int> LasAnnotation::ClassesOf(int point_format) const {
 }
 
 LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
-                           const BeamGeometry& beams, bool pulse_surface, UncertaintySource& source)
+                           const BeamGeometry& beams, double utc, bool pulse_surface,
+                           const AnswerSource& source)
     : fields_(header),
       record_length_(header.record_length),
       plan_(annotation.plan),
       beams_(beams),
+      seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
+      utc_(utc),
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
       details_(annotation.details),
       style_(annotation.style),
@@ -37,7 +40,12 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   if (pulse_surface_) FindPulseSurface(chunk);
   beams_.Compute(chunk.points, chunk.scratch, chunk.beams);
   chunk.surface = chunk.beams.surface;
+  if (seas_ != nullptr) FindSeas(chunk);
   MakePulses(plan_, chunk.beams, chunk.rows, chunk.pulses);
+  if (seas_ != nullptr) {
+    chunk.pulses.times.clear();
+    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(chunk.points.times[row] + utc_);
+  }
   absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
   if (!status.ok()) return status;
   Summarize(chunk);
@@ -95,6 +103,13 @@ void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
       nearest = distance;
       chunk.points.pulse_surface[i] = fields_.Z(record);
     }
+  }
+}
+
+void LasChunkWork::FindSeas(Chunk& chunk) const {
+  for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
+    std::optional<NoPulse>& why = chunk.beams.why_not[i];
+    if (!why.has_value() && !seas_->At(chunk.points.times[i] + utc_).has_value()) why = NoPulse::kNoSea;
   }
 }
 

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
-#include "service/client/uncertainty_source.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/coordinate_spread.h"
 #include "survey/answers/uncertainty_summary.h"
@@ -18,13 +18,15 @@
 #include "survey/las/las_header.h"
 #include "survey/las/las_point_runs.h"
 #include "survey/las/las_points.h"
+#include "survey/seas/sea_timeline.h"
 
 namespace albtpu::client {
 
 struct LasAnnotation {
   std::optional<std::set<int>> classes;  // Of bottom seen through water; absent: DefaultClass of the format.
   BeamPlan plan;
-  bool details = false;  // Append the geometry of each beam, too.
+  std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
+  bool details = false;                     // Append the geometry of each beam, too.
   AnswerStyle style;
 
   std::set<int> ClassesOf(int point_format) const;
@@ -33,9 +35,10 @@ struct LasAnnotation {
 // Everything that the chunks of a file have in common.
 class LasChunkWork {
  public:
-  // `beams` must outlive it. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
+  // `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where the sea goes by time.
+  // `pulse_surface`: the water surface at a point may come from a return of the same pulse.
   LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, const BeamGeometry& beams,
-               bool pulse_surface, UncertaintySource& source);
+               double utc, bool pulse_surface, const AnswerSource& source);
 
   // Memory that is reused from chunk to chunk. The input is a run of points; those that are not its own are only
   // searched for returns of the same pulse.
@@ -68,6 +71,7 @@ class LasChunkWork {
   }
   void Decode(Chunk& chunk) const;
   void FindPulseSurface(Chunk& chunk) const;
+  void FindSeas(Chunk& chunk) const;
   void Summarize(Chunk& chunk) const;
   void Encode(Chunk& chunk) const;
 
@@ -75,11 +79,13 @@ class LasChunkWork {
   std::size_t record_length_;
   const BeamPlan& plan_;
   const BeamGeometry& beams_;
+  const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
+  double utc_;
   bool pulse_surface_, details_;
   AnswerStyle style_;
   AnswerSelection selection_;
   std::array<bool, kClassCount> is_chosen_ = {}, is_water_ = {};
-  UncertaintySource& source_;
+  AnswerSource source_;
 };
 
 }  // namespace albtpu::client

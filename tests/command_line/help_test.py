@@ -42,7 +42,7 @@ class Help(unittest.TestCase):
                          {("albtpu-generate", command)
                           for command in ("table", "merge", "plan", "keys", "point", "validate")} |
                          {("albtpu-query", command)
-                          for command in ("pulse", "csv", "las", "trajectory", "tables", "health")})
+                          for command in ("pulse", "csv", "las", "sea", "trajectory", "tables", "health")})
 
     def test_ends_with_two_examples_of_flags_that_exist(self):
         for program, command, text in commands():

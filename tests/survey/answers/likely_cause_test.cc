@@ -188,6 +188,8 @@ TEST_F(LikelyCauseTest, ExplainsPointsWithoutAPulse) {
   EXPECT_THAT(Cause(), HasSubstr("give its --trajectory"));
   summary_.Add(NoPulse::kNoTrajectory, 4);
   EXPECT_THAT(Cause(), AllOf(HasSubstr("no position at their times"), HasSubstr("--trajectory-time")));
+  summary_.Add(NoPulse::kNoSea, 5);
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("no record near their times"), HasSubstr("--sea-gap")));
 }
 
 TEST_F(LikelyCauseTest, NamesCoordinatesThatAreNotNumbers) {

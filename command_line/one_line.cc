@@ -1,0 +1,11 @@
+#include "command_line/one_line.h"
+
+namespace albtpu {
+
+std::string OneLine(std::string text) {
+  for (char& c : text)
+    if ((c >= '\0' && c < ' ') || c == '\x7f') c = '?';
+  return text;
+}
+
+}  // namespace albtpu

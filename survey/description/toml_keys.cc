@@ -1,0 +1,123 @@
+#include "survey/description/toml_keys.h"
+
+#include <sstream>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "command_line/near_match.h"
+#include "command_line/one_line.h"
+
+namespace albtpu::client {
+namespace {
+
+// What stands in the file: short, and on one line.
+std::string ValueText(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "a list";
+  std::ostringstream text;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>) text << toml::toml_formatter(value);
+  });
+  constexpr std::size_t kLongest = 40;
+  std::string value = std::move(text).str();
+  return value.size() > kLongest ? value.substr(0, kLongest) + "..." : value;
+}
+
+}  // namespace
+
+void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
+  if (!status_.ok()) return;
+  status_ = absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", OneLine(message)));
+}
+
+std::optional<double> TomlKeys::Number(std::string_view key, double least, double greatest,
+                                       std::string_view unit) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return std::nullopt;
+  const std::string units = unit == "1" ? "" : absl::StrCat(" ", std::string(unit));
+  const std::optional<double> number = node->is_number() ? node->value<double>() : std::nullopt;
+  if (number.has_value() && *number >= least && *number <= greatest) return number;
+  Wrong(*node, key, absl::StrCat(least, " to ", greatest, units),
+        number.has_value()
+            ? absl::StrCat("give it", unit == "1" ? "" : absl::StrCat(" in", units))
+            : absl::StrCat("give a number without quotes", unit == "1" ? "" : " and without its unit"));
+  return std::nullopt;
+}
+
+std::optional<std::string> TomlKeys::Text(std::string_view key, std::string_view what) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto text = node->value_exact<std::string>();
+  if (text.has_value() && !text->empty()) return text;
+  Wrong(*node, key, std::string(what), "write it in quotes");
+  return std::nullopt;
+}
+
+std::optional<std::string> TomlKeys::OneOf(std::string_view key, const std::vector<std::string>& words) {
+  const std::optional<std::string> text = Text(key, absl::StrJoin(words, ", "));
+  if (!text.has_value()) return std::nullopt;
+  for (const std::string& word : words)
+    if (*text == word) return text;
+  const std::optional<std::string> near = NearMatch(*text, words);
+  Wrong(*table_.get(key), key, absl::StrJoin(words, ", "),
+        near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them");
+  return std::nullopt;
+}
+
+std::vector<TomlKeys> TomlKeys::Table(std::string_view key) {
+  const toml::node* const node = Find(key);
+  std::vector<TomlKeys> tables;
+  if (node == nullptr) return tables;
+  const std::string name = name_.empty() ? std::string(key) : absl::StrCat(name_, ".", std::string(key));
+  if (const toml::table* const table = node->as_table()) {
+    tables.emplace_back(*table, name, problem_);
+  } else {
+    Wrong(*node, key, "a table", absl::StrCat("begin it with [", name, "]"));
+  }
+  return tables;
+}
+
+std::vector<TomlKeys> TomlKeys::Tables(std::string_view key) {
+  const toml::node* const node = Find(key);
+  std::vector<TomlKeys> tables;
+  if (node == nullptr) return tables;
+  const std::string name = absl::StrCat(name_, ".", std::string(key));
+  const toml::array* const array = node->as_array();
+  if (array == nullptr || array->empty() || !array->is_homogeneous<toml::table>()) {
+    Wrong(*node, key, "tables", absl::StrCat("begin each of them with [[", name, "]]"));
+    return tables;
+  }
+  for (const toml::node& element : *array) tables.emplace_back(*element.as_table(), name, problem_);
+  return tables;
+}
+
+void TomlKeys::Finish() {
+  const std::vector<std::string> known(known_.begin(), known_.end());
+  for (const auto& [key, node] : table_) {
+    if (known_.contains(key.str())) continue;
+    const std::string name(key.str());
+    problem_.Remember(
+        key.source(),
+        absl::StrCat(Quoted(name), "is no key of a survey file",
+                     Suggestion(name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
+  }
+}
+
+const toml::node* TomlKeys::Find(std::string_view key) {
+  known_.emplace(key);
+  return table_.get(key);
+}
+
+std::string TomlKeys::Quoted(std::string_view key) const {
+  if (key.empty()) return absl::StrCat("[", name_, "] ");
+  return absl::StrCat("'", name_.empty() ? "" : name_ + ".", std::string(key), "' ");
+}
+
+void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::string& expected,
+                     const std::string& remedy) {
+  problem_.Remember(node.source(), absl::StrCat(Quoted(key), "is ", ValueText(node), " (expected ", expected,
+                                                "); ", remedy));
+}
+
+}  // namespace albtpu::client

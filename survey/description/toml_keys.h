@@ -1,0 +1,60 @@
+// The keys of a table of TOML, read one by one. The first problem is remembered with its line, so that code that reads
+// many keys checks once.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+
+namespace albtpu::client {
+
+// The first problem of a file, "line 3: 'sea.tail' is ...".
+class TomlProblem {
+ public:
+  void Remember(const toml::source_region& source, const std::string& message);
+  const absl::Status& status() const { return status_; }
+
+ private:
+  absl::Status status_;
+};
+
+class TomlKeys {
+ public:
+  // `name` is the table's in messages, "sea.waves"; empty for the root. The arguments must outlive it.
+  TomlKeys(const toml::table& table, std::string name, TomlProblem& problem)
+      : table_(table), name_(std::move(name)), problem_(problem) {}
+
+  // Absent if the key is missing or a problem.
+  std::optional<double> Number(std::string_view key, double least, double greatest, std::string_view unit);
+  std::optional<std::string> Text(std::string_view key, std::string_view what);
+  std::optional<std::string> OneOf(std::string_view key, const std::vector<std::string>& words);
+
+  // The tables under `[name.key]`, one at most, and under `[[name.key]]`.
+  std::vector<TomlKeys> Table(std::string_view key);
+  std::vector<TomlKeys> Tables(std::string_view key);
+
+  // A problem of this table as a whole.
+  void Fail(const std::string& message) { problem_.Remember(table_.source(), Quoted("") + message); }
+
+  // The last call: a key that was not asked for is a problem.
+  void Finish();
+
+ private:
+  const toml::node* Find(std::string_view key);
+  std::string Quoted(std::string_view key) const;  // "'sea.tail' "; of the table itself "[sea] "
+  void Wrong(const toml::node& node, std::string_view key, const std::string& expected,
+             const std::string& remedy);
+
+  const toml::table& table_;
+  std::string name_;
+  TomlProblem& problem_;
+  std::set<std::string, std::less<>> known_;
+};
+
+}  // namespace albtpu::client

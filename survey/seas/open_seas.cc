@@ -1,0 +1,35 @@
+#include "survey/seas/open_seas.h"
+
+#include <utility>
+
+namespace albtpu::client {
+
+std::shared_ptr<OpenSeas::Sea> OpenSeas::Find(std::size_t i) {
+  const absl::MutexLock lock(&mutex_);
+  if (const auto found = by_record_.find(i); found != by_record_.end()) {
+    order_.splice(order_.begin(), order_, found->second);
+    return order_.front();
+  }
+  order_.push_front(std::make_shared<Sea>(i));
+  by_record_[i] = order_.begin();
+  if (order_.size() > most_) {
+    by_record_.erase(order_.back()->record);
+    order_.pop_back();  // Those who use it still do.
+  }
+  return order_.front();
+}
+
+absl::StatusOr<std::shared_ptr<UncertaintySource>> OpenSeas::Get(std::size_t i) {
+  const std::shared_ptr<Sea> sea = Find(i);
+  const absl::MutexLock lock(&sea->opening);
+  if (!sea->source.ok() || *sea->source != nullptr) return sea->source;
+  absl::StatusOr<std::unique_ptr<UncertaintySource>> source = sources_->Open(seas_.sea(i));
+  if (source.ok()) {
+    sea->source = std::shared_ptr<UncertaintySource>(*std::move(source));
+  } else {
+    sea->source = source.status();
+  }
+  return sea->source;
+}
+
+}  // namespace albtpu::client

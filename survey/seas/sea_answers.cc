@@ -1,0 +1,184 @@
+#include "survey/seas/sea_answers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tables/s44.h"
+
+namespace albtpu::client {
+namespace {
+
+// The root of the mean square of `a` and `b`, weighted 1 - weight and weight.
+double InVariance(double a, double b, double weight) {
+  return std::sqrt((1 - weight) * a * a + weight * b * b);
+}
+
+double WeightAt(const std::vector<double>& weights, std::size_t i) {
+  return weights[weights.size() == 1 ? 0 : i];
+}
+
+// Makes `answers`, those of the first sea, the ones between it and `others`.
+void Blend(const AnswerBatch& others, const std::vector<double>& weights, AnswerBatch& answers) {
+  for (const Quantity quantity : kQuantities) {
+    std::vector<float>& values = answers.values[Index(quantity)];
+    std::vector<float>& errors = answers.standard_errors[Index(quantity)];
+    const std::span<const float> other_values = others.values[Index(quantity)],
+                                 other_errors = others.standard_errors[Index(quantity)];
+    const bool is_bias = Describe(quantity).is_bias;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double weight = WeightAt(weights, i), a = values[i], b = other_values[i];
+      const double value = is_bias ? std::lerp(a, b, weight) : InVariance(a, b, weight);
+      if (!errors.empty()) {
+        const double error = is_bias || !(value > 0)
+                                 ? std::lerp(errors[i], other_errors[i], weight)
+                                 : ((1 - weight) * a * errors[i] + weight * b * other_errors[i]) / value;
+        errors[i] = static_cast<float>(error);
+      }
+      values[i] = static_cast<float>(value);
+    }
+  }
+}
+
+// The orders of S-44 that THU and TVU at 95 % leave open, and what remains of one of them.
+void CompareWithS44(const PulseBatch& pulses, std::optional<S44Order> order, const AnswerBatch& p95,
+                    AnswerBatch& answers) {
+  const std::span<const float> thu = p95[Quantity::kThu], tvu = p95[Quantity::kTvu];
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    const double depth = pulses.coordinate(AxisId::kDepth, i);
+    const bool known = answers.interpolated(i);
+    if (!answers.best_s44_orders.empty()) {
+      const std::optional<S44Order> best = known ? BestOrder(thu[i], tvu[i], depth) : std::nullopt;
+      answers.best_s44_orders[i] =
+          best.has_value() ? static_cast<std::uint8_t>(static_cast<int>(*best) + 1) : 0;
+    }
+    if (answers.remaining_thu.empty()) continue;
+    const auto remaining = [&](double limit, double ours) {
+      const std::optional<double> left = known ? RemainingBudget(limit, ours) : std::nullopt;
+      return static_cast<float>(left.value_or(NAN));
+    };
+    answers.remaining_thu[i] = order.has_value() ? remaining(ThuLimit(*order, depth), thu[i]) : NAN;
+    answers.remaining_tvu[i] = order.has_value() ? remaining(TvuLimit(*order, depth), tvu[i]) : NAN;
+  }
+}
+
+// The pulses of `rows`.
+PulseBatch Rows(const PulseBatch& pulses, const std::vector<std::uint32_t>& rows) {
+  PulseBatch part{.size = rows.size(), .axis = {}, .azimuths_from_north = pulses.azimuths_from_north};
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const std::vector<float>& column = pulses.axis[axis];
+    if (column.size() != pulses.size) {
+      part.axis[axis] = column;
+      continue;
+    }
+    part.axis[axis].reserve(rows.size());
+    for (const std::uint32_t row : rows) part.axis[axis].push_back(column[row]);
+  }
+  return part;
+}
+
+template <typename Number>
+void Scatter(const std::vector<Number>& part, const std::vector<std::uint32_t>& rows,
+             std::vector<Number>& all) {
+  if (all.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) all[rows[i]] = part[i];
+}
+
+void Scatter(const AnswerBatch& part, const std::vector<std::uint32_t>& rows, AnswerBatch& all) {
+  Scatter(part.outcomes, rows, all.outcomes);
+  Scatter(part.outcome_axes, rows, all.outcome_axes);
+  for (std::size_t i = 0; i < kQuantityCount; ++i) {
+    Scatter(part.values[i], rows, all.values[i]);
+    Scatter(part.standard_errors[i], rows, all.standard_errors[i]);
+  }
+  Scatter(part.best_s44_orders, rows, all.best_s44_orders);
+  Scatter(part.remaining_thu, rows, all.remaining_thu);
+  Scatter(part.remaining_tvu, rows, all.remaining_tvu);
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<SeaAnswers>> SeaAnswers::Open(std::shared_ptr<const SeaTimeline> seas,
+                                                             std::unique_ptr<SeaSources> sources) {
+  const std::size_t first = seas->by_time() ? 0 : seas->fixed().first;
+  std::unique_ptr<SeaAnswers> answers(new SeaAnswers(std::move(seas), std::move(sources)));
+  absl::StatusOr<TableSummary> summary = answers->Summary(first);
+  if (!summary.ok()) return summary.status();
+  answers->first_ = *std::move(summary);
+  return answers;
+}
+
+AnswerSource SeaAnswers::source() {
+  return {first_, [this](const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
+                         AnswerBatch& answers) { return Answer(query, pulses, selection, answers); }};
+}
+
+absl::StatusOr<TableSummary> SeaAnswers::Summary(std::size_t record) {
+  const absl::StatusOr<std::shared_ptr<UncertaintySource>> sea = open_.Get(record);
+  if (!sea.ok()) return sea.status();
+  return (*sea)->table();
+}
+
+absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
+                                const AnswerSelection& selection, AnswerBatch& answers) {
+  if (!seas_->by_time())
+    return AnswerBetween(query, pulses, seas_->fixed(), {seas_->fixed().weight}, selection, answers);
+  assert(pulses.times.size() == pulses.size);
+  // The pulses between each two records. Mostly all lie between the same two.
+  struct Group {
+    BetweenRecords between;
+    std::vector<std::uint32_t> rows;
+    std::vector<double> weights;
+  };
+  std::map<std::size_t, Group> groups;  // By the first record.
+  Group* last = nullptr;
+  for (std::size_t i = 0; i < pulses.size; ++i) {
+    const std::optional<BetweenRecords> between = seas_->At(pulses.times[i]);
+    assert(between.has_value());
+    if (last == nullptr || last->between.first != between->first) last = &groups[between->first];
+    if (last->rows.empty() || between->second != between->first) last->between = *between;
+    last->rows.push_back(static_cast<std::uint32_t>(i));
+    last->weights.push_back(between->weight);
+  }
+  if (groups.size() == 1)
+    return AnswerBetween(query, pulses, last->between, last->weights, selection, answers);
+  answers.Resize(pulses.size, selection);
+  AnswerBatch part;
+  for (const auto& [first, group] : groups) {
+    const absl::Status status =
+        AnswerBetween(query, Rows(pulses, group.rows), group.between, group.weights, selection, part);
+    if (!status.ok()) return status;
+    Scatter(part, group.rows, answers);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pulses,
+                                       const BetweenRecords& between, const std::vector<double>& weights,
+                                       const AnswerSelection& selection, AnswerBatch& answers) {
+  const absl::StatusOr<std::shared_ptr<UncertaintySource>> first = open_.Get(between.first);
+  if (!first.ok()) return first.status();
+  if (between.second == between.first) return AnswerPulses(**first, query, pulses, selection, answers);
+  const absl::StatusOr<std::shared_ptr<UncertaintySource>> second = open_.Get(between.second);
+  if (!second.ok()) return second.status();
+  AnswerBatch others;
+  const auto ask = [&](const Query& asked, const AnswerSelection& selected, AnswerBatch& blended) {
+    absl::Status status = AnswerPulses(**first, asked, pulses, selected, blended);
+    if (status.ok()) status = AnswerPulses(**second, asked, pulses, selected, others);
+    if (status.ok()) Blend(others, weights, blended);
+    return status;
+  };
+  absl::Status status = ask(query, selection, answers);
+  if (!status.ok() || (!selection.best_s44_orders && !selection.s44_remaining)) return status;
+  AnswerSelection limited;
+  limited.quantities[Index(Quantity::kThu)] = limited.quantities[Index(Quantity::kTvu)] = true;
+  AnswerBatch p95;
+  status = ask({.coverage = Coverage::kP95, .s44_order = {}}, limited, p95);
+  if (status.ok()) CompareWithS44(pulses, query.s44_order, p95, answers);
+  return status;
+}
+
+}  // namespace albtpu::client
