@@ -64,8 +64,7 @@ LasAnnotation TrackAnnotation() {
 }
 
 void MustExplain(const absl::Status& status) {
-  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) ||
-              absl::IsUnimplemented(status));
+  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));
   ALBTPU_MUST(status.message().size() > 20);
 }
 
@@ -146,7 +145,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   LasChunkWork::Chunk chunk((AnswerStyle()));
   chunk.records = file.substr(header.offset_to_points, header.point_count * header.record_length);
   chunk.own = header.point_count;
-  ALBTPU_MUST(LasChunkWork(header, annotation, beams, true, source)(chunk).ok());
+  ALBTPU_MUST(LasChunkWork(header, annotation, beams, 0, true, source)(chunk).ok());
   return head + chunk.annotated + std::string(file.substr(header.end_of_points()));
 }
 

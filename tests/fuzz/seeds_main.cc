@@ -14,10 +14,12 @@
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/client/sea_wire.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
 #include "tests/fuzz/laz/laz_seeds.h"
 #include "tests/fuzz/sea/sea_seeds.h"
+#include "tests/service/known_seas.h"
 #include "tests/survey/las/las_builder.h"
 #include "tests/survey/trajectories/formats/flight_text.h"
 #include "tests/tables/synthetic_table.h"
@@ -147,7 +149,7 @@ std::vector<std::string> ColumnSeeds() {
 std::vector<std::string> TableSeeds() {
   std::vector<std::string> seeds;
   for (const UncertaintyTable& table :
-       {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear)}) {
+       {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear, kOneSea)}) {
     seeds.push_back(EncodeTable(table).value());
   }
   return seeds;
@@ -235,6 +237,13 @@ std::vector<std::string> WaterLevelSeeds() {
       "time,level\n"};
 }
 
+std::vector<std::string> SeaStateSeeds() {
+  std::vector<std::string> seeds;
+  for (const KnownSea& sea : testing::SeasOfAllForms())
+    seeds.push_back(client::ToWire(sea).SerializeAsString());
+  return seeds;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -251,6 +260,7 @@ int main(int argc, char** argv) {
                                                            {"laz_chunk", fuzz::LazChunkSeeds()},
                                                            {"laz_file", fuzz::LazFileSeeds()},
                                                            {"laz_records", fuzz::LazRecordsSeeds()},
+                                                           {"sea_state", SeaStateSeeds()},
                                                            {"seal", SealSeeds()},
                                                            {"table", TableSeeds()},
                                                            {"sbet", SbetSeeds()},

@@ -48,11 +48,10 @@ DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std
 }
 
 void MustSurviveCoding(ChunkCoding& coding, std::string_view records) {
-  const std::size_t record_length = coding.standard.record_length(), points = records.size() / record_length;
+  const std::size_t record_length = coding.record.record_length(), points = records.size() / record_length;
   std::string bytes;
   coding.encoder->Encode(records, bytes);
-  const DecodedChunk again =
-      DecodeChunk(*coding.standard_decoder, bytes, record_length, points, points, points, true);
+  const DecodedChunk again = DecodeChunk(*coding.decoder, bytes, record_length, points, points, points, true);
   ALBTPU_MUST(again.status.ok());
   ALBTPU_MUST(again.records == records);
   ALBTPU_MUST(again.position == bytes.size());

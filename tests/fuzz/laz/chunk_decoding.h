@@ -23,7 +23,7 @@ struct DecodedChunk {
 DecodedChunk DecodeChunk(laz::ChunkDecoder& decoder, std::string_view bytes, std::size_t record_length,
                          std::uint64_t points, std::size_t decoded, std::size_t step, bool exact);
 
-// Aborts unless `records` are the same after they have been encoded and decoded.
+// Aborts unless `records` are the same after they have been encoded and decoded. Requires an encoder.
 void MustSurviveCoding(ChunkCoding& coding, std::string_view records);
 
 }  // namespace albtpu::fuzz

@@ -11,43 +11,43 @@
 namespace albtpu::fuzz {
 namespace {
 
-using laz::Compressor;
 using laz::LaszipRecord;
 
-constexpr int kFormats = 11;
+constexpr int kFormats = 11, kFirstLayeredFormat = 6;
 constexpr std::size_t kExtraBytes[] = {0, 1, 2, 7};  // Choices, to keep few decoders.
-enum Flag : std::uint8_t { kOtherVersion = 1, kExactEnd = 2, kCodeAgain = 4 };
+enum Flag : std::uint8_t { kVersion4 = 1, kExactEnd = 2 };
 
 // Numbers of points that no chunk of an input has.
 constexpr std::uint64_t kManyPoints[] = {241, 50000, 0x7FFFFFFF, 0xFFFFFFFF, std::uint64_t{1} << 32};
 constexpr std::uint8_t kMostInByte = 240;
 
-// Items of version 4, or all points in one stream, where the format has that.
-LaszipRecord OtherVersion(LaszipRecord record, int point_format) {
-  if (record.compressor == Compressor::kLayeredChunked) {
-    for (laz::Item& item : record.items) item.version = 4;
-  } else {
-    record.compressor = Compressor::kPointwise;
-    record.chunk_size = 0;
-  }
+LaszipRecord OfVersion4(LaszipRecord record, int point_format) {
+  for (laz::Item& item : record.items) item.version = 4;
   const absl::StatusOr<LaszipRecord> parsed =
       laz::ParseLaszipRecord(laz::LaszipRecordData(record), point_format, record.record_length());
   ALBTPU_MUST(parsed.ok());
   return *parsed;
 }
 
-ChunkCoding& CodingFor(int point_format, std::size_t extra, bool other_version) {
+// The codings of all formats are megabytes of models, of which few stay in a cache: so none is made twice.
+ChunkCoding& CodingFor(int point_format, std::size_t extra, bool version4) {
   static std::array<ChunkCoding, kFormats * std::size(kExtraBytes) * 2> all;
   ChunkCoding& coding =
-      all[(static_cast<std::size_t>(point_format) * std::size(kExtraBytes) + extra) * 2 + other_version];
+      all[(static_cast<std::size_t>(point_format) * std::size(kExtraBytes) + extra) * 2 + version4];
   if (coding.decoder == nullptr) {
     coding.point_format = point_format;
-    coding.standard = laz::RecordFor(point_format, testing::PointSize(point_format) + kExtraBytes[extra],
-                                     laz::kCommonChunkSize);
-    coding.record = other_version ? OtherVersion(coding.standard, point_format) : coding.standard;
+    coding.record = laz::RecordFor(point_format, testing::PointSize(point_format) + kExtraBytes[extra],
+                                   laz::kCommonChunkSize);
+    if (version4) {
+      coding.record = OfVersion4(coding.record, point_format);
+      coding.encoded = &CodingFor(point_format, extra, false);
+    } else {
+      coding.encoder = laz::ChunkEncoder::For(coding.record);
+      coding.encoded = &coding;
+    }
     coding.decoder = laz::ChunkDecoder::For(coding.record);
-    coding.standard_decoder = laz::ChunkDecoder::For(coding.standard);
-    coding.encoder = laz::ChunkEncoder::For(coding.standard);
+    if (point_format >= kFirstLayeredFormat)
+      coding.returns_decoder = laz::ChunkDecoder::For(coding.record, laz::WantedFields::kReturns);
   }
   return coding;
 }
@@ -56,10 +56,11 @@ ChunkCoding& CodingFor(int point_format, std::size_t extra, bool other_version) 
 
 ChunkInput ParseChunkInput(std::string_view input) {
   const auto head = [&](std::size_t i) { return static_cast<std::uint8_t>(input[i]); };
+  const int point_format = head(0) % kFormats;
+  const bool version4 = point_format >= kFirstLayeredFormat && (head(2) & kVersion4) != 0;
   ChunkInput chunk;
-  chunk.coding = &CodingFor(head(0) % kFormats, head(1) % std::size(kExtraBytes), head(2) & kOtherVersion);
+  chunk.coding = &CodingFor(point_format, head(1) % std::size(kExtraBytes), version4);
   chunk.exact = head(2) & kExactEnd;
-  chunk.code_again = head(2) & kCodeAgain;
   chunk.points = head(3) <= kMostInByte ? std::max<std::uint64_t>(head(3), 1)
                                         : kManyPoints[(head(3) - kMostInByte) % std::size(kManyPoints)];
   chunk.decoded = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.points, kMostPoints));
@@ -72,7 +73,7 @@ std::string ChunkHead(int point_format, std::size_t extra_bytes, std::size_t poi
   const auto* extra = std::find(std::begin(kExtraBytes), std::end(kExtraBytes), extra_bytes);
   ALBTPU_MUST(extra != std::end(kExtraBytes) && points <= kMostInByte);
   return {static_cast<char>(point_format), static_cast<char>(extra - std::begin(kExtraBytes)),
-          static_cast<char>(kExactEnd | kCodeAgain), static_cast<char>(points), static_cast<char>(step - 1)};
+          static_cast<char>(kExactEnd), static_cast<char>(points), static_cast<char>(step - 1)};
 }
 
 std::string WithPoints(std::string head, std::size_t points) {

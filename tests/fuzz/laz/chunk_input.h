@@ -19,10 +19,11 @@ inline constexpr std::size_t kMostPoints = 16;  // Decoded of a chunk, so that i
 // How the bytes of a chunk are compressed, with a decoder and an encoder that are used again from input to input.
 struct ChunkCoding {
   int point_format = 0;
-  laz::LaszipRecord record;    // Of the decoder.
-  laz::LaszipRecord standard;  // Of the encoder and its decoder: by RecordFor().
-  std::unique_ptr<laz::ChunkDecoder> decoder, standard_decoder;
-  std::unique_ptr<laz::ChunkEncoder> encoder;
+  laz::LaszipRecord record;
+  std::unique_ptr<laz::ChunkDecoder> decoder;
+  std::unique_ptr<laz::ChunkDecoder> returns_decoder;  // Of WantedFields::kReturns; only of layered chunks.
+  std::unique_ptr<laz::ChunkEncoder> encoder;          // Only of what RecordFor() prescribes.
+  ChunkCoding* encoded = nullptr;  // How such records are encoded: this one, or that of RecordFor().
 };
 
 struct ChunkInput {
@@ -31,9 +32,7 @@ struct ChunkInput {
   std::size_t decoded = 0;   // Of them, the points that are decoded.
   std::size_t step = 0;      // Points in a step of the second decoding.
   bool exact = false;        // Whether the end of the chunk is known.
-  bool code_again =
-      false;  // Whether the records are encoded: not always, because that takes as long as the rest.
-  std::string_view bytes;  // Of the chunk, or records that are to be encoded.
+  std::string_view bytes;    // Of the chunk, or records that are to be encoded.
 
   std::size_t record_length() const { return coding->record.record_length(); }
 };

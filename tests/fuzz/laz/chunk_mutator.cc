@@ -1,12 +1,12 @@
 // Mutates the chunks of laz_chunk_fuzz such that most of them can be decoded to their end: by their records, or by the
 // bytes of their streams, whose sizes are then corrected. Some inputs are mutated byte by byte.
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
-#include <numeric>
 #include <random>
 #include <string>
-#include <vector>
 
+#include "survey/laz/coding/little_endian.h"
 #include "tests/fuzz/laz/chunk_decoding.h"
 #include "tests/fuzz/laz/chunk_input.h"
 #include "tests/fuzz/laz/record_mutation.h"
@@ -18,15 +18,16 @@ namespace {
 using namespace albtpu;
 using namespace albtpu::fuzz;
 
-std::string Mutated(std::string bytes, std::size_t most) {
-  const std::size_t size = bytes.size();
-  if (size >= most) return bytes.substr(0, most);
+constexpr std::size_t kNumberSize = sizeof(std::uint32_t);  // In the head of a layered chunk.
+constexpr unsigned int kRecordsInEvery = 32;  // Mutations: two codings take as long as two inputs.
+
+void Mutate(std::string& bytes, std::size_t most) {
+  const std::size_t size = std::min(bytes.size(), most);
   bytes.resize(most);
-  bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most));
-  return bytes;
+  if (most > 0) bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, most));
 }
 
-// The chunk of other records. Empty if the input cannot be decoded.
+// The chunk of other records, behind its head. Empty if the input cannot be decoded.
 std::string OtherRecords(std::minstd_rand& random, const ChunkInput& input, std::string head) {
   const std::size_t length = input.record_length();
   std::string records = DecodeChunk(*input.coding->decoder, input.bytes, length, input.points, input.decoded,
@@ -37,61 +38,54 @@ std::string OtherRecords(std::minstd_rand& random, const ChunkInput& input, std:
     ChangeRecords(random, input.coding->point_format, length, kMostPoints, records);
   }
   std::string bytes;
-  input.coding->encoder->Encode(records, bytes);
+  input.coding->encoded->encoder->Encode(records, bytes);
   return WithPoints(head, records.size() / length) + bytes;
 }
 
-struct Layers {
-  std::string first_record;
-  std::uint32_t points = 0;
-  std::vector<std::string> streams;
-};
-
-Layers Split(std::string_view bytes, std::size_t record_length, std::size_t count) {
-  Layers layers;
-  layers.first_record = bytes.substr(0, record_length);
-  bytes.remove_prefix(record_length);
-  std::vector<std::uint32_t> sizes(1 + count);  // The number of points first.
-  std::memcpy(sizes.data(), bytes.data(), sizes.size() * sizeof sizes[0]);
-  bytes.remove_prefix(sizes.size() * sizeof sizes[0]);
-  layers.points = sizes[0];
-  for (std::size_t i = 1; i <= count; ++i) {
-    layers.streams.emplace_back(bytes.substr(0, sizes[i]));
-    bytes.remove_prefix(layers.streams.back().size());
+// Changes one stream of a layered chunk, and states in its head what then follows. `chunk` must reach behind the head.
+void ChangeLayer(std::minstd_rand& random, const ChunkInput& input, std::size_t count, std::size_t most,
+                 std::string& chunk) {
+  struct Part {
+    std::size_t size_offset, begin, size;
+  };
+  const std::size_t sizes = input.record_length() + kNumberSize;
+  const std::size_t changed = random() % count, other = random() % count;
+  laz::Store(static_cast<std::uint32_t>(input.points), &chunk[input.record_length()]);
+  Part layer{}, copied{};
+  std::size_t begin = sizes + count * kNumberSize;
+  for (std::size_t i = 0; i < count; ++i) {
+    Part part = {sizes + i * kNumberSize, begin, 0};
+    part.size =
+        std::min<std::size_t>(laz::Load<std::uint32_t>(chunk, part.size_offset), chunk.size() - begin);
+    laz::Store(static_cast<std::uint32_t>(part.size), &chunk[part.size_offset]);
+    if (i == changed) layer = part;
+    if (i == other) copied = part;
+    begin += part.size;
   }
-  return layers;
-}
+  chunk.resize(begin);
 
-std::string Join(const Layers& layers) {
-  std::string sizes(reinterpret_cast<const char*>(&layers.points), sizeof layers.points), streams;
-  for (const std::string& stream : layers.streams) {
-    const auto size = static_cast<std::uint32_t>(stream.size());
-    sizes.append(reinterpret_cast<const char*>(&size), sizeof size);
-    streams += stream;
-  }
-  return layers.first_record + sizes + streams;
-}
-
-std::string OtherStreams(std::minstd_rand& random, const ChunkInput& input, std::size_t most) {
-  const std::size_t length = input.record_length(), count = LayerCount(input.coding->record);
-  const std::size_t fixed = length + (count > 0 ? (1 + count) * sizeof(std::uint32_t) : 0);
-  if (input.bytes.size() < fixed) return Mutated(std::string(input.bytes), most);
-  if (count == 0) {
-    return std::string(input.bytes.substr(0, length)) +
-           Mutated(std::string(input.bytes.substr(length)), most - std::min(most, length));
-  }
-  Layers layers = Split(input.bytes, length, count);
-  layers.points = static_cast<std::uint32_t>(input.points);
-  std::string& stream = layers.streams[random() % count];
-  const std::size_t others =
-      std::accumulate(layers.streams.begin(), layers.streams.end(), fixed - stream.size(),
-                      [](std::size_t sum, const std::string& each) { return sum + each.size(); });
+  static std::string bytes;
   if (random() % 8 == 0) {
-    stream = layers.streams[random() % count];
+    bytes.assign(chunk, copied.begin, copied.size);
   } else {
-    stream = Mutated(stream, most - std::min(most, others));
+    bytes.assign(chunk, layer.begin, layer.size);
+    Mutate(bytes, most - std::min(most, chunk.size() - layer.size));
   }
-  return Join(layers);
+  chunk.replace(layer.begin, layer.size, bytes);
+  laz::Store(static_cast<std::uint32_t>(bytes.size()), &chunk[layer.size_offset]);
+}
+
+// Changes a stream behind the first record, or any bytes of a chunk that is too short to have one.
+void ChangeStream(std::minstd_rand& random, const ChunkInput& input, std::size_t most, std::string& chunk) {
+  const std::size_t length = input.record_length(), count = LayerCount(input.coding->record);
+  chunk = input.bytes;
+  if (count > 0 && chunk.size() >= length + (1 + count) * kNumberSize)
+    return ChangeLayer(random, input, count, most, chunk);
+  if (count > 0 || chunk.size() < length) return Mutate(chunk, most);
+  static std::string stream;
+  stream.assign(chunk, length);
+  Mutate(stream, most - std::min(most, length));
+  chunk.replace(length, chunk.npos, stream);
 }
 
 }  // namespace
@@ -105,11 +99,16 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return size;
   }
   const ChunkInput input = ParseChunkInput({reinterpret_cast<const char*>(data), size});
-  const std::string head(reinterpret_cast<const char*>(data), kChunkHeadSize);
-  const std::string changed = random() % 4 == 0
-                                  ? OtherRecords(random, input, head)
-                                  : head + OtherStreams(random, input, max_size - kChunkHeadSize);
-  if (changed.empty() || changed.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, changed.data(), changed.size());
-  return changed.size();
+  if (random() % kRecordsInEvery == 0) {
+    const std::string head(reinterpret_cast<const char*>(data), kChunkHeadSize);
+    const std::string changed = OtherRecords(random, input, head);
+    if (changed.empty() || changed.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
+    std::memcpy(data, changed.data(), changed.size());
+    return changed.size();
+  }
+  static std::string chunk;  // Memory that is used again.
+  ChangeStream(random, input, max_size - kChunkHeadSize, chunk);
+  if (chunk.size() > max_size - kChunkHeadSize) return LLVMFuzzerMutate(data, size, max_size);
+  std::memcpy(data + kChunkHeadSize, chunk.data(), chunk.size());
+  return kChunkHeadSize + chunk.size();
 }

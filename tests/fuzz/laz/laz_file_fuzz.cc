@@ -24,7 +24,7 @@ constexpr std::uint64_t kMostPoints = 40;    // Read of a file, so that inputs r
 constexpr std::size_t kMostExtraBytes = 64;  // Of files whose points are read: each costs some kilobytes.
 constexpr std::uint64_t kPiece = 7;          // Points that are read at a time.
 constexpr std::size_t kThreadedInEvery =
-    16;  // Inputs: threads and new decoders take longer than all the rest.
+    64;  // Inputs: threads and new decoders take longer than all the rest.
 
 void MustExplain(const absl::Status& status) {
   ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));

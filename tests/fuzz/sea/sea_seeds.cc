@@ -71,6 +71,19 @@ Seeds Gzip() {
       std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x03\x00\x00\x00\x00\x00\x00\x00\x00\x00", 20)};
 }
 
+Seeds SurveyDescription() {
+  const std::string waves = "[[sea.waves]]\nhs = 0.42\ntp = 2.7\nwaves_from = 225\n";
+  return {"[sea]\nwind_speed = 6.5\nwind_from = 225\nwater_depth = 12\ntail = \"relax\"\ntail_from = 0.95\n" +
+              waves + "gamma = 3.3\nspreading = \"mitsuyasu\"\n" + waves + "spread = 18\n",
+          "[sea]\nfile = \"41010.data_spec\"\ntime = \"2020-06-08T03:50Z\"\nplace = \"28.9,-78.5\"\n"
+          "longest_gap = 6\nanemometer_height = 4\n",
+          "sea = {wind_speed = 0, waves = [{hs = 1, tp = 9, waves_from = 0}]}\n",
+          "[sea]\nwind_speed = \"6 m/s\"\n",
+          "[sea]\ntime = 2020-06-08T03:50:00Z\n",
+          "[sea.waves]\nhs = nan\n",
+          "[see]\n"};
+}
+
 }  // namespace
 
 std::map<std::string, Seeds> SeaSeeds() {
@@ -81,6 +94,7 @@ std::map<std::string, Seeds> SeaSeeds() {
   for (const auto& [target, inputs] : seeds)
     if (target != "sea_gzip") texts.insert(texts.end(), inputs.begin(), inputs.end());
   seeds["sea_text"] = std::move(texts);
+  seeds["survey_description"] = SurveyDescription();
   return seeds;
 }
 

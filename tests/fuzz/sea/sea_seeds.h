@@ -1,4 +1,4 @@
-// The inputs with which fuzzing of the readers in sea/files begins.
+// The inputs with which fuzzing of the readers in sea/files and of the survey file begins.
 #pragma once
 
 #include <map>
