@@ -55,9 +55,8 @@ FloatRays AlongMortonCurve(const std::vector<Ray>& rays, double reach, double sp
 
 BeamCase::BeamCase(const CaseOptions& options)
     : options_(options),
-      sea_(options.wind_speed, std::numeric_limits<double>::infinity()),
-      share_(PatchShare(PatchLength(options))),
-      patch_(sea_, PatchLength(options), options.size, share_),
+      patch_(SeaState(options.wind_speed, std::numeric_limits<double>::infinity()), PatchLength(options),
+             options.size, PatchShare(PatchLength(options))),
       beam_(options.BeamOf(), options.rays),
       rays_(beam_.Rays(0)),
       bundle_(beam_, kRefractiveIndex),
@@ -67,11 +66,10 @@ BeamCase::BeamCase(const CaseOptions& options)
 }
 
 double BeamCase::ModePower(int i, int j) const {
-  const int highest = options_.size / 2 - 1;
-  if ((i == 0 && j == 0) || std::abs(i) > highest || std::abs(j) > highest) return 0;
-  const double dk = 2 * std::numbers::pi / patch_.length();
-  const double k = dk * std::hypot(i, j);
-  return share_(k) == 0 ? 0 : share_(k) * sea_.Psi(k, std::atan2(j, i)) * dk * dk;
+  const int size = options_.size;
+  if (std::abs(i) >= size / 2 || std::abs(j) >= size / 2) return 0;
+  if (j < 0) return ModePower(-i, -j);
+  return patch_.power(i < 0 ? i + size : i, j);
 }
 
 std::vector<Ray> BeamCase::SortedRays() const {

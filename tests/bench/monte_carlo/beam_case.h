@@ -73,8 +73,6 @@ class BeamCase {
 
  private:
   CaseOptions options_;
-  SeaState sea_;
-  CrossFade share_;
   WavePatchModel patch_;
   Beam beam_;
   int footprint_points_;

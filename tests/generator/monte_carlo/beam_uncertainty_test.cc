@@ -11,8 +11,9 @@
 namespace albtpu {
 namespace {
 
-// A ray on a surface of one slope m along its azimuth, to second order: the vertical error per depth is a m + b m^2, and
-// m is normal with the weight 1 + tau m. Control variates leave the product of the weight's imbalance with both orders.
+// A ray on a surface of one slope m along its azimuth, to second order: the vertical error per depth is a m + b m^2,
+// and m is normal with the weight 1 + tau m. Control variates leave the product of the weight's imbalance with both
+// orders.
 TEST(BeamUncertainty, HasNoBiasFromTheWeightOfTheSurface) {
   constexpr double kVariance = 0.02, kN = kRefractiveIndex;
   constexpr int kRealizations = 20000;
