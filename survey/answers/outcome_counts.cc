@@ -84,7 +84,7 @@ nlohmann::ordered_json OutcomeCounts::Json() const {
   return json;
 }
 
-std::string OutcomeCounts::Text() const {
+std::string OutcomeCounts::Text(std::string_view without_azimuth) const {
   std::string text =
       absl::StrCat(total(), total() == 1 ? " pulse: " : " pulses: ", interpolated(), " interpolated");
   const nlohmann::ordered_json json = Json();
@@ -93,7 +93,7 @@ std::string OutcomeCounts::Text() const {
   }
   if (without_azimuth_ > 0) {
     absl::StrAppend(&text, "; ", without_azimuth_ == AskedTotal() ? "all" : absl::StrCat(without_azimuth_),
-                    " without azimuth: each value is the larger of those along and across the wind");
+                    " without azimuth: ", std::string(without_azimuth));
   }
   return text;
 }

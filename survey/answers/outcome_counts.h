@@ -26,6 +26,14 @@ std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 // "INTERPOLATED", "OUT_OF_DOMAIN:depth:above" or "INVALID", as CSV files and messages state it.
 std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i);
 
+// What an answer without azimuth is: by a table of winds, and by one of a sea.
+inline constexpr std::string_view kWorseOfTheWind =
+    "each value is the larger of those along and across the wind";
+inline constexpr std::string_view kWorstOfTheSea = "each value is the largest of all azimuths";
+inline std::string_view WithoutAzimuth(const TableSummary& table) {
+  return table.sea.has_value() ? kWorstOfTheSea : kWorseOfTheWind;
+}
+
 class OutcomeCounts {
  public:
   // Pulses that were asked. `azimuth_absent` means that none of them had an azimuth.
@@ -37,8 +45,9 @@ class OutcomeCounts {
   std::uint64_t total() const;  // All chosen points, asked or not.
   std::uint64_t interpolated() const { return asked_[0]; }
 
-  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth:above", and the number without azimuth, if any.
-  std::string Text() const;
+  // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth:above", and the number without azimuth, if any, with
+  // what the answers to these are.
+  std::string Text(std::string_view without_azimuth = kWorseOfTheWind) const;
 
   // {"INTERPOLATED": 56000, "OUT_OF_DOMAIN:depth:above": 382}; other outcomes appear only if they occurred, those of
   // the table first, by axis.

@@ -114,8 +114,8 @@ std::string UncertaintySummary::BandText(std::size_t index) const {
   return text;
 }
 
-std::string UncertaintySummary::Text() const {
-  std::string text = outcomes_.Text();
+std::string UncertaintySummary::Text(std::string_view without_azimuth) const {
+  std::string text = outcomes_.Text(without_azimuth);
   if (outcomes_.interpolated() == 0) return text;
   absl::StrAppend(
       &text,

@@ -35,7 +35,7 @@ class UncertaintySummary {
   const OutcomeCounts& outcomes() const { return outcomes_; }
 
   // Several lines: the outcomes, then a table of depth bands.
-  std::string Text() const;
+  std::string Text(std::string_view without_azimuth = kWorseOfTheWind) const;
 
   // `outcomes`; `outside`, by outcome the least, median (to 1/16) and greatest of the coordinate that caused it, for
   // ABOVE_WATER the depth; `depth`, `s44_best_order` (number of pulses by the strictest order that the sea surface

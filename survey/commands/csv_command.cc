@@ -71,7 +71,7 @@ absl::Status RunCsv(const CsvOptions& options) {
         std::move(csv->file),
         Findings{
             .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
-        absl::StrCat(" ", csv->summary.outcomes().Text(), notes)};
+        absl::StrCat(" ", csv->summary.outcomes().Text(WithoutAzimuth(source.table())), notes)};
   };
   RunVerdict verdict(
       {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)},

@@ -68,7 +68,8 @@ class LasFiles {
                  .input = InputJson(*annotated),
                  .output = {{"format", std::string(Name(annotated->output_kind))}},
                  .answers = annotated->summary.Json()},
-        absl::StrCat("\n  ", points, " points; bathymetric: ", annotated->summary.Text(),
+        absl::StrCat("\n  ", points,
+                     " points; bathymetric: ", annotated->summary.Text(WithoutAzimuth(source_.table())),
                      absl::StrJoin(annotated->notes, "", [](std::string* text, const auto& note) {
                        absl::StrAppend(text, "\n  ", note);
                      }))};

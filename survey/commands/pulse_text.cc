@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string CoordinateText(AxisId axis, std::optional<float> value) {
+std::string CoordinateText(AxisId axis, std::optional<float> value, const TableSummary& table) {
   if (axis == AxisId::kFetch && std::isinf(value.value_or(INFINITY))) return "fully developed sea";
-  if (!value.has_value()) return "not given; each value is the larger of those along and across the wind";
+  if (!value.has_value()) return absl::StrCat("not given; ", std::string(WithoutAzimuth(table)));
   return absl::StrCat(FormatFloat(*value), " ", std::string(Describe(axis).units));
 }
 
@@ -135,7 +135,7 @@ std::string PulseText(const PulseAnswer& answer, const TableSummary& table, cons
   if (!sea.empty()) text += absl::StrCat("the sea", sea, "\n");
   for (const AxisId axis : kAxes) {
     if (!sea.empty() && IsOfSea(InputOf(axis))) continue;
-    text += Line(Describe(axis).name, CoordinateText(axis, Stated(axis, answer, table)));
+    text += Line(Describe(axis).name, CoordinateText(axis, Stated(axis, answer, table), table));
   }
   text += Line("outcome", OutcomeName(answer.stated, 0));
   if (!answer.stated.interpolated(0)) return text + WhyNoNumber(answer.stated, table) + "\n";

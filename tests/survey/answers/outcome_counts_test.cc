@@ -88,6 +88,10 @@ TEST(OutcomeCounts, CountsPointsWithAndWithoutAPulse) {
             "8 pulses: 1 interpolated, 1 OUT_OF_DOMAIN:depth:above, 1 INVALID, 1 NO_TRAJECTORY, "
             "1 UNCERTAIN_TRAJECTORY, 1 NO_SURFACE, 2 ABOVE_WATER; all without azimuth: each value is the "
             "larger of those along and across the wind");
+  TableSummary of_one_sea;
+  of_one_sea.sea.emplace();
+  EXPECT_TRUE(counts.Text(WithoutAzimuth(of_one_sea))
+                  .ends_with("; all without azimuth: each value is the largest of all azimuths"));
 }
 
 }  // namespace
