@@ -42,7 +42,7 @@ struct ToldWaves {
   std::optional<std::string> spreading;                     // kMitsuyasu
 };
 
-// How something is called in a survey file and on the command line; there its unit, and what can be true.
+// The name of a value in a survey file and on the command line, with its unit and its range.
 template <typename Told>
 struct ToldNumber {
   std::string_view key, flag, unit;
