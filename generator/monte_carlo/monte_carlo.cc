@@ -16,9 +16,10 @@
 namespace albtpu {
 namespace {
 
-// The relative error of values below these does not matter.
-const double kNegligibleAngle = RadiansOfDegrees(0.01);
-constexpr double kNegligibleLength = 1e-3;  // m
+// The relative error of values below 0.01 degrees and 1 mm does not matter. These are a tenth less, because balancing
+// (generator/campaign/node_balance.h) raises some values by a few per cent.
+const double kNegligibleAngle = RadiansOfDegrees(0.009);
+constexpr double kNegligibleLength = 0.9e-3;  // m
 
 bool HasConverged(const BeamUncertainty& beam, double relative_error) {
   const auto has_converged = [&](const Estimate& estimate, double negligible) {

@@ -26,7 +26,7 @@ struct Effort {
   int realizations = 1000;       // the least number, 2 or more
   int most_realizations = 1000;  // the greatest number
   // Continue until the standard errors of refraction, THU and TVU, relative to their values, are at most this large.
-  // Values below 0.01 degrees or 1 mm do not count. 0 disables the criterion.
+  // Values below 0.009 degrees or 0.9 mm do not count. 0 disables the criterion.
   double relative_error = 0;
   Estimator estimator = Estimator::kControlVariate;
 };
