@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "sea/quadrature/gauss_quadrature.h"
 #include "sea/response/closed_form.h"
@@ -219,6 +220,28 @@ TEST(SeaResponse, DoesNotFoldTheAzimuthOfACrossingSea) {
   const SeaResponse sea(CrossingSea(), kN);
   const double sixty = sea({.incidence = 0.4, .azimuth = 1.047, .footprint = 0.8}).Tvu(10);
   EXPECT_GT(std::abs(sea({.incidence = 0.4, .azimuth = 2.094, .footprint = 0.8}).Tvu(10) / sixty - 1), 0.02);
+}
+
+TEST(SeaResponse, OfSeveralFootprintsIsThatOfEachAlone) {
+  const std::vector<double> footprints = {0.2, 1, 4};
+  const SeaResponse sea(CrossingSea(), kN);
+  for (const BeamProfile profile : kProfiles) {
+    std::vector<FootprintKernel> kernels;
+    for (const double footprint : footprints) kernels.emplace_back(profile, footprint);
+    for (const double incidence : {0.0, 0.1, 0.4}) {
+      for (const double azimuth : {0.0, 1.0, 2.5}) {
+        const std::vector<BeamResponse> beams = sea.AlongDirection(incidence, azimuth, kernels);
+        for (std::size_t f = 0; f < footprints.size(); ++f) {
+          const BeamResponse alone = sea({.incidence = incidence,
+                                          .azimuth = azimuth,
+                                          .footprint = footprints[f],
+                                          .profile = profile});
+          EXPECT_EQ(beams[f].azimuth, alone.azimuth);
+          ExpectSame(beams[f], alone, 1e-12);  // longer blocks of products round otherwise
+        }
+      }
+    }
+  }
 }
 
 TEST(SeaResponse, OfACalmSeaIsExactlyNothing) {

@@ -23,8 +23,8 @@
 #include "absl/strings/str_format.h"
 #include "generator/campaign/node_balance.h"
 #include "sea/angle.h"
-#include "sea/response/compiled_sea.h"
 #include "sea/response/refraction.h"
+#include "sea/response/sea_response.h"
 #include "sea/wave_state.h"
 #include "tables/file/table_io.h"
 #include "validation/studies/closed_form_ratio.h"
@@ -41,8 +41,10 @@ std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::
     for (double& angle : angles) angle = RadiansOfDegrees(angle);
     return angles;
   };
-  const BeamGrid grid(radians(AxisId::kIncidence), radians(AxisId::kAzimuth),
-                      axes[Index(AxisId::kFootprint)].nodes(), BeamProfile::kUniform);
+  const std::vector<double> incidences = radians(AxisId::kIncidence), azimuths = radians(AxisId::kAzimuth);
+  std::vector<FootprintKernel> footprints;
+  for (const double footprint : axes[Index(AxisId::kFootprint)].nodes())
+    footprints.emplace_back(BeamProfile::kUniform, footprint);
   const std::vector<double>& winds = axes[Index(AxisId::kWindSpeed)].nodes();
   const std::vector<double>& fetches = axes[Index(AxisId::kFetch)].nodes();
   const std::vector<double>& depths = axes[Index(AxisId::kDepth)].nodes();
@@ -62,11 +64,10 @@ std::array<std::vector<float>, kQuantityCount> TheoryOn(const UncertaintyTable::
     const HarmonicSpectrum spectrum = waves.wind_speed_10m == 0
                                           ? FlatSea(SeaWavenumbers(), 1)
                                           : Sampled(*waves.MakeSpectrum(), SeaWavenumbers(), 1);
-    const CompiledSea sea(SeaResponse(spectrum, kRefractiveIndex), grid);
-    for (std::size_t i = 0; i < grid.incidences().size(); ++i) {
-      for (std::size_t a = 0; a < grid.azimuths().size(); ++a) {
-        for (std::size_t f = 0; f < grid.footprints().size(); ++f) {
-          const BeamResponse& beam = sea.At(i, a, f);
+    const SeaResponse sea(spectrum, kRefractiveIndex);
+    for (const double incidence : incidences) {
+      for (const double azimuth : azimuths) {
+        for (const BeamResponse& beam : sea.AlongDirection(incidence, azimuth, footprints)) {
           add(Quantity::kRefractionAlongWind, DegreesOfRadians(beam.refraction_along_wind()));
           add(Quantity::kRefractionCrossWind, DegreesOfRadians(beam.refraction_cross_wind()));
           for (const double depth : depths) {
