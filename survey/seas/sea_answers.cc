@@ -1,6 +1,6 @@
 #include "survey/seas/sea_answers.h"
 
-#include <algorithm>
+#include <Eigen/Core>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -12,50 +12,50 @@
 namespace albtpu::client {
 namespace {
 
-// The root of the mean square of `a` and `b`, weighted 1 - weight and weight.
-double InVariance(double a, double b, double weight) {
-  return std::sqrt((1 - weight) * a * a + weight * b * b);
-}
+using ColumnMap = Eigen::Map<Eigen::ArrayXf>;
+using ConstColumnMap = Eigen::Map<const Eigen::ArrayXf>;
 
-double WeightAt(const std::vector<double>& weights, std::size_t i) {
-  return weights[weights.size() == 1 ? 0 : i];
-}
-
-// Makes `answers`, those of the first sea, the ones between it and `others`.
-void Blend(const AnswerBatch& others, const std::vector<double>& weights, AnswerBatch& answers) {
+// Makes `answers`, those of the first sea, the ones between it and `others`; `weights` are those of the others.
+void Blend(const AnswerBatch& others, const std::vector<float>& weights, AnswerBatch& answers) {
+  const auto size = static_cast<Eigen::Index>(weights.size());
+  const ConstColumnMap weight(weights.data(), size);
   for (const Quantity quantity : kQuantities) {
-    std::vector<float>& values = answers.values[Index(quantity)];
+    if (answers.values[Index(quantity)].empty()) continue;
+    ColumnMap value(answers.values[Index(quantity)].data(), size);
+    const ConstColumnMap other(others.values[Index(quantity)].data(), size);
     std::vector<float>& errors = answers.standard_errors[Index(quantity)];
-    const std::span<const float> other_values = others.values[Index(quantity)],
-                                 other_errors = others.standard_errors[Index(quantity)];
-    const bool is_bias = Describe(quantity).is_bias;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double weight = WeightAt(weights, i), a = values[i], b = other_values[i];
-      const double value = is_bias ? std::lerp(a, b, weight) : InVariance(a, b, weight);
-      if (!errors.empty()) {
-        const double error = is_bias || !(value > 0)
-                                 ? std::lerp(errors[i], other_errors[i], weight)
-                                 : ((1 - weight) * a * errors[i] + weight * b * other_errors[i]) / value;
-        errors[i] = static_cast<float>(error);
-      }
-      values[i] = static_cast<float>(value);
+    ColumnMap error(errors.data(), errors.empty() ? 0 : size);
+    const ConstColumnMap other_error(others.standard_errors[Index(quantity)].data(), error.size());
+    if (Describe(quantity).is_bias) {
+      value += weight * (other - value);
+      if (!errors.empty()) error += weight * (other_error - error);
+      continue;
     }
+    const Eigen::ArrayXf between = ((1 - weight) * value.square() + weight * other.square()).sqrt();
+    if (!errors.empty()) {
+      error = (between > 0).select(((1 - weight) * value * error + weight * other * other_error) / between,
+                                   error + weight * (other_error - error));
+    }
+    value = between;
   }
 }
 
 // The orders of S-44 that THU and TVU at 95 % leave open, and what remains of one of them.
 void CompareWithS44(const PulseBatch& pulses, std::optional<S44Order> order, const AnswerBatch& p95,
-                    AnswerBatch& answers) {
+                    const AnswerSelection& selection, AnswerBatch& answers) {
   const std::span<const float> thu = p95[Quantity::kThu], tvu = p95[Quantity::kTvu];
+  answers.best_s44_orders.resize(selection.best_s44_orders ? pulses.size : 0);
+  answers.remaining_thu.resize(selection.s44_remaining ? pulses.size : 0);
+  answers.remaining_tvu.resize(answers.remaining_thu.size());
   for (std::size_t i = 0; i < pulses.size; ++i) {
     const double depth = pulses.coordinate(AxisId::kDepth, i);
     const bool known = answers.interpolated(i);
-    if (!answers.best_s44_orders.empty()) {
+    if (selection.best_s44_orders) {
       const std::optional<S44Order> best = known ? BestOrder(thu[i], tvu[i], depth) : std::nullopt;
       answers.best_s44_orders[i] =
           best.has_value() ? static_cast<std::uint8_t>(static_cast<int>(*best) + 1) : 0;
     }
-    if (answers.remaining_thu.empty()) continue;
+    if (!selection.s44_remaining) continue;
     const auto remaining = [&](double limit, double ours) {
       const std::optional<double> left = known ? RemainingBudget(limit, ours) : std::nullopt;
       return static_cast<float>(left.value_or(NAN));
@@ -125,13 +125,15 @@ absl::StatusOr<TableSummary> SeaAnswers::Summary(std::size_t record) {
 absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
                                 const AnswerSelection& selection, AnswerBatch& answers) {
   if (!seas_->by_time())
-    return AnswerBetween(query, pulses, seas_->fixed(), {seas_->fixed().weight}, selection, answers);
+    return AnswerBetween(query, pulses, seas_->fixed(),
+                         std::vector<float>(pulses.size, static_cast<float>(seas_->fixed().weight)), selection,
+                         answers);
   assert(pulses.times.size() == pulses.size);
   // The pulses between each two records. Mostly all lie between the same two.
   struct Group {
     BetweenRecords between;
     std::vector<std::uint32_t> rows;
-    std::vector<double> weights;
+    std::vector<float> weights;
   };
   std::map<std::size_t, Group> groups;  // By the first record.
   Group* last = nullptr;
@@ -141,7 +143,7 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
     if (last == nullptr || last->between.first != between->first) last = &groups[between->first];
     if (last->rows.empty() || between->second != between->first) last->between = *between;
     last->rows.push_back(static_cast<std::uint32_t>(i));
-    last->weights.push_back(between->weight);
+    last->weights.push_back(static_cast<float>(between->weight));
   }
   if (groups.size() == 1)
     return AnswerBetween(query, pulses, last->between, last->weights, selection, answers);
@@ -157,7 +159,7 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
 }
 
 absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pulses,
-                                       const BetweenRecords& between, const std::vector<double>& weights,
+                                       const BetweenRecords& between, const std::vector<float>& weights,
                                        const AnswerSelection& selection, AnswerBatch& answers) {
   const absl::StatusOr<std::shared_ptr<UncertaintySource>> first = open_.Get(between.first);
   if (!first.ok()) return first.status();
@@ -171,13 +173,15 @@ absl::Status SeaAnswers::AnswerBetween(const Query& query, const PulseBatch& pul
     if (status.ok()) Blend(others, weights, blended);
     return status;
   };
-  absl::Status status = ask(query, selection, answers);
+  AnswerSelection numbers = selection;  // Of the blended numbers follow the orders.
+  numbers.best_s44_orders = numbers.s44_remaining = false;
+  absl::Status status = ask(query, numbers, answers);
   if (!status.ok() || (!selection.best_s44_orders && !selection.s44_remaining)) return status;
   AnswerSelection limited;
   limited.quantities[Index(Quantity::kThu)] = limited.quantities[Index(Quantity::kTvu)] = true;
   AnswerBatch p95;
   status = ask({.coverage = Coverage::kP95, .s44_order = {}}, limited, p95);
-  if (status.ok()) CompareWithS44(pulses, query.s44_order, p95, answers);
+  if (status.ok()) CompareWithS44(pulses, query.s44_order, p95, selection, answers);
   return status;
 }
 

@@ -36,7 +36,7 @@ class SeaAnswers {
 
   absl::Status Answer(const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
                       AnswerBatch& answers);
-  // Of pulses between the same two records; one weight for each of them, or for all.
+  // Of pulses between the same two records; the weights are those of the second.
   absl::Status AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
                              const std::vector<double>& weights, const AnswerSelection& selection,
                              AnswerBatch& answers);
