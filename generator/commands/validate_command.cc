@@ -28,6 +28,7 @@ constexpr NamedStudy kStudies[] = {
     {"the closed form", ClosedFormMapStudy},
     {"the real sea", RealSeaStudy},
     {"waves that are corrected away", CorrectedWavesStudy},
+    {"the response theory", ResponseTheoryStudy},
 };
 
 // Checks the published tables before the studies start, which read them one by one.

@@ -1,4 +1,4 @@
-"""The response theory over tracing, each beam of sea_response_validation_test."""
+"""The response theory over tracing, beam by beam."""
 
 from matplotlib.figure import Figure
 
@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 def response_theory(read):
     figure = Figure(figsize=(7, 7.5))
     panels = figure.subplots(3, 1, sharex=True)
-    groups = (("many_seas", "tab:orange", "thirteen seas, each with all its waves"),
-              ("resolved_seas", "tab:blue", "six seas without waves shorter than the grid"))
+    groups = (("response_theory_many_seas", "tab:orange", "twelve seas, each with all its waves"),
+              ("response_theory_resolved_seas", "tab:blue", "six seas without waves shorter than the grid"))
     for file, colour, label in groups:
         table = read(file)
         for axes, quantities in zip(panels, (("thu",), ("along", "cross"), ("tvu",))):

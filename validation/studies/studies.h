@@ -22,6 +22,9 @@ absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options);
 // The spectra beside measurements of real seas, and how the choice of spectrum changes the uncertainty of a beam.
 absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options);
 
+// The theory that answers for measured and described seas, beside tracing.
+absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options);
+
 // Figure 1a of the paper: gravity waves longer than the footprint, removed by a correction for the local slope.
 absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options);
 

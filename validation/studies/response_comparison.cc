@@ -1,0 +1,212 @@
+#include "validation/studies/response_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "sea/angle.h"
+#include "sea/response/sea_response.h"
+#include "validation/studies/closed_form_ratio.h"
+
+namespace albtpu {
+namespace {
+
+// Beams that share footprint, profile and refractive index are traced on the same surfaces.
+constexpr int kFootprints = 6, kBeamsOfFootprint = 10;
+
+SeaCase RandomBeams(bool gaussian, std::mt19937_64& bits) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * 0x1p-53 * static_cast<double>(bits() >> 11);
+  };
+  SeaCase sea_case;
+  sea_case.refractive_index = between(1.33, 1.345);
+  const double footprint = 0.2 * std::exp(between(0, std::log(30)));
+  for (int b = 0; b < kBeamsOfFootprint; ++b) {
+    sea_case.beams.push_back({.incidence = b == 0 ? 0 : RadiansOfDegrees(between(0, 30)),
+                              .azimuth = RadiansOfDegrees(between(0, 360)),
+                              .footprint = footprint,
+                              .profile = gaussian ? BeamProfile::kGaussian : BeamProfile::kUniform});
+  }
+  return sea_case;
+}
+
+// Relative errors to which the theory is held, besides the standard errors of the tracing: in rms and for each beam.
+struct Bound {
+  ComparedQuantity quantity;
+  double rms, each;
+};
+// Beams on the same surfaces share most of the random error of their biases along: their rms is of few samples.
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+constexpr std::array<Bound, 7> kOnManySeas = {{{ComparedQuantity::kAlong, 0.0035, 0.02},
+                                               {ComparedQuantity::kCross, 0.0035, 0.02},
+                                               {ComparedQuantity::kThu, 0.003, 0.015},
+                                               {ComparedQuantity::kTvu, 0.005, 0.025},
+                                               {ComparedQuantity::kBiasAlongBeam, kAny, 0.01},
+                                               {ComparedQuantity::kBiasVertical, 0.01, 0.01},
+                                               {ComparedQuantity::kThuAtSurface, 0.03, 0.06}}};
+// Tracing does not draw the waves shorter than its grid, whose mean effect it adds to the rays. Where there are none
+// such, it is exact.
+constexpr std::array<Bound, 7> kOnResolvedSeas = {{{ComparedQuantity::kAlong, 0.001, 0.003},
+                                                   {ComparedQuantity::kCross, 0.001, 0.003},
+                                                   {ComparedQuantity::kThu, 0.001, 0.003},
+                                                   {ComparedQuantity::kTvu, 0.003, 0.003},
+                                                   {ComparedQuantity::kBiasAlongBeam, kAny, 0.005},
+                                                   {ComparedQuantity::kBiasVertical, kAny, 0.005},
+                                                   {ComparedQuantity::kThuAtSurface, 0.01, 0.02}}};
+
+Comparison Judge(const std::vector<ComparedBeam>& beams, const Bound& bound, const char* seas) {
+  const double k = StandardErrorsFor(static_cast<int>(kComparedQuantities.size() * beams.size()));
+  const Agreement found = AgreementOf(beams, bound.quantity, k);
+  Comparison judged{.quantity = absl::StrFormat("theory over tracing, %s, rms departure from 1, %s",
+                                                Name(bound.quantity), seas),
+                    .unit = "%",
+                    .published = 0,
+                    .ours = 100 * found.rms,
+                    .standard_error = 100 * found.standard_error};
+  if (found.beams == 0) {
+    judged.basis = "no verdict: under no beam is it large enough to matter";
+    return judged;
+  }
+  const bool agrees =
+      found.worst_beyond <= bound.each && found.rms <= std::hypot(bound.rms, found.standard_error);
+  judged.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;
+  const std::string of_all =
+      std::isinf(bound.rms) ? "" : absl::StrFormat("%.2f %% rms besides standard errors, ", 100 * bound.rms);
+  judged.basis =
+      absl::StrFormat("within %s%.2f %% and %.1f standard errors for each of %d beams; at worst %.2f %%",
+                      of_all, 100 * bound.each, k, found.beams, 100 * found.worst);
+  return judged;
+}
+
+}  // namespace
+
+std::vector<ComparedBeam> CompareBeams(const ResponseSea& sea, SeaCase sea_case, const TracingEffort& effort,
+                                       std::uint64_t seed, std::uint32_t cell) {
+  sea_case.sea.waves = sea.waves;
+  sea_case.depths = {0, kComparedDepth};
+  const SeaState state(sea_case.sea);
+  Discretization grid = ChooseDiscretization(state, sea_case.beams);
+  grid.points_per_footprint *= effort.finer;
+  grid.rays = std::min(effort.finer * effort.finer * grid.rays, kMostRays);
+  sea_case.discretization = grid;
+  const SeaCaseResult traced = Simulate(
+      sea_case, {.realizations = effort.realizations, .most_realizations = effort.realizations}, seed, cell);
+  const SeaResponse theory(sea.spectrum, sea_case.refractive_index);
+  const double all_slopes = SlopeCovariance(state).trace();
+  std::vector<ComparedBeam> compared;
+  for (std::size_t b = 0; b < sea_case.beams.size(); ++b) {
+    const BeamOptions& beam = sea_case.beams[b];
+    const auto power = [&](double k, double psi) { return FootprintPower(beam, k, psi); };
+    compared.push_back({sea.name, beam, sea_case.refractive_index,
+                        SlopeCovariance(state, power).trace() / all_slopes, theory(beam), traced.beams[b]});
+  }
+  return compared;
+}
+
+std::vector<ComparedBeam> CompareRandomBeams(const std::vector<ResponseSea>& seas, bool few,
+                                             const TracingEffort& effort, std::uint64_t seed) {
+  std::vector<ComparedBeam> all;
+  std::mt19937_64 bits(seed);
+  for (int i = 0; i < static_cast<int>(seas.size()); ++i) {
+    for (int f = 0; f < kFootprints; ++f) {
+      SeaCase sea_case = RandomBeams(f % 3 == 1, bits);
+      if (few) {
+        if (f != i % kFootprints) continue;
+        sea_case.beams.resize(kBeamsOfFootprint / 2);
+      }
+      const auto cell = static_cast<std::uint32_t>(i * kFootprints + f);
+      std::vector<ComparedBeam> beams = CompareBeams(seas[i], std::move(sea_case), effort, seed, cell);
+      std::move(beams.begin(), beams.end(), std::back_inserter(all));
+    }
+  }
+  return all;
+}
+
+const char* Name(ComparedQuantity quantity) {
+  switch (quantity) {
+    case ComparedQuantity::kAlong:
+      return "along";
+    case ComparedQuantity::kCross:
+      return "cross";
+    case ComparedQuantity::kThu:
+      return "thu";
+    case ComparedQuantity::kTvu:
+      return "tvu";
+    case ComparedQuantity::kBiasAlongBeam:
+      return "bias along";
+    case ComparedQuantity::kBiasVertical:
+      return "bias vertical";
+    case ComparedQuantity::kThuAtSurface:
+      return "thu at depth 0";
+  }
+  return "";
+}
+
+Estimate RatioOf(const ComparedBeam& beam, ComparedQuantity quantity) {
+  const auto ratio = [](double theory, const Estimate& traced, double least) -> Estimate {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    if (std::abs(traced.value) < least) return {kNaN, kNaN};
+    return {theory / traced.value, traced.standard_error / std::abs(traced.value)};
+  };
+  const BeamResponse& ours = beam.theory;
+  const BeamUncertainty& traced = beam.traced;
+  const double least_angle = RadiansOfDegrees(0.2), least_length = 0.0005 * kComparedDepth;
+  switch (quantity) {
+    case ComparedQuantity::kAlong:
+      return ratio(ours.refraction_along_wind(), traced.refraction_along_wind, least_angle);
+    case ComparedQuantity::kCross:
+      return ratio(ours.refraction_cross_wind(), traced.refraction_cross_wind, least_angle);
+    case ComparedQuantity::kThu:
+      return ratio(ours.Thu(kComparedDepth), traced.thu[1], 0);
+    case ComparedQuantity::kTvu:
+      return ratio(ours.Tvu(kComparedDepth), traced.tvu[1], least_length);
+    case ComparedQuantity::kBiasAlongBeam:
+      return ratio(ours.BiasAlongBeam(kComparedDepth), traced.bias_along_beam[1], least_length);
+    case ComparedQuantity::kBiasVertical:
+      return ratio(ours.BiasVertical(kComparedDepth), traced.bias_vertical[1], 0);
+    case ComparedQuantity::kThuAtSurface:
+      return ratio(ours.Thu(0), traced.thu[0], 0.0005);
+  }
+  return {};
+}
+
+Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity,
+                      double standard_errors) {
+  Agreement agreement;
+  double squares = 0, variances = 0;
+  for (const ComparedBeam& beam : beams) {
+    const Estimate ratio = RatioOf(beam, quantity);
+    if (std::isnan(ratio.value)) continue;
+    const double error = std::abs(ratio.value - 1);
+    ++agreement.beams;
+    squares += error * error;
+    variances += ratio.standard_error * ratio.standard_error;
+    agreement.worst = std::max(agreement.worst, error);
+    agreement.worst_beyond = std::max(agreement.worst_beyond, error - standard_errors * ratio.standard_error);
+  }
+  if (agreement.beams == 0) return agreement;
+  agreement.rms = std::sqrt(squares / agreement.beams);
+  agreement.standard_error = std::sqrt(variances / agreement.beams);
+  return agreement;
+}
+
+std::vector<Comparison> VerdictsOnManySeas(const std::vector<ComparedBeam>& beams) {
+  std::vector<Comparison> verdicts;
+  for (const Bound& bound : kOnManySeas) verdicts.push_back(Judge(beams, bound, "many seas"));
+  return verdicts;
+}
+
+std::vector<Comparison> VerdictsOnResolvedSeas(const std::vector<ComparedBeam>& beams) {
+  std::vector<Comparison> verdicts;
+  for (const Bound& bound : kOnResolvedSeas)
+    verdicts.push_back(Judge(beams, bound, "seas that a grid holds"));
+  return verdicts;
+}
+
+}  // namespace albtpu
