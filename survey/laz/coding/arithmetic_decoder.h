@@ -43,9 +43,9 @@ class ArithmeticDecoder {
     const std::uint32_t below = model.Below(symbol) * part;
     value_ -= below;
     // The last symbol has the rest of the interval. No branch: which symbol it is cannot be predicted.
-    const std::uint32_t is_last = symbol == model.last_symbol() ? ~0u : 0;
-    const std::uint32_t share = (model.Below(symbol + 1) - model.Below(symbol)) * part;
-    length_ = ((length_ - below) & is_last) | (share & ~is_last);
+    std::uint32_t above = model.Below(symbol + 1) * part;
+    above = symbol == model.last_symbol() ? length_ : above;
+    length_ = above - below;
     Renormalize();
     model.Count(symbol);
     return symbol;
