@@ -3,7 +3,6 @@
 Usage: replicas_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE ALBTPU_QUERY
 """
 
-import contextlib
 import pathlib
 import re
 import shutil
@@ -14,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.error
 import urllib.request
 
 import names
@@ -37,10 +37,15 @@ class Replica(Server):
     def count(self, metric):
         """The sum of a metric over its labels."""
         lines = None
-        while lines is None:
-            with contextlib.suppress(ConnectionResetError):  # A busy server may close the connection after a second.
+        while lines is None:  # A busy server may close the connection after a second, while we write or read.
+            try:
                 with urllib.request.urlopen(self.metrics, timeout=PATIENCE) as page:
                     lines = page.read().decode().splitlines()
+            except ConnectionResetError:
+                continue
+            except urllib.error.URLError as error:
+                if not isinstance(error.reason, (BrokenPipeError, ConnectionResetError)):
+                    raise
         return sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith((metric + "{", metric + " ")))
 
     def is_busy(self):
