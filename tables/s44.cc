@@ -43,7 +43,8 @@ double ThuLimit(S44Order order, double depth) {
 
 double TvuLimit(S44Order order, double depth) {
   const Limits& limits = LimitsOf(order);
-  return std::hypot(limits.a, limits.b * depth);
+  const double of_depth = limits.b * depth;
+  return std::sqrt(limits.a * limits.a + of_depth * of_depth);
 }
 
 double ThuLimitAsPrintedByBirkebak(double depth) { return 5 + 0.02 * depth; }

@@ -1,9 +1,9 @@
 #include "survey/seas/sea_answers.h"
 
-#include <Eigen/Core>
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,31 +12,30 @@
 namespace albtpu::client {
 namespace {
 
-using ColumnMap = Eigen::Map<Eigen::ArrayXf>;
-using ConstColumnMap = Eigen::Map<const Eigen::ArrayXf>;
-
 // Makes `answers`, those of the first sea, the ones between it and `others`; `weights` are those of the others.
 void Blend(const AnswerBatch& others, const std::vector<float>& weights, AnswerBatch& answers) {
-  const auto size = static_cast<Eigen::Index>(weights.size());
-  const ConstColumnMap weight(weights.data(), size);
   for (const Quantity quantity : kQuantities) {
-    if (answers.values[Index(quantity)].empty()) continue;
-    ColumnMap value(answers.values[Index(quantity)].data(), size);
-    const ConstColumnMap other(others.values[Index(quantity)].data(), size);
-    std::vector<float>& errors = answers.standard_errors[Index(quantity)];
-    ColumnMap error(errors.data(), errors.empty() ? 0 : size);
-    const ConstColumnMap other_error(others.standard_errors[Index(quantity)].data(), error.size());
+    const std::span<float> values = answers.values[Index(quantity)],
+                           errors = answers.standard_errors[Index(quantity)];
+    const std::span<const float> other_values = others.values[Index(quantity)],
+                                 other_errors = others.standard_errors[Index(quantity)];
+    const auto linear = [](float a, float b, float weight) { return a + weight * (b - a); };
     if (Describe(quantity).is_bias) {
-      value += weight * (other - value);
-      if (!errors.empty()) error += weight * (other_error - error);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = linear(values[i], other_values[i], weights[i]);
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        errors[i] = linear(errors[i], other_errors[i], weights[i]);
       continue;
     }
-    const Eigen::ArrayXf between = ((1 - weight) * value.square() + weight * other.square()).sqrt();
-    if (!errors.empty()) {
-      error = (between > 0).select(((1 - weight) * value * error + weight * other * other_error) / between,
-                                   error + weight * (other_error - error));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const float weight = weights[i], a = (1 - weight) * values[i], b = weight * other_values[i];
+      const float value = std::sqrt(a * values[i] + b * other_values[i]);
+      if (!errors.empty()) {
+        errors[i] = value > 0 ? (a * errors[i] + b * other_errors[i]) / value
+                              : linear(errors[i], other_errors[i], weight);
+      }
+      values[i] = value;
     }
-    value = between;
   }
 }
 
@@ -126,8 +125,8 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
                                 const AnswerSelection& selection, AnswerBatch& answers) {
   if (!seas_->by_time())
     return AnswerBetween(query, pulses, seas_->fixed(),
-                         std::vector<float>(pulses.size, static_cast<float>(seas_->fixed().weight)), selection,
-                         answers);
+                         std::vector<float>(pulses.size, static_cast<float>(seas_->fixed().weight)),
+                         selection, answers);
   assert(pulses.times.size() == pulses.size);
   // The pulses between each two records. Mostly all lie between the same two.
   struct Group {

@@ -38,7 +38,7 @@ class SeaAnswers {
                       AnswerBatch& answers);
   // Of pulses between the same two records; the weights are those of the second.
   absl::Status AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
-                             const std::vector<double>& weights, const AnswerSelection& selection,
+                             const std::vector<float>& weights, const AnswerSelection& selection,
                              AnswerBatch& answers);
 
   std::shared_ptr<const SeaTimeline> seas_;
