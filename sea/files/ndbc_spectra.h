@@ -9,7 +9,9 @@
 
 namespace albtpu {
 
-// The frequency [Hz] up to which waves of NDBC's 3 m discus buoys are trusted: above it the hull hardly follows them.
+// The frequency [Hz] up to which the waves of NDBC's buoys are trusted. Its wave analyzers report up to 0.4 Hz; later
+// systems add bands up to 0.485 Hz (https://www.ndbc.noaa.gov/faq/wavespectra.shtml), whose waves, 6.6 m long, a hull
+// of 3 m hardly follows.
 inline constexpr double kNdbcTrustedUpTo = 0.4;
 
 // The time [s] over which NDBC measures the waves of an hour: 20 minutes,

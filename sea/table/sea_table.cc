@@ -185,6 +185,9 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, s
         "periods and units",
         MeanSquareSlope(sea.spectrum), sea.wind_speed_10m, std::string(status.message())));
   };
+  if (!(MeanSquareSlope(sea.spectrum) <= kGreatestMeanSquareSlope))
+    return refused(
+        absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kGreatestMeanSquareSlope)));
   absl::StatusOr<UncertaintyTable::Axes> axes = AxesFor(sea.wind_speed_10m);
   if (!axes.ok()) return refused(axes.status());
   const std::vector<BeamResponse> responses = ResponsesOf(sea.spectrum);

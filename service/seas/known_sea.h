@@ -32,7 +32,8 @@ struct KnownSea {
 // not used.
 KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& told, double record_length);
 
-// The table of the sea. InvalidArgument if a table cannot hold its numbers.
+// The table of the sea. InvalidArgument if it is steeper than any sea (sea_table.h), or if a table cannot hold its
+// numbers.
 absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const KnownSea& sea);
 
 }  // namespace albtpu

@@ -12,6 +12,7 @@
 #include "sea/response/sea_response.h"
 #include "sea/spectra/binned_spectrum.h"
 #include "sea/spectra/sea_error.h"
+#include "sea/spectra/spectrum_moments.h"
 #include "sea/table/sea_attributes.h"
 #include "tables/coverage.h"
 #include "tables/query/interpolation.h"
@@ -311,6 +312,19 @@ TEST(SeaTable, RefusesASeaThatIsNone) {
   DescribedSea sea = Describe(SeaOf(8));
   sea.spectrum.s[100] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Compiler().Compile(sea).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(SeaTable, RefusesASeaSteeperThanAny) {
+  const DescribedSea sea = Describe(SeaOf(8));
+  const auto with_slope = [&](double mean_square_slope) {
+    DescribedSea steep = sea;
+    for (double& each : steep.spectrum.s) each *= mean_square_slope / MeanSquareSlope(sea.spectrum);
+    return Compiler().Compile(steep).status();
+  };
+  EXPECT_TRUE(with_slope(0.499).ok());
+  const absl::Status status = with_slope(0.501);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_NE(status.message().find("no sea has more than 0.5"), absl::string_view::npos) << status;
 }
 
 TEST(SeaTable, RefusesWavesSoHighThatTheirWindIsInfinite) {
