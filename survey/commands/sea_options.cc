@@ -129,10 +129,7 @@ absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options) {
   if (options.survey.has_value()) {
     const absl::StatusOr<SurveyDescription> survey = ReadSurvey(*options.survey);
     if (!survey.ok()) return survey.status();
-    const absl::StatusOr<ToldSea> together =
-        Together(flags, survey->sea.value_or(ToldSea()), *options.survey);
-    if (!together.ok()) return together.status();
-    sea = *together;
+    sea = Together(flags, survey->sea.value_or(ToldSea()));
   }
   if (absl::Status status = CheckSea(sea); !status.ok()) return status;
   if (sea.has_waves())

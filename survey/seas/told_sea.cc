@@ -2,13 +2,16 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"
+#include "sea/spectra/dispersion.h"
 #include "survey/exit_status.h"
 #include "survey/number_text.h"
 
@@ -51,6 +54,19 @@ absl::Status CheckEffect(const ToldSea& sea, const Each& each) {
                                    "--tp, or leave it out"));
   }
   return absl::OkStatus();
+}
+
+// Waves that are higher break: Miche (1944), Ann. Ponts Chaussees 114, with Michell's 0.142 of the length in deep
+// water.
+absl::Status CheckBreaking(const JonswapWaves& waves, double depth) {
+  const double k = WavenumberOfFrequency(1 / waves.peak_period, depth);
+  const double highest = 0.142 * 2 * std::numbers::pi / k * std::tanh(k * depth);
+  if (!(waves.significant_wave_height > highest)) return absl::OkStatus();
+  return UsageError(absl::StrFormat(
+      "waves of %g m and %g s are higher than waves can be (they break above %.2g m%s); correct the height "
+      "or the period",
+      waves.significant_wave_height, waves.peak_period, highest,
+      std::isinf(depth) ? "" : absl::StrFormat(" in water of %g m", depth)));
 }
 
 }  // namespace
@@ -135,6 +151,10 @@ absl::Status CheckSea(const ToldSea& sea) {
     if (absl::Status status = CheckEffect(sea, each); !status.ok()) return status;
   for (const auto& each : kSeaTexts)
     if (absl::Status status = CheckEffect(sea, each); !status.ok()) return status;
+  for (const JonswapWaves& waves : sea.waves) {
+    const double depth = sea.water_depth.value_or(std::numeric_limits<double>::infinity());
+    if (absl::Status status = CheckBreaking(waves, depth); !status.ok()) return status;
+  }
   if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value()) {
     return UsageError(
         absl::StrCat("--sea-time: '", *sea.time, "' is no time; give UTC as 2020-06-08T03:50Z"));
@@ -142,26 +162,18 @@ absl::Status CheckSea(const ToldSea& sea) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<ToldSea> Together(const ToldSea& flags, const ToldSea& of_file, const std::string& name) {
-  const auto twice = [&](std::string_view flag, std::string_view key) {
-    return UsageError(absl::StrCat(std::string(flag), ": ", name, " has '", std::string(key),
-                                   "', too; leave out one of them"));
-  };
+ToldSea Together(const ToldSea& flags, const ToldSea& of_file) {
   ToldSea sea = of_file;
-  for (const auto& each : kSeaNumbers) {
-    if (!IsTold(flags, each)) continue;
-    if (IsTold(of_file, each)) return twice(each.flag, absl::StrCat("sea.", std::string(each.key)));
-    sea.*each.field = flags.*each.field;
+  if (flags.has_waves()) {  // Then what goes with the waves of the survey file goes with them.
+    sea.waves.clear();
+    sea.file = sea.place = sea.time = {};
+    sea.longest_gap = sea.anemometer_height = {};
   }
-  for (const auto& each : kSeaTexts) {
-    if (!IsTold(flags, each)) continue;
-    if (IsTold(of_file, each)) return twice(each.flag, absl::StrCat("sea.", std::string(each.key)));
-    sea.*each.field = flags.*each.field;
-  }
-  if (!flags.waves.empty()) {
-    if (!of_file.waves.empty()) return twice("--hs or --swell", "[[sea.waves]]");
-    sea.waves = flags.waves;
-  }
+  for (const auto& each : kSeaNumbers)
+    if (IsTold(flags, each)) sea.*each.field = flags.*each.field;
+  for (const auto& each : kSeaTexts)
+    if (IsTold(flags, each)) sea.*each.field = flags.*each.field;
+  if (!flags.waves.empty()) sea.waves = flags.waves;
   return sea;
 }
 

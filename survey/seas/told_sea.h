@@ -56,6 +56,10 @@ struct ToldText {
   std::optional<std::string> Told::*field;
 };
 
+// Degree. Waves from a storm that is 500 km wide and 5000 km away come from within 6 degrees, which is a standard
+// deviation of 1.7. What is less was meant in radians.
+inline constexpr double kNarrowestSpread = 1.6;
+
 inline constexpr std::array<ToldNumber<ToldSea>, 6> kSeaNumbers = {{
     {"wind_speed", "--wind-speed", "m/s", 0, 100, &ToldSea::wind_speed, ""},
     {"wind_from", "--wind-from", "degree", -360, 360, &ToldSea::wind_from, ""},
@@ -80,7 +84,7 @@ inline constexpr std::array<ToldNumber<ToldWaves>, 5> kWaveNumbers = {{
     {"gamma", "--gamma", "1", 1, 20, &ToldWaves::gamma, "Peak enhancement of JONSWAP (default: 3.3)"},
     {"waves_from", "--waves-from", "degree", -360, 360, &ToldWaves::waves_from,
      "Where the waves come from [degree, true]"},
-    {"spread", "--spread", "degree", 0, 81, &ToldWaves::spread,
+    {"spread", "--spread", "degree", kNarrowestSpread, 81, &ToldWaves::spread,
      "Circular standard deviation of their directions [degree] (default: --spreading mitsuyasu)"},
 }};
 inline constexpr std::array<std::string_view, 4> kTailRules = {"relax", "wind", "level", "none"};
@@ -100,8 +104,9 @@ absl::StatusOr<JonswapWaves> ParseSwell(std::string_view text);
 // UsageError if what is told contradicts itself or has no effect.
 absl::Status CheckSea(const ToldSea& sea);
 
-// The flags and what the survey file `name` says, together; UsageError where both say the same.
-absl::StatusOr<ToldSea> Together(const ToldSea& flags, const ToldSea& of_file, const std::string& name);
+// The flags and what the survey file says, together. A flag overrides the key of the same meaning, and waves that are
+// told by flags, in whatever form, those of the file.
+ToldSea Together(const ToldSea& flags, const ToldSea& of_file);
 
 // As a summary states it.
 nlohmann::ordered_json Parameters(const ToldSea& sea);

@@ -96,8 +96,13 @@ spread = 18
         survey = self.toml("[sea]\nwind_speed = 6\nwind_from = 250\n")
         flags = ("--table", self.table, "--beam-azimuth", 100)
         self.assertEqual(pulse("--survey", survey, *flags), pulse("--wind-speed", 6, "--wind-from", 250, *flags))
-        self.assert_fails(query("pulse", *PULSE, "--survey", survey, "--wind-speed", 7), 2,
-                          "--wind-speed", "has 'sea.wind_speed', too")
+        self.assertEqual(pulse("--survey", survey, "--wind-speed", 7, *flags),
+                         pulse("--wind-speed", 7, "--wind-from", 250, *flags))
+
+    def test_flags_override_a_survey_file(self):
+        survey = self.toml("[sea]\nwater_depth = 12\n[[sea.waves]]\nhs = 2\ntp = 9\nwaves_from = 20\n")
+        self.assertEqual(numbers(pulse("--survey", survey, *WAVES, "--sea-depth", 9)),
+                         numbers(pulse(*WAVES, "--sea-depth", 9)))
 
     def test_contradictions_are_one_clear_message(self):
         series = self.sea_csv((FLIGHT_START, 1, 200), (FLIGHT_START + 3600, 1, 200))
@@ -107,8 +112,7 @@ spread = 18
         at = ("--sea-time", utc(FLIGHT_START))
         for flags, code, *parts in (
                 (("--sea", series, *WAVES), 2, "both say which waves"),
-                (("--survey", waves, "--hs", 1, "--tp", 5, "--waves-from", 20), 2, "has '[[sea.waves]]', too"),
-                (("--survey", waves, "--sea", series), 2, "both say which waves"),
+                (("--survey", waves, "--sea", series), 2, "has 2 records from", "--sea-time"),
                 ((*WAVES, "--table", self.table), 2, "--table cannot be used with a sea"),
                 ((*WAVES, "--table-name", "survey"), 2, "--table-name cannot be used with a sea"),
                 ((*WAVES, "--fetch", 1000), 2, "--fetch has no effect"),
@@ -124,6 +128,8 @@ spread = 18
                 (("--hs", 1), 2, "--tp is missing"), (("--tp", 3), 2, "--hs is missing"),
                 (("--hs", 1, "--tp", 3), 2, "--waves-from is missing"), (("--spread", 9), 2, "--hs is missing"),
                 (("--swell", "1,9"), 2, "HS,TP,FROM"), (("--hs", 99), 2, "from 0 to 30 m"),
+                ((*WAVES, "--spread", 0.3), 2, "--spread", "1.6 to 81 degree"),
+                (("--hs", 2, "--tp", 2, "--waves-from", 0), 2, "waves of 2 m and 2 s", "break above 0.89 m"),
                 (("--tail", "up"), 2, "up"), ((*WAVES[:-4], "--wind-speed", 500), 2, "from 0 to 100 m/s"),
                 (("--sea", series), 2, "has 2 records from", "--sea-time"),
                 (("--sea", series, "--sea-time", "noon"), 2, "'noon' is no time"),

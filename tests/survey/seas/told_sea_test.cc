@@ -80,6 +80,20 @@ TEST(ToldSea, RefusesWhatHasNoEffect) {
   EXPECT_TRUE(CheckSea(sea).ok()) << "a wind alone is for a table of winds";
 }
 
+// The waves of 2 s are 6.24 m long, of which Michell's limit takes 0.142; in 0.5 m of water 4.06 m, and the limit is lower by tanh(k h).
+TEST(ToldSea, RefusesWavesThatBreak) {
+  ToldSea sea;
+  sea.waves = {{.significant_wave_height = 0.88, .peak_period = 2}};
+  EXPECT_TRUE(CheckSea(sea).ok());
+  sea.waves[0].significant_wave_height = 0.89;
+  ExpectUsageError(CheckSea(sea), "waves of 0.89 m and 2 s");
+  sea.waves[0].significant_wave_height = 0.37;
+  sea.water_depth = 0.5;
+  EXPECT_TRUE(CheckSea(sea).ok());
+  sea.waves[0].significant_wave_height = 0.38;
+  ExpectUsageError(CheckSea(sea), "in water of 0.5 m");
+}
+
 TEST(ToldSea, RefusesATimeThatIsNone) {
   ToldSea sea;
   sea.file = "41010.spec";
@@ -92,28 +106,45 @@ TEST(FlagsAndSurveyFile, CompleteEachOther) {
   of_file.water_depth = 12;
   flags.wind_speed = 6;
   flags.tail = "wind";
-  const ToldSea sea = Together(flags, of_file, "survey.toml").value();
+  const ToldSea sea = Together(flags, of_file);
   EXPECT_EQ(sea.wind_speed, 6);
   EXPECT_EQ(sea.water_depth, 12);
   EXPECT_EQ(sea.tail, "wind");
   EXPECT_EQ(sea.waves.size(), 1u);
 }
 
-TEST(FlagsAndSurveyFile, DoNotSayTheSame) {
-  const auto refuse = [](const ToldSea& sea, const std::string& flag) {
-    ExpectUsageError(Together(sea, sea, "survey.toml").status(), flag + ": survey.toml has ");
-  };
+TEST(FlagsAndSurveyFile, SayDifferentThingsAndTheFlagsCount) {
   for (const auto& number : kSeaNumbers) {
-    ToldSea sea;
-    sea.*number.field = 1;
-    refuse(sea, std::string(number.flag));
+    ToldSea flags, of_file;
+    flags.*number.field = 1;
+    of_file.*number.field = 2;
+    EXPECT_EQ(Together(flags, of_file).*number.field, 1) << number.key;
+    EXPECT_EQ(Together({}, of_file).*number.field, 2) << number.key;
   }
   for (const auto& text : kSeaTexts) {
-    ToldSea sea;
-    sea.*text.field = "x";
-    refuse(sea, std::string(text.flag));
+    ToldSea flags, of_file;
+    flags.*text.field = "flag";
+    of_file.*text.field = "file";
+    EXPECT_EQ(Together(flags, of_file).*text.field, "flag") << text.key;
+    EXPECT_EQ(Together({}, of_file).*text.field, "file") << text.key;
   }
-  refuse(OneWave(), "--hs or --swell");
+}
+
+TEST(FlagsAndSurveyFile, TellOtherWavesOfWhichTheFlagsCount) {
+  ToldSea waves = OneWave(), buoy;
+  buoy.file = "41010.data_spec";
+  buoy.place = "41010";
+  buoy.longest_gap = 9;
+  buoy.wind_speed = 6;
+  const ToldSea flags_have_waves = Together(waves, buoy);
+  EXPECT_EQ(flags_have_waves.waves.size(), 1u);
+  EXPECT_FALSE(flags_have_waves.file.has_value() || flags_have_waves.place.has_value() ||
+               flags_have_waves.longest_gap.has_value());
+  EXPECT_EQ(flags_have_waves.wind_speed, 6);
+  const ToldSea flags_have_a_file = Together(buoy, waves);
+  EXPECT_TRUE(flags_have_a_file.waves.empty());
+  EXPECT_EQ(flags_have_a_file.place, "41010");
+  EXPECT_TRUE(CheckSea(flags_have_a_file).ok());
 }
 
 TEST(Swell, IsHeightPeriodAndDirection) {
