@@ -74,7 +74,7 @@ class Installation(unittest.TestCase):
 
     def test_the_generator_plans_every_installed_campaign(self):
         campaigns = sorted((self.prefix / "share/albtpu/campaigns").glob("*.toml"))
-        self.assertEqual([path.stem for path in campaigns], ["paper", "quick", "survey"])
+        self.assertEqual([path.stem for path in campaigns], ["paper", "quick", "survey", "survey_apel"])
         for campaign in campaigns:
             self.assertTrue(self.run_program("albtpu-generate", "plan", "--campaign", campaign))
 

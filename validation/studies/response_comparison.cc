@@ -68,11 +68,9 @@ Comparison Judge(const std::vector<ComparedBeam>& beams, const Bound& bound, con
                     .unit = "%",
                     .published = 0,
                     .ours = 100 * found.rms,
-                    .standard_error = 100 * found.standard_error};
-  if (found.beams == 0) {
-    judged.basis = "no verdict: under no beam is it large enough to matter";
-    return judged;
-  }
+                    .standard_error = 100 * found.standard_error,
+                    .basis = "no verdict: under no beam is it large enough to matter"};
+  if (found.beams == 0) return judged;
   const bool agrees =
       found.worst_beyond <= bound.each && found.rms <= std::hypot(bound.rms, found.standard_error);
   judged.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;

@@ -3,8 +3,6 @@
 // It tries every fifth sea of a table, with all winds and fetches, or all of them, which takes twice as long:
 // ALBTPU_EVERY_SEA=1 survey_table_validation_test
 //
-// Where the two differ most, tracing on a finer grid agrees with the theory (sea_response_validation_test).
-//
 // The nodes of the tables are balanced (generator/campaign/node_balance.h), which mixes the values of neighbours and
 // amplifies their random errors. The balance is inverted first.
 #include <gtest/gtest.h>
@@ -103,13 +101,9 @@ std::vector<float> Unbalanced(const UncertaintyTable::Axes& axes, Quantity quant
   return guess;
 }
 
-// Relative errors of the standard deviations that are traced: of patch and rays, for which half a per cent and three
-// quarters of a per cent of the variance are allowed (generator/surface/discretization.cc), and of the steps of the
-// grid in wavenumber and direction, as measured on a finer grid. The biases are in proportion to variances.
+// Relative errors of the standard deviations that are traced, by patch and rays: some half a per cent and three
+// quarters of a per cent of the variance. The biases are in proportion to variances.
 constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
-constexpr double kGridOfAngles = 0.006, kGridOfThu = 0.0018, kGridAtSurface = 0.03;
-// In steep seas TVU of the table is up to so much too small: sea_response_validation_test traces its worst nodes again.
-constexpr double kShortWavesOfTvu = 0.016;
 
 // The beam of a node, in words.
 std::string NodeOf(const UncertaintyTable& table, std::size_t beam) {
@@ -134,11 +128,11 @@ Bound BoundOf(Quantity quantity) {
   switch (quantity) {
     case Quantity::kRefractionAlongWind:
     case Quantity::kRefractionCrossWind:
-      return {0.2, kPatchAndRays, kPatchAndRays + kGridOfAngles};
+      return {0.2, kPatchAndRays, kPatchAndRays};
     case Quantity::kThu:
-      return {0.0035, kPatchAndRays, kPatchAndRays + kGridOfThu};
+      return {0.0035, kPatchAndRays, kPatchAndRays};
     case Quantity::kTvu:
-      return {0.0005, kPatchAndRays, kPatchAndRays + kShortWavesOfTvu};
+      return {0.0005, kPatchAndRays, kPatchAndRays};
     case Quantity::kBiasAlongBeam:
       return {0.0035, 2 * kPatchAndRays, 2 * kPatchAndRays};
     case Quantity::kBiasVertical:
@@ -147,8 +141,8 @@ Bound BoundOf(Quantity quantity) {
   return {};
 }
 
-// The errors at the depth 0 are products of height and slope, at most 4.2 mm.
-constexpr Bound kAtSurface = {0.0005, kGridAtSurface, kGridAtSurface + 2 * kPatchAndRays};
+// The errors at the depth 0 are products of height and slope, at most 4.2 mm; the theory has their leading order.
+constexpr Bound kAtSurface = {0.0005, 0.02, 0.02 + 2 * kPatchAndRays};
 
 class SurveyTable : public testing::TestWithParam<const char*> {};
 
@@ -190,7 +184,8 @@ TEST_P(SurveyTable, IsReproducedByTheResponseTheory) {
         worst = std::max(worst, error);
         ++count;
       }
-      ASSERT_GT(count, 1000);
+      if (Describe(quantity).is_bias && count == 0) continue;  // too small at this depth
+      ASSERT_GT(count, 1000 / stride);
       const double rms = std::sqrt(squares / count), stated = std::sqrt(variances / count);
       std::printf("%-22s depth %4g m: rms %.2f %%, worst %.2f %%, standard error %.2f %%, %d nodes\n",
                   std::string(Describe(quantity).name).c_str(), depths[d], 100 * rms, 100 * worst,

@@ -62,7 +62,7 @@ class UncertaintySource(ABC):
         >>> answer = albtpu.open_table("survey.h5").query(
         ...     wind_speed=7, incidence=12, azimuth=30, footprint=0.5, depth=[8, 20, 100])
         >>> answer.thu.round(3)
-        array([0.538, 1.346,   nan], dtype=float32)
+        array([0.54, 1.35,  nan], dtype=float32)
         >>> list(answer.outcome)
         ['INTERPOLATED', 'INTERPOLATED', 'OUT_OF_DOMAIN:depth:above']
         """
