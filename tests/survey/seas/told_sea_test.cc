@@ -80,7 +80,8 @@ TEST(ToldSea, RefusesWhatHasNoEffect) {
   EXPECT_TRUE(CheckSea(sea).ok()) << "a wind alone is for a table of winds";
 }
 
-// The waves of 2 s are 6.24 m long, of which Michell's limit takes 0.142; in 0.5 m of water 4.06 m, and the limit is lower by tanh(k h).
+// The waves of 2 s are 6.24 m long, of which Michell's limit takes 0.142. In 0.5 m of water they are 4.06 m long, and
+// the limit is lower by tanh(k h).
 TEST(ToldSea, RefusesWavesThatBreak) {
   ToldSea sea;
   sea.waves = {{.significant_wave_height = 0.88, .peak_period = 2}};
