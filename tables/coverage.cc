@@ -67,7 +67,7 @@ double RadiusFactor95(double axis_ratio) {
   const RadiusFactors& factors = PrecomputedRadiusFactors();
   const double position = std::clamp(axis_ratio, 0.0, 1.0) * kIntervals;
   const int lower = std::min(static_cast<int>(position), kIntervals - 1);
-  return std::lerp(factors[lower], factors[lower + 1], position - lower);
+  return factors[lower] + (position - lower) * (factors[lower + 1] - factors[lower]);
 }
 
 double RadiusOverThu(const std::array<float, kQuantityCount>& values) {

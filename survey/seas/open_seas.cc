@@ -21,15 +21,30 @@ std::shared_ptr<OpenSeas::Sea> OpenSeas::Find(std::size_t i) {
 
 absl::StatusOr<std::shared_ptr<UncertaintySource>> OpenSeas::Get(std::size_t i) {
   const std::shared_ptr<Sea> sea = Find(i);
-  const absl::MutexLock lock(&sea->opening);
-  if (!sea->source.ok() || *sea->source != nullptr) return sea->source;
-  absl::StatusOr<std::unique_ptr<UncertaintySource>> source = sources_->Open(seas_.sea(i));
-  if (source.ok()) {
-    sea->source = std::shared_ptr<UncertaintySource>(*std::move(source));
-  } else {
-    sea->source = source.status();
+  if (!sea->opening.TryLock()) {
+    if (i + 1 < seas_.size()) {
+      const std::shared_ptr<Sea> next = Find(i + 1);
+      if (next->opening.TryLock()) {
+        Compile(*next);
+        next->opening.Unlock();
+      }
+    }
+    sea->opening.Lock();
   }
-  return sea->source;
+  Compile(*sea);
+  const absl::StatusOr<std::shared_ptr<UncertaintySource>> source = sea->source;
+  sea->opening.Unlock();
+  return source;
+}
+
+void OpenSeas::Compile(Sea& sea) {
+  if (!sea.source.ok() || *sea.source != nullptr) return;
+  absl::StatusOr<std::unique_ptr<UncertaintySource>> source = sources_->Open(seas_.sea(sea.record));
+  if (source.ok()) {
+    sea.source = std::shared_ptr<UncertaintySource>(*std::move(source));
+  } else {
+    sea.source = source.status();
+  }
 }
 
 }  // namespace albtpu::client

@@ -24,7 +24,8 @@ class OpenSeas {
   OpenSeas(const SeaTimeline& seas, std::unique_ptr<SeaSources> sources, std::size_t most = kMost)
       : seas_(seas), sources_(std::move(sources)), most_(most) {}
 
-  // The source of record `i`. Threads that ask for the same sea at a time wait for one of them to compile it.
+  // The source of record `i`. One thread compiles it. Others that ask for it meanwhile compile the record after it,
+  // which pulses in order of time need next, and then wait.
   absl::StatusOr<std::shared_ptr<UncertaintySource>> Get(std::size_t i);
 
  private:
@@ -39,6 +40,7 @@ class OpenSeas {
   using Order = std::list<std::shared_ptr<Sea>>;  // The last used one first.
 
   std::shared_ptr<Sea> Find(std::size_t i);
+  void Compile(Sea& sea) ABSL_EXCLUSIVE_LOCKS_REQUIRED(sea.opening);
 
   const SeaTimeline& seas_;
   std::unique_ptr<SeaSources> sources_;

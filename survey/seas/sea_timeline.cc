@@ -161,12 +161,13 @@ absl::Status SeaTimeline::TakeTime() {
                       *told_.time, records_.size(), SpanText(*this), longest_gap_ / kSecondsPerHour));
 }
 
-std::optional<BetweenRecords> SeaTimeline::At(double time) const {
+std::optional<BetweenRecords> SeaTimeline::At(double time, std::size_t guess) const {
   if (!(time >= start() && time <= end())) return std::nullopt;
-  const auto after = std::upper_bound(times_.begin(), times_.end(), time);
-  const auto second = static_cast<std::size_t>(after - times_.begin());
-  const std::size_t first = second - 1;
+  std::size_t first = guess;
+  if (!(guess + 1 < times_.size() && times_[guess] <= time && time < times_[guess + 1]))
+    first = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
   if (time == times_[first]) return BetweenRecords{first, first, 0};
+  const std::size_t second = first + 1;
   const double step = times_[second] - times_[first];
   if (step > longest_gap_) return std::nullopt;
   return BetweenRecords{first, second, (time - times_[first]) / step};

@@ -40,8 +40,8 @@ class SeaTimeline {
   const BetweenRecords& fixed() const { return *fixed_; }
 
   // The two records around an instant [s since 1970, UTC]. nullopt before the first, after the last, and in a gap that
-  // is longer than longest_gap(). Requires by_time().
-  std::optional<BetweenRecords> At(double time) const;
+  // is longer than longest_gap(). Quicker where `guess` is the first of the two. Requires by_time().
+  std::optional<BetweenRecords> At(double time, std::size_t guess = 0) const;
   // The first and the last record that sea states between two instants are made of. Requires by_time().
   std::pair<std::size_t, std::size_t> RecordsWithin(double first, double last) const;
   double start() const { return times_.front(); }
