@@ -115,6 +115,8 @@ void AnswerWriter::WriteNumbers(const PulseBlock& block, Quantity quantity, cons
   }
   if (query_.coverage == Coverage::kTwoSigma || Describe(quantity).is_bias) {
     std::copy_n(numbers->begin(), count, column);
+  } else if (query_.coverage == Coverage::kOneSigma) {
+    for (std::size_t i = 0; i < count; ++i) column[i] = (*numbers)[i] / 2;
   } else if (quantity == Quantity::kThu) {
     for (std::size_t i = 0; i < count; ++i)
       column[i] = static_cast<float>((*numbers)[i] * radius_over_thu_[i]);

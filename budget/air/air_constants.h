@@ -1,0 +1,23 @@
+// What all pulses of a batch have in common on the air side.
+#pragma once
+
+#include <array>
+
+#include "budget/air/air_errors.h"
+
+namespace albtpu {
+
+// AirErrors in single precision, with angles in radians, and constants made of them.
+struct AirConstants {
+  // `lever_arm`: m; forward, right, down.
+  AirConstants(const AirErrors& errors, SurfaceLocation located, double index,
+               const std::array<double, 3>& lever_arm);
+
+  float inverse_index, inverse_square_index;
+  // 1 where the height of the surface is given, 0 where the lidar located it: for all errors, and for the scan angle.
+  float given, scan_given;
+  float forward, right, down;  // The lever arm, m.
+  float boresight[3], lever_arm, scan, time, range_offset, bottom_range, surface_height[kErrorGroups], refractive;
+};
+
+}  // namespace albtpu

@@ -1,0 +1,105 @@
+// The total uncertainty of many pulses: the shares of the air side, the sea surface and the datum, added as covariances.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "budget/air/air_errors.h"
+#include "tables/coverage.h"
+
+namespace albtpu {
+
+// What is known of a pulse. A column has one number for each pulse, or one for all, or none where the comment allows it.
+enum class BudgetInput : std::uint8_t {
+  kIncidence,    // degree from the vertical, in air: 0 or more, below 90.
+  kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to.
+  kAltitude,     // m, of the sensor above the water: above 0.
+  kDepth,        // m, below the water: 0 or more.
+  // The aircraft. None: 0. The heading matters where lever arm, boresight, roll and pitch differ from each other.
+  kRoll,           // degree
+  kPitch,          // degree
+  kHeading,        // degree, clockwise from true north.
+  kVelocityNorth,  // m/s
+  kVelocityEast,   // m/s
+  kVelocityDown,   // m/s
+  kRollRate,       // degree/s, about the forward axis of the aircraft.
+  kPitchRate,      // degree/s, about its right axis.
+  kYawRate,        // degree/s, about its down axis.
+  // Standard deviations of the trajectory at this pulse. None: those of AirErrors.
+  kPositionSigmaNorth,  // m
+  kPositionSigmaEast,   // m
+  kPositionSigmaDown,   // m
+  kRollSigma,           // degree
+  kPitchSigma,          // degree
+  kHeadingSigma,        // degree
+  // The share of the sea surface at 2 sigma, as a table answers it (tables/pulse.h). NaN: no answer.
+  kSeaThu,           // m
+  kSeaTvu,           // m
+  kRefractionAlong,  // degree, along the axis of the sea.
+  kRefractionCross,  // degree, across it.
+  kBiasAlongBeam,    // m. None: not known, taken as 0.
+  kBiasVertical,     // m. None: not known, taken as 0.
+  kSeaAxis,          // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
+  kWaveHeight,       // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
+};
+inline constexpr std::size_t kBudgetInputCount = 28;
+
+struct BudgetInputs {
+  std::size_t size = 0;
+  std::array<std::span<const float>, kBudgetInputCount> columns = {};
+
+  std::span<const float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
+  std::span<const float> operator[](BudgetInput input) const {
+    return columns[static_cast<std::size_t>(input)];
+  }
+};
+
+// What all pulses have in common.
+struct BudgetOptions {
+  AirErrors errors = {};
+  SurfaceLocation located = SurfaceLocation::kPulse;
+  std::array<double, 3> lever_arm = {};  // m; forward, right, down, from the trajectory's point to the sensor.
+  double index = 1.34;                   // Refractive index of the water: 1 or more.
+  double datum = 0;                      // m, standard deviation of the height of the vertical datum.
+  Coverage coverage = Coverage::kTwoSigma;
+};
+
+// The entries of a symmetric matrix, m^2, 1 sigma; axes north, east, down. In the order of kCovarianceNames.
+using CovarianceColumns = std::array<std::span<float>, 6>;
+inline constexpr std::array<std::string_view, 6> kCovarianceNames = {"NN", "EE", "DD", "NE", "ND", "ED"};
+
+// One number for each pulse; an empty column is not written. NaN where an input is NaN that a number depends on.
+//
+// THU and TVU at 2 sigma: twice the root of the trace of the horizontal covariance, and of its vertical entry. At 95 %:
+// the radius that holds 95 % of the two-dimensional normal distribution with this covariance, and 1.96 standard
+// deviations. At 1 sigma half of 2 sigma.
+struct BudgetOutputs {
+  std::span<float> thu = {}, tvu = {};               // m, of all shares.
+  std::span<float> thu_air = {}, tvu_air = {};       // m, of the air side alone.
+  std::span<float> thu_sea = {}, tvu_sea = {};       // m, of sea surface and unseen waves.
+  CovarianceColumns air = {}, sea = {}, total = {};  // Of shares and their sum.
+  std::array<CovarianceColumns, kErrorGroups> groups = {};  // Of the same sum by ErrorGroup.
+  // 0: none; otherwise 1 plus the number of the strictest order of S-44 (kS44Orders) whose limits exceed the total at
+  // 95 % plus the magnitude of the bias, horizontally and vertically.
+  std::span<std::uint8_t> best_orders = {};
+};
+
+// Computes `outputs` for all pulses. Allocates nothing. Each pulse depends on its own numbers alone, and has the same
+// bits on every processor.
+//
+//     C = C_air + C_sea + diag(0, 0, datum^2)
+//
+// C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2 and variances along and across the axis of the sea
+// in the proportion of the squared refractions; its covariance with up is sin r cos r (r: the angle in water) times the
+// covariance with the direction of the beam, because the table's errors are those of a spot that moves on a level bottom;
+// vertically (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height.
+// Biases are in no covariance.
+//
+// Errors of rounding are below 1e-5 of the standard deviations.
+void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);
+
+}  // namespace albtpu

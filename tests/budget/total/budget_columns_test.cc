@@ -1,0 +1,252 @@
+// The columns of totals, held against the sources of one pulse in double precision.
+#include "budget/total/budget_columns.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "budget/air/air_sources.h"
+#include "budget/total/horizontal_ellipse.h"
+#include "budget/total/limits_met.h"
+
+namespace albtpu {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Pulses {
+  std::array<std::vector<float>, kBudgetInputCount> columns;
+
+  std::vector<float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
+  double at(BudgetInput input, std::size_t i, double absent = 0) const {
+    const std::vector<float>& column = columns[static_cast<std::size_t>(input)];
+    return column.empty() ? absent : column[column.size() == 1 ? 0 : i];
+  }
+  BudgetInputs inputs() const {
+    BudgetInputs inputs{.size = columns[0].size()};
+    for (std::size_t i = 0; i < kBudgetInputCount; ++i) inputs.columns[i] = columns[i];
+    return inputs;
+  }
+};
+
+// Pulses of all kinds, over seas of all kinds.
+Pulses RandomPulses(std::size_t size, unsigned seed) {
+  std::mt19937 random(seed);
+  Pulses pulses;
+  const auto draw = [&](BudgetInput input, double least, double most) {
+    std::uniform_real_distribution<double> between(least, most);
+    for (std::size_t i = 0; i < size; ++i) pulses[input].push_back(static_cast<float>(between(random)));
+  };
+  draw(BudgetInput::kIncidence, 0, 30);
+  draw(BudgetInput::kBeamAzimuth, 0, 360);
+  draw(BudgetInput::kAltitude, 100, 800);
+  draw(BudgetInput::kDepth, 0, 50);
+  draw(BudgetInput::kRoll, -20, 20);
+  draw(BudgetInput::kPitch, -20, 20);
+  draw(BudgetInput::kHeading, -180, 360);
+  for (const BudgetInput velocity :
+       {BudgetInput::kVelocityNorth, BudgetInput::kVelocityEast, BudgetInput::kVelocityDown})
+    draw(velocity, -80, 80);
+  for (const BudgetInput rate : {BudgetInput::kRollRate, BudgetInput::kPitchRate, BudgetInput::kYawRate})
+    draw(rate, -6, 6);
+  draw(BudgetInput::kSeaThu, 0.01, 1);
+  draw(BudgetInput::kSeaTvu, 0.01, 0.3);
+  draw(BudgetInput::kRefractionAlong, 0.5, 3);
+  draw(BudgetInput::kRefractionCross, 0.5, 3);
+  draw(BudgetInput::kBiasAlongBeam, -0.1, 0.1);
+  draw(BudgetInput::kBiasVertical, -0.1, 0.1);
+  draw(BudgetInput::kSeaAxis, 0, 360);
+  draw(BudgetInput::kWaveHeight, 0, 0.4);
+  return pulses;
+}
+
+const AirErrors kErrors = {.position = {0.02, 0.03, 0.06},
+                           .attitude = {0.005, 0.004, 0.008},
+                           .boresight = {0.001, 0.002, 0.004},
+                           .lever_arm = 0.02,
+                           .scan = 0.02,
+                           .time = 1e-5,
+                           .range_offset = 0.01,
+                           .bottom_range = 0.025,
+                           .surface_height = 0.03,
+                           .index = 0.002};
+
+AirPulse PulseAt(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
+  const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
+  return {.incidence = at(BudgetInput::kIncidence),
+          .beam_azimuth = at(BudgetInput::kBeamAzimuth),
+          .altitude = at(BudgetInput::kAltitude),
+          .depth = at(BudgetInput::kDepth),
+          .roll = at(BudgetInput::kRoll),
+          .pitch = at(BudgetInput::kPitch),
+          .heading = at(BudgetInput::kHeading),
+          .velocity = {at(BudgetInput::kVelocityNorth), at(BudgetInput::kVelocityEast), at(BudgetInput::kVelocityDown)},
+          .rates = {at(BudgetInput::kRollRate), at(BudgetInput::kPitchRate), at(BudgetInput::kYawRate)},
+          .lever_arm = Vector3d(options.lever_arm.data()),
+          .index = options.index};
+}
+
+Matrix3d SeaShare(const Pulses& pulses, std::size_t i, const BudgetOptions& options) {
+  const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
+  const double along = at(BudgetInput::kRefractionAlong), cross = at(BudgetInput::kRefractionCross);
+  const double turn = at(BudgetInput::kSeaAxis) * kDegree, azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
+  Eigen::Matrix2d axes;
+  axes << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  const Eigen::Matrix2d horizontal = std::pow(at(BudgetInput::kSeaThu) / 2, 2) / (along * along + cross * cross) *
+                                     (axes * Eigen::Vector2d(along * along, cross * cross).asDiagonal() *
+                                      axes.transpose());
+  const double sine = std::sin(at(BudgetInput::kIncidence) * kDegree) / options.index;
+  const Eigen::Vector2d beam(std::cos(azimuth), std::sin(azimuth));
+  Matrix3d c = Matrix3d::Zero();
+  c.topLeftCorner<2, 2>() = horizontal;
+  c.topRightCorner<2, 1>() = -sine * std::sqrt(1 - sine * sine) * horizontal * beam;
+  c.bottomLeftCorner<1, 2>() = c.topRightCorner<2, 1>().transpose();
+  c(2, 2) = std::pow(at(BudgetInput::kSeaTvu) / 2, 2);
+  const Vector3d wave = at(BudgetInput::kWaveHeight) * ErrorOfSurfaceHeight(PulseAt(pulses, i, options));
+  return c + wave * wave.transpose();
+}
+
+struct Answers {
+  explicit Answers(std::size_t size) : orders(size) {
+    for (auto& column : numbers) column.resize(size);
+  }
+  BudgetOutputs outputs() {
+    BudgetOutputs outputs{.thu = numbers[0], .tvu = numbers[1], .thu_air = numbers[2], .tvu_air = numbers[3],
+                          .thu_sea = numbers[4], .tvu_sea = numbers[5], .best_orders = orders};
+    std::size_t next = 6;
+    for (CovarianceColumns* columns :
+         {&outputs.air, &outputs.sea, &outputs.total, &outputs.groups[0], &outputs.groups[1], &outputs.groups[2]})
+      for (std::span<float>& column : *columns) column = numbers[next++];
+    return outputs;
+  }
+  // Of the six matrices above.
+  Matrix3d Covariance(std::size_t which, std::size_t i) const {
+    const auto at = [&](std::size_t entry) { return static_cast<double>(numbers[6 + 6 * which + entry][i]); };
+    return (Matrix3d() << at(0), at(3), at(4), at(3), at(1), at(5), at(4), at(5), at(2)).finished();
+  }
+
+  std::array<std::vector<float>, 42> numbers;
+  std::vector<std::uint8_t> orders;
+};
+
+// Relative to the standard deviations.
+void ExpectSame(const Matrix3d& ours, const Matrix3d& twin, const char* what) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      ASSERT_NEAR(ours(row, column), twin(row, column), 1e-5 * std::sqrt(twin(row, row) * twin(column, column)) + 1e-12)
+          << what << " " << row << column;
+}
+
+TEST(ComputeBudget, IsTheSumOfTheSourcesOfEachPulse) {
+  const Pulses pulses = RandomPulses(1003, 1);
+  for (const SurfaceLocation located : {SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel}) {
+    const BudgetOptions options = {.errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5}, .datum = 0.08};
+    Answers answers(1003);
+    ComputeBudget(pulses.inputs(), options, answers.outputs());
+    for (std::size_t i = 0; i < 1003; ++i) {
+      std::array<Matrix3d, kErrorGroups> groups = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
+      for (const AirSource& source : AirSources(PulseAt(pulses, i, options), located, kErrors))
+        groups[static_cast<std::size_t>(source.group)] += source.Covariance();
+      const Matrix3d air = groups[0] + groups[1] + groups[2], sea = SeaShare(pulses, i, options);
+      groups[0] += sea;
+      groups[2](2, 2) += 0.08 * 0.08;
+      Matrix3d total = groups[0] + groups[1] + groups[2];
+      ExpectSame(answers.Covariance(0, i), air, "air");
+      ExpectSame(answers.Covariance(1, i), sea, "sea");
+      ExpectSame(answers.Covariance(2, i), total, "total");
+      for (std::size_t g = 0; g < kErrorGroups; ++g) ExpectSame(answers.Covariance(3 + g, i), groups[g], "group");
+      // The groups add up to the total.
+      ExpectSame(answers.Covariance(3, i) + answers.Covariance(4, i) + answers.Covariance(5, i), total, "groups");
+      ASSERT_NEAR(answers.numbers[0][i], 2 * std::sqrt(total(0, 0) + total(1, 1)), 1e-5 * answers.numbers[0][i]);
+      ASSERT_NEAR(answers.numbers[1][i], 2 * std::sqrt(total(2, 2)), 1e-5 * answers.numbers[1][i]);
+      const HorizontalEllipse ellipse = EllipseOf(total(0, 0), total(1, 1), total(0, 1));
+      const double thu95 = RadiusFactor95(ellipse.semi_minor / ellipse.semi_major) * answers.numbers[0][i];
+      ASSERT_EQ(answers.orders[i],
+                BestOrderMet(thu95, kFactor95 * answers.numbers[1][i], pulses.at(BudgetInput::kBiasAlongBeam, i),
+                             pulses.at(BudgetInput::kBiasVertical, i), pulses.at(BudgetInput::kDepth, i)));
+    }
+  }
+}
+
+TEST(ComputeBudget, StatesTheRadiusOf95PercentByTheTrueEllipse) {
+  const Pulses pulses = RandomPulses(20, 2);
+  const BudgetOptions options = {.errors = kErrors, .coverage = Coverage::kP95};
+  Answers answers(20);
+  ComputeBudget(pulses.inputs(), options, answers.outputs());
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Eigen::LLT<Eigen::Matrix2d> root(answers.Covariance(2, i).topLeftCorner<2, 2>());
+    int inside = 0;
+    for (int draw = 0; draw < 200'000; ++draw) {
+      const Eigen::Vector2d error = root.matrixL() * Eigen::Vector2d(normal(random), normal(random));
+      inside += error.norm() <= answers.numbers[0][i];
+    }
+    EXPECT_NEAR(inside / 200'000.0, 0.95, 0.002) << i;  // 4 standard deviations
+  }
+}
+
+TEST(ComputeBudget, HasNoBiasInAnyCovariance) {
+  Pulses pulses = RandomPulses(100, 4);
+  Answers with(100), without(100);
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, with.outputs());
+  pulses[BudgetInput::kBiasAlongBeam] = {1000};
+  pulses[BudgetInput::kBiasVertical] = {1000};
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, without.outputs());
+  EXPECT_EQ(with.numbers, without.numbers);
+  EXPECT_NE(with.orders, without.orders);  // What is held against an order has them.
+}
+
+TEST(ComputeBudget, RepeatsConstantsAndTakesSigmasByPulse) {
+  Pulses pulses = RandomPulses(130, 5), alike = pulses;
+  for (const BudgetInput input : {BudgetInput::kDepth, BudgetInput::kSeaAxis, BudgetInput::kRoll}) {
+    pulses[input] = {pulses[input][0]};
+    alike[input].assign(130, pulses[input][0]);
+  }
+  alike[BudgetInput::kPositionSigmaNorth].assign(130, 0.02f);
+  alike[BudgetInput::kHeadingSigma] = {0.008f};
+  Answers ours(130), others(130);
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, ours.outputs());
+  ComputeBudget(alike.inputs(), {.errors = kErrors}, others.outputs());
+  EXPECT_EQ(ours.numbers, others.numbers);
+}
+
+TEST(ComputeBudget, HasNoTotalWithoutTheSea) {
+  Pulses pulses = RandomPulses(2, 6);
+  pulses[BudgetInput::kSeaThu][1] = NAN;
+  Answers answers(2);
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, answers.outputs());
+  EXPECT_FALSE(std::isnan(answers.numbers[0][0]));
+  EXPECT_TRUE(std::isnan(answers.numbers[0][1]));
+  EXPECT_EQ(answers.orders[1], 0);
+}
+
+TEST(ComputeBudget, SpreadsASeaOfUnknownAxisAlike) {
+  Pulses pulses = RandomPulses(1, 7);
+  pulses[BudgetInput::kSeaAxis] = {};
+  pulses[BudgetInput::kWaveHeight] = {};
+  Answers answers(1);
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, answers.outputs());
+  const Matrix3d sea = answers.Covariance(1, 0);
+  EXPECT_FLOAT_EQ(static_cast<float>(sea(0, 0)), static_cast<float>(sea(1, 1)));
+  EXPECT_EQ(sea(0, 1), 0);
+  EXPECT_NEAR(2 * std::sqrt(sea(0, 0) + sea(1, 1)), pulses[BudgetInput::kSeaThu][0], 1e-6);
+}
+
+TEST(ComputeBudget, StatesOneSigmaAsHalfOfTwo) {
+  const Pulses pulses = RandomPulses(10, 8);
+  Answers one(10), two(10);
+  ComputeBudget(pulses.inputs(), {.errors = kErrors, .coverage = Coverage::kOneSigma}, one.outputs());
+  ComputeBudget(pulses.inputs(), {.errors = kErrors}, two.outputs());
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(2 * one.numbers[0][i], two.numbers[0][i]);
+}
+
+}  // namespace
+}  // namespace albtpu
