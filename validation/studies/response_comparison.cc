@@ -59,6 +59,10 @@ constexpr std::array<Bound, 7> kOnResolvedSeas = {{{ComparedQuantity::kAlong, 0.
                                                    {ComparedQuantity::kBiasAlongBeam, kAny, 0.005},
                                                    {ComparedQuantity::kBiasVertical, kAny, 0.005},
                                                    {ComparedQuantity::kThuAtSurface, 0.01, 0.02}}};
+// Where a footprint passes less than this share of the mean square slope, it is far longer than the waves. There THU by
+// the theory is up to half a per cent less.
+constexpr double kFarLonger = 0.01;
+constexpr Bound kUnderFarLongerBeams = {ComparedQuantity::kThu, kAny, 0.015};
 
 Comparison Judge(const std::vector<ComparedBeam>& beams, const Bound& bound, const char* seas) {
   const double k = StandardErrorsFor(static_cast<int>(kComparedQuantities.size() * beams.size()));
@@ -201,9 +205,11 @@ std::vector<Comparison> VerdictsOnManySeas(const std::vector<ComparedBeam>& beam
 }
 
 std::vector<Comparison> VerdictsOnResolvedSeas(const std::vector<ComparedBeam>& beams) {
+  std::vector<ComparedBeam> shorter, longer;
+  for (const ComparedBeam& beam : beams) (beam.seen < kFarLonger ? longer : shorter).push_back(beam);
   std::vector<Comparison> verdicts;
-  for (const Bound& bound : kOnResolvedSeas)
-    verdicts.push_back(Judge(beams, bound, "seas that a grid holds"));
+  for (const Bound& bound : kOnResolvedSeas) verdicts.push_back(Judge(shorter, bound, "seas that a grid holds"));
+  verdicts.push_back(Judge(longer, kUnderFarLongerBeams, "footprints far longer than the waves"));
   return verdicts;
 }
 
