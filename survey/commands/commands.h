@@ -22,6 +22,7 @@ void AddCsvCommand(CLI::App& program, Run& run);
 void AddLasCommand(CLI::App& program, Run& run);
 void AddTrajectoryCommand(CLI::App& program, Run& run);
 void AddSeaCommand(CLI::App& program, Run& run);
+void AddSensorsCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 

@@ -36,6 +36,7 @@ int Main(int argc, char** argv) {
   AddLasCommand(program, run);
   AddTrajectoryCommand(program, run);
   AddSeaCommand(program, run);
+  AddSensorsCommand(program, run);
   AddTablesCommand(program, run);
   AddHealthCommand(program, run);
   try {

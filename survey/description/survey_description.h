@@ -1,5 +1,15 @@
 // The survey file: what is known of a survey beside its points, as TOML.
 //
+//     [sensor]
+//     name = "riegl-vq-880-g"             # installed; or the path of a file: "my_sensor.toml"
+//     lever_arm = [0.3, -0.2, 0.5]        # m: forward, right, down
+//     [trajectory]
+//     files = ["sbet/"]                   # or: from_returns = true
+//     errors = ["smrmsg/"]
+//     time = "gps"                        # "utc"
+//     [surface]
+//     classes = [41]                      # of returns from the surface
+//     located = "local"                   # "pulse"; "level", with: level = -23.09, or "level.csv"
 //     [sea]
 //     wind_speed = 6.5                    # m/s at 10 m; 0 is a calm
 //     wind_from = 225                     # degree, true
@@ -12,9 +22,32 @@
 //     gamma = 3.3
 //     waves_from = 225                    # degree, true
 //     spreading = "mitsuyasu"             # or spread = 18, degree
+//     [water]
+//     kd = 0.12                           # 1/m
+//     temperature = 24                    # degree C
+//     salinity = 36
+//     index = 1.3397                      # absent: by temperature and salinity
+//     column = "none"                     # the share of the water column is left out
+//     [datum]
+//     sigma = 0.08                        # m
+//     geoid_separation = -25.1            # m
+//     [sigma]                             # 1 sigma, in place of the sensor's and of the error files'
+//     position = [0.02, 0.02, 0.06]       # m: north, east, down
+//     attitude = [0.005, 0.005, 0.008]    # degree: roll, pitch, heading
+//     boresight = [0.001, 0.001, 0.004]   # degree: x, y, z
+//     lever_arm = 0.02                    # m, each axis
+//     scan = 0.02                         # degree, each of two angles
+//     time = 1e-5                         # s
+//     range_offset = 0.01                 # m; also bottom_range (optical), surface_height
+//     index = 0.001
+//     [output]
+//     classes = [40]
+//     coverage = "p95"                    # "2sigma", "1sigma"
+//     s44_order = "1b"
+//     details = true
 //
-// With a file: time = "2020-06-08T03:50Z" (absent: by the time of each pulse), place, longest_gap (h),
-// anemometer_height (m). Its path counts from the folder of the survey file.
+// With a file of the sea: time = "2020-06-08T03:50Z" (absent: by the time of each pulse), place, longest_gap (h),
+// anemometer_height (m). Paths count from the folder of the survey file.
 #pragma once
 
 #include <filesystem>
@@ -22,16 +55,23 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
-#include "survey/seas/told_sea.h"
+#include "survey/description/told_survey.h"
 
 namespace albtpu::client {
 
 struct SurveyDescription {
-  std::optional<ToldSea> sea;  // [sea]
+  std::optional<ToldSensor> sensor;
+  std::optional<ToldTrajectory> trajectory;
+  std::optional<ToldSurface> surface;
+  std::optional<ToldSea> sea;
+  std::optional<ToldWater> water;
+  std::optional<ToldDatum> datum;
+  std::optional<ToldSigma> sigma;
+  std::optional<ToldOutput> output;
 };
 
 // InvalidArgument "line 3: ..." at the first problem: what is no TOML, a key that is unknown, of another type or out of
-// range, and waves that are incomplete. `folder` is that of relative paths.
+// range, keys that contradict each other, and waves that are incomplete. `folder` is that of relative paths.
 absl::StatusOr<SurveyDescription> ParseSurvey(std::string_view text, const std::filesystem::path& folder);
 
 // The same of a file, whose path begins the message.

@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,16 +12,21 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "survey/toml/toml_file.h"
 
 namespace albtpu::client {
 
 // The first problem of a file, "line 3: 'sea.tail' is ...".
 class TomlProblem {
  public:
+  explicit TomlProblem(const TomlKind& kind) : kind_(kind.name) {}
+
   void Remember(const toml::source_region& source, const std::string& message);
   const absl::Status& status() const { return status_; }
+  const std::string& kind() const { return kind_; }  // "a survey file"
 
  private:
+  std::string kind_;
   absl::Status status_;
 };
 
@@ -34,13 +40,29 @@ class TomlKeys {
   std::optional<double> Number(std::string_view key, double least, double greatest, std::string_view unit);
   std::optional<std::string> Text(std::string_view key, std::string_view what);
   std::optional<std::string> OneOf(std::string_view key, const std::vector<std::string>& words);
+  std::optional<bool> Flag(std::string_view key);
+
+  // Three numbers, which are `parts`: "[north, east, down]".
+  std::optional<std::array<double, 3>> Triple(std::string_view key, double least, double greatest,
+                                              std::string_view unit, std::string_view parts);
+
+  // Lists, each element once. Empty if the key is missing or a problem; an empty list is a problem. `what` is what an
+  // element is: "the path of a file".
+  std::vector<int> WholeNumbers(std::string_view key, int least, int greatest);
+  std::vector<std::string> Texts(std::string_view key, std::string_view what);
 
   // The tables under `[name.key]`, one at most, and under `[[name.key]]`.
   std::vector<TomlKeys> Table(std::string_view key);
   std::vector<TomlKeys> Tables(std::string_view key);
 
-  // A problem of this table as a whole.
+  bool Has(std::string_view key) const { return table_.contains(key); }
+  bool IsText(std::string_view key) const { return Has(key) && table_.get(key)->is_string(); }
+
+  // A problem of this table as a whole, and one of a key that it has.
   void Fail(const std::string& message) { problem_.Remember(table_.source(), Quoted("") + message); }
+  void Fail(std::string_view key, const std::string& message) {
+    problem_.Remember(table_.get(key)->source(), Quoted(key) + message);
+  }
 
   // The last call: a key that was not asked for is a problem.
   void Finish();
@@ -50,6 +72,9 @@ class TomlKeys {
   std::string Quoted(std::string_view key) const;  // "'sea.tail' "; of the table itself "[sea] "
   void Wrong(const toml::node& node, std::string_view key, const std::string& expected,
              const std::string& remedy);
+  const toml::array* List(std::string_view key, const std::string& expected);
+  void WrongElement(const toml::node& element, std::string_view key, const std::string& expected);
+  void Twice(const toml::node& element, std::string_view key);
 
   const toml::table& table_;
   std::string name_;

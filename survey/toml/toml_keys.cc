@@ -1,5 +1,7 @@
-#include "survey/description/toml_keys.h"
+#include "survey/toml/toml_keys.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <sstream>
 #include <utility>
 
@@ -24,6 +26,10 @@ std::string ValueText(const toml::node& node) {
   return value.size() > kLongest ? value.substr(0, kLongest) + "..." : value;
 }
 
+std::optional<double> NumberOf(const toml::node& node) {
+  return node.is_number() ? node.value<double>() : std::nullopt;
+}
+
 }  // namespace
 
 void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
@@ -36,7 +42,7 @@ std::optional<double> TomlKeys::Number(std::string_view key, double least, doubl
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
   const std::string units = unit == "1" ? "" : absl::StrCat(" ", std::string(unit));
-  const std::optional<double> number = node->is_number() ? node->value<double>() : std::nullopt;
+  const std::optional<double> number = NumberOf(*node);
   if (number.has_value() && *number >= least && *number <= greatest) return number;
   Wrong(*node, key, absl::StrCat(least, " to ", greatest, units),
         number.has_value()
@@ -63,6 +69,70 @@ std::optional<std::string> TomlKeys::OneOf(std::string_view key, const std::vect
   Wrong(*table_.get(key), key, absl::StrJoin(words, ", "),
         near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them");
   return std::nullopt;
+}
+
+std::optional<bool> TomlKeys::Flag(std::string_view key) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return std::nullopt;
+  const std::optional<bool> flag = node->value_exact<bool>();
+  if (!flag.has_value()) Wrong(*node, key, "true or false", "write it without quotes");
+  return flag;
+}
+
+std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, double least, double greatest,
+                                                      std::string_view unit, std::string_view parts) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return std::nullopt;
+  const std::string expected = absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
+  const toml::array* const array = node->as_array();
+  if (array == nullptr || array->size() != 3) {
+    Wrong(*node, key, expected, absl::StrCat("give ", std::string(parts)));
+    return std::nullopt;
+  }
+  std::array<double, 3> triple{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> number = NumberOf(*array->get(i));
+    if (!number.has_value() || !(*number >= least && *number <= greatest)) {
+      WrongElement(*array->get(i), key, expected);
+      return std::nullopt;
+    }
+    triple[i] = *number;
+  }
+  return triple;
+}
+
+std::vector<int> TomlKeys::WholeNumbers(std::string_view key, int least, int greatest) {
+  const std::string expected = absl::StrCat("whole numbers from ", least, " to ", greatest);
+  const toml::array* const list = List(key, expected);
+  std::vector<int> numbers;
+  if (list == nullptr) return numbers;
+  for (const toml::node& element : *list) {
+    const std::optional<std::int64_t> number = element.value_exact<std::int64_t>();
+    if (!number.has_value() || *number < least || *number > greatest) {
+      WrongElement(element, key, expected);
+      return {};
+    }
+    if (std::ranges::find(numbers, *number) != numbers.end()) Twice(element, key);
+    numbers.push_back(static_cast<int>(*number));
+  }
+  return numbers;
+}
+
+std::vector<std::string> TomlKeys::Texts(std::string_view key, std::string_view what) {
+  const std::string expected = absl::StrCat("texts, each ", std::string(what));
+  const toml::array* const list = List(key, expected);
+  std::vector<std::string> texts;
+  if (list == nullptr) return texts;
+  for (const toml::node& element : *list) {
+    const std::optional<std::string> text = element.value_exact<std::string>();
+    if (!text.has_value() || text->empty()) {
+      WrongElement(element, key, expected);
+      return {};
+    }
+    if (std::ranges::find(texts, *text) != texts.end()) Twice(element, key);
+    texts.push_back(*text);
+  }
+  return texts;
 }
 
 std::vector<TomlKeys> TomlKeys::Table(std::string_view key) {
@@ -99,7 +169,7 @@ void TomlKeys::Finish() {
     const std::string name(key.str());
     problem_.Remember(
         key.source(),
-        absl::StrCat(Quoted(name), "is no key of a survey file",
+        absl::StrCat(Quoted(name), "is no key of ", problem_.kind(),
                      Suggestion(name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
   }
 }
@@ -112,6 +182,29 @@ const toml::node* TomlKeys::Find(std::string_view key) {
 std::string TomlKeys::Quoted(std::string_view key) const {
   if (key.empty()) return absl::StrCat("[", name_, "] ");
   return absl::StrCat("'", name_.empty() ? "" : name_ + ".", std::string(key), "' ");
+}
+
+const toml::array* TomlKeys::List(std::string_view key, const std::string& expected) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return nullptr;
+  const toml::array* const list = node->as_array();
+  if (list != nullptr && !list->empty()) return list;
+  if (list != nullptr) {
+    Fail(key, absl::StrCat("is empty (expected ", expected, "); name one or more, or leave it out"));
+  } else {
+    Wrong(*node, key, expected, "write a list in brackets");
+  }
+  return nullptr;
+}
+
+void TomlKeys::WrongElement(const toml::node& element, std::string_view key, const std::string& expected) {
+  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element), " (expected ",
+                                                   expected, "); correct it"));
+}
+
+void TomlKeys::Twice(const toml::node& element, std::string_view key) {
+  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element),
+                                                   " twice; name it once"));
 }
 
 void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::string& expected,

@@ -1,0 +1,140 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "command_line/checks.h"
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
+#include "service/printable_text.h"
+#include "survey/commands/commands.h"
+#include "survey/commands/options.h"
+#include "survey/exit_status.h"
+#include "survey/sensors/installed_sensors.h"
+
+namespace albtpu::client {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct SensorsCommandOptions {
+  std::string name;
+  bool json = false;
+};
+
+std::string DivergenceText(const SourcedDivergence& divergence) {
+  std::string text = absl::StrCat(divergence.value);
+  if (divergence.least.has_value())
+    absl::StrAppend(&text, " (", *divergence.least, " to ", *divergence.greatest, ")");
+  return text;
+}
+
+std::string Row(const Sensor& sensor) {
+  const auto number = [](const std::optional<SourcedNumber>& known) {
+    return known.has_value() ? absl::StrCat(known->value) : "-";
+  };
+  return absl::StrFormat(
+      "%-24s %-34s %8s %13s %15s\n", PrintableText(sensor.name), PrintableText(sensor.title),
+      number(sensor.scan), number(sensor.bottom_range),
+      sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
+}
+
+std::string Rows(const std::vector<Sensor>& sensors) {
+  std::string text =
+      "name                     title                                  scan  bottom_range      divergence\n"
+      "                                                              degree             m            mrad\n";
+  for (const Sensor& sensor : sensors) absl::StrAppend(&text, Row(sensor));
+  return text;
+}
+
+std::string Text(const Sensor& sensor) {
+  std::string text = absl::StrCat(PrintableText(sensor.name), ": ", PrintableText(sensor.title), "\n");
+  const auto line = [&text](std::string_view key, const std::string& value, std::string_view unit,
+                            const std::string& source) {
+    absl::StrAppendFormat(&text, "  %-14s %s %s, %s\n", key, value, unit, PrintableText(source));
+  };
+  for (const auto& [range, field] : kSensorNumbers)
+    if (const auto& known = sensor.*field) line(range.key, absl::StrCat(known->value), range.unit, known->source);
+  for (const auto& [range, field] : kSensorTriples)
+    if (const auto& known = sensor.*field)
+      line(range.key, absl::StrCat("[", absl::StrJoin(known->value, ", "), "]"), range.unit, known->source);
+  if (const auto& known = sensor.divergence)
+    line("divergence", DivergenceText(*known), "mrad", known->source);
+  std::vector<std::string> unknown = UnknownOf(sensor);
+  const bool no_divergence = std::erase(unknown, "divergence") > 0;
+  if (std::erase(unknown, "surface_range") > 0) unknown.emplace_back("surface_height");
+  if (!unknown.empty()) {
+    absl::StrAppend(&text, "  not known, to be given in [sigma] of the survey file: ",
+                    absl::StrJoin(unknown, ", "), "\n");
+  }
+  if (no_divergence) absl::StrAppend(&text, "  not known, to be given by --divergence: divergence\n");
+  return text;
+}
+
+ordered_json Json(const Sensor& sensor) {
+  ordered_json json = {{"name", sensor.name}, {"title", sensor.title}};
+  const auto add = [&json](const auto& keys, const auto& of) {
+    for (const auto& [range, field] : keys)
+      if (const auto& known = of.*field)
+        json[std::string(range.key)] = {
+            {"value", known->value}, {"unit", std::string(range.unit)}, {"source", known->source}};
+  };
+  add(kSensorNumbers, sensor);
+  add(kSensorTriples, sensor);
+  if (const auto& known = sensor.divergence) {
+    ordered_json& divergence = json["divergence"] = {{"value", known->value}};
+    if (known->least.has_value()) divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
+    divergence["unit"] = "mrad";
+    divergence["source"] = known->source;
+  }
+  json["unknown"] = UnknownOf(sensor);
+  return json;
+}
+
+absl::Status RunSensors(const SensorsCommandOptions& options) {
+  if (!options.name.empty()) {
+    const absl::StatusOr<Sensor> sensor = FindSensor(options.name);
+    if (!sensor.ok()) return sensor.status();
+    std::cout << (options.json ? Json(*sensor).dump(2) + "\n" : Text(*sensor));
+    return FlushStandardOutput();
+  }
+  const absl::StatusOr<std::vector<Sensor>> sensors = ListSensors();
+  if (!sensors.ok()) return sensors.status();
+  if (sensors->empty()) {
+    Note(absl::StrCat("there are no sensors in ", SensorsDirectory().string(),
+                      "; name their folder by the environment variable ALBTPU_SENSORS"));
+  }
+  if (options.json) {
+    ordered_json json = {{"sensors", ordered_json::array()}};
+    for (const Sensor& sensor : *sensors) json["sensors"].push_back(Json(sensor));
+    std::cout << json.dump(2) << "\n";
+  } else if (!sensors->empty()) {
+    std::cout << Rows(*sensors);
+  }
+  return FlushStandardOutput();
+}
+
+}  // namespace
+
+void AddSensorsCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<SensorsCommandOptions>();
+  CLI::App* command =
+      program.add_subcommand("sensors", "List the sensors that are known, or show one with its sources");
+  command->add_option("name", options->name, "A sensor, or the path of its file; without it, all are listed")
+      ->type_name("NAME")
+      ->check(NotEmpty("sensor"));
+  command->add_flag("--json", options->json, "Print one JSON object; of all sensors, with an array `sensors`")
+      ->group(group::kOutput);
+  EndHelp(*command,
+          "Numbers are standard deviations; the divergence is the full angle. What no source gives is not known.\n"
+          "The environment variable ALBTPU_SENSORS names another folder of sensors.",
+          "riegl-vq-880-g", "my_sensor.toml --json");
+  command->callback([options, &run] { run = [options] { return RunSensors(*options); }; });
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,104 @@
+// What the user says of a survey in the survey file, beside the sea (survey/seas/told_sea.h). Absent: not said.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "survey/seas/told_sea.h"
+#include "survey/sensors/sigma_range.h"
+
+namespace albtpu::client {
+
+using Triple = std::array<double, 3>;
+
+struct ToldSensor {                 // [sensor]
+  std::optional<std::string> name;  // Of an installed sensor, or the path of a file: FindSensor().
+  std::optional<Triple> lever_arm;  // Forward, right, down, m.
+};
+
+struct ToldTrajectory {                   // [trajectory]
+  std::vector<std::string> files, errors;  // Files and folders.
+  std::optional<std::string> time;         // kTrajectoryTimes
+  std::optional<bool> from_returns;
+};
+
+struct ToldSurface {                   // [surface]
+  std::vector<int> classes;            // Of returns from the surface.
+  std::optional<std::string> located;  // kWaysToLocate
+  std::optional<double> level;         // In the unit and datum of the points.
+  std::optional<std::string> level_file;
+};
+
+struct ToldWater {                                        // [water]
+  std::optional<double> index, kd, temperature, salinity;  // 1, 1/m, degree C, 1
+  bool without_column = false;                             // column = "none": the share of the water is left out.
+};
+
+struct ToldDatum {                                // [datum]
+  std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
+};
+
+struct ToldSigma {                                          // [sigma], 1 sigma; 0 is none.
+  std::optional<Triple> position, attitude, boresight;      // m, degree, degree
+  std::optional<double> lever_arm, scan, time;              // m, degree, s
+  std::optional<double> range_offset, bottom_range;         // m
+  std::optional<double> surface_height, index;              // m, 1
+};
+
+struct ToldOutput {                      // [output]
+  std::vector<int> classes;              // Of the points that get an uncertainty.
+  std::optional<std::string> coverage;   // kCoverages
+  std::optional<std::string> s44_order;  // The names of tables/s44.h.
+  std::optional<bool> details;
+};
+
+inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
+// This pulse's own return; a surface of many returns; a height that is told.
+inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
+inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", "1sigma"};
+
+// The class of a point in LAS 1.4 is one byte.
+inline constexpr int kGreatestClass = 255;
+// m. The longest aircraft has 84 m (An-225).
+inline constexpr double kLongestLeverArm = 100;
+// From the Dead Sea to the highest lakes (6400 m), in metres or in feet.
+inline constexpr double kLeastLevel = -2000, kGreatestLevel = 25000;
+
+// What EGM2008 has on Earth is -107 to 86 m.
+inline constexpr std::array<ToldNumber<ToldDatum>, 2> kDatumNumbers = {{
+    {"sigma", "", "m", 0, 10, &ToldDatum::sigma, ""},
+    {"geoid_separation", "--geoid-separation", "m", -120, 100, &ToldDatum::geoid_separation, ""},
+}};
+// Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
+// and the salt of the ocean 45 at most; it freezes above -2.
+inline constexpr std::array<ToldNumber<ToldWater>, 4> kWaterNumbers = {{
+    {"index", "--water-index", "1", 1, 1.5, &ToldWater::index, ""},
+    {"kd", "", "1/m", 0.001, 10, &ToldWater::kd, ""},
+    {"temperature", "", "degree C", -2, 40, &ToldWater::temperature, ""},
+    {"salinity", "", "1", 0, 45, &ToldWater::salinity, ""},
+}};
+
+template <typename Value>
+struct ToldSigmaKey {
+  SigmaRange range;
+  std::optional<Value> ToldSigma::*field;
+};
+inline constexpr std::array<ToldSigmaKey<double>, 7> kSigmaNumbers = {{
+    {sigma::kLeverArm, &ToldSigma::lever_arm},
+    {sigma::kScan, &ToldSigma::scan},
+    {sigma::kTime, &ToldSigma::time},
+    {sigma::kRangeOffset, &ToldSigma::range_offset},
+    {sigma::kBottomRange, &ToldSigma::bottom_range},
+    {sigma::kSurfaceHeight, &ToldSigma::surface_height},
+    {sigma::kIndex, &ToldSigma::index},
+}};
+inline constexpr std::array<ToldSigmaKey<Triple>, 3> kSigmaTriples = {{
+    {sigma::kPosition, &ToldSigma::position},
+    {sigma::kAttitude, &ToldSigma::attitude},
+    {sigma::kBoresight, &ToldSigma::boresight},
+}};
+
+}  // namespace albtpu::client
