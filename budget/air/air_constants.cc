@@ -21,6 +21,7 @@ AirConstants::AirConstants(const AirErrors& errors, SurfaceLocation located, dou
   time = single(errors.time);
   range_offset = single(errors.range_offset);
   bottom_range = single(errors.bottom_range);
+  surface_range = located == SurfaceLocation::kPulse ? single(errors.surface_range) : 0;
   for (std::size_t group = 0; group < kErrorGroups; ++group) {
     const bool here = static_cast<std::size_t>(SurfaceHeightGroup(located)) == group;
     surface_height[group] = here ? single(errors.surface_height) : 0;

@@ -186,6 +186,7 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
   own.Add((Constant(is.scan) * point.by_north_east) * Ned{hn::Neg(east), north, zero});
   own.Add(Constant(is.bottom_range) * w_over_n);
   const Ned surface = Constant(-1) * k_over_c;
+  own.Add((Constant(is.surface_range) * c) * k_over_c);
   own.Add(Constant(is.surface_height[0]) * surface);
   line.Add(Constant(is.surface_height[1]) * surface);
   survey.Add(Constant(is.surface_height[2]) * surface);

@@ -18,6 +18,7 @@ struct AirErrors {
   double time = 0;                       // s; of the laser's clock against the trajectory's, constant.
   double range_offset = 0;               // m; constant, of all ranges.
   double bottom_range = 0;               // m; optical, of the range to the bottom, pulse by pulse.
+  double surface_range = 0;              // m; of the range to the surface, where the pulse's own return located it.
   double surface_height = 0;             // m; of the height at which the surface was located.
   double index = 0;                      // of the refractive index of the water.
 };

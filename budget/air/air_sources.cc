@@ -89,6 +89,8 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
       errors.time * (by_position * (pulse.velocity + rates.cross(lever_arm)) + by_direction * rates.cross(rays.u)));
   add("range_offset", ErrorGroup::kSurvey, errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
   add("bottom_range", ErrorGroup::kPulse, errors.bottom_range / rays.n * rays.w);
+  if (located == SurfaceLocation::kPulse)
+    add("surface_range", ErrorGroup::kPulse, errors.surface_range * rays.k);
   add("surface_height", SurfaceHeightGroup(located), errors.surface_height * -rays.k / rays.u.z());
   add("index", ErrorGroup::kSurvey, errors.index * rays.water_path * (rays.w_by_n - rays.w / rays.n));
   return sources;

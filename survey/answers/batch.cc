@@ -28,6 +28,8 @@ AnswerColumns AnswerBatch::Resize(std::size_t count, const AnswerSelection& sele
   columns.best_s44_orders = column(best_s44_orders, selection.best_s44_orders);
   columns.remaining_thu = column(remaining_thu, selection.s44_remaining);
   columns.remaining_tvu = column(remaining_tvu, selection.s44_remaining);
+  sea_axes.clear();
+  wave_heights.clear();
   return columns;
 }
 
@@ -62,7 +64,13 @@ AnswerSource::AnswerSource(UncertaintySource& source)
     : AnswerSource(source.table(), [&source](const Query& query, const PulseBatch& pulses,
                                              const AnswerSelection& selection, AnswerBatch& answers) {
         const AnswerColumns columns = answers.Resize(pulses.size, selection);
-        if (source.table().sea.has_value()) return AskSea(source, query, pulses, columns);
+        if (const std::optional<SeaSummary>& sea = source.table().sea; sea.has_value()) {
+          if (selection.sea_frame) {
+            answers.sea_axes.assign(pulses.size, static_cast<float>(sea->x_azimuth));
+            answers.wave_heights.assign(pulses.size, static_cast<float>(sea->significant_wave_height / 4));
+          }
+          return AskSea(source, query, pulses, columns);
+        }
         return source.Answer(query, pulses.columns(), columns);
       }) {}
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -21,6 +22,7 @@ namespace albtpu::client {
 // How answers are stated: the flags that all commands share.
 struct AnswerStyle {
   Coverage coverage = Coverage::kTwoSigma;
+  bool coverage_told = false;  // By a flag.
   std::optional<S44Order> s44_order;  // Also states what this order leaves for all other error sources.
   bool standard_errors = false;       // Also states the standard errors.
 
@@ -29,7 +31,17 @@ struct AnswerStyle {
 
 // "2 sigma" or "95 %".
 constexpr const char* CoverageText(Coverage coverage) {
-  return coverage == Coverage::kTwoSigma ? "2 sigma" : "95 %";
+  return coverage == Coverage::kTwoSigma ? "2 sigma" : coverage == Coverage::kOneSigma ? "1 sigma" : "95 %";
+}
+
+// As flags, survey files and JSON name it: "2sigma", "p95", "1sigma".
+constexpr const char* CoverageName(Coverage coverage) {
+  return coverage == Coverage::kTwoSigma ? "2sigma" : coverage == Coverage::kOneSigma ? "1sigma" : "p95";
+}
+constexpr std::optional<Coverage> FindCoverage(std::string_view name) {
+  for (const Coverage coverage : {Coverage::kTwoSigma, Coverage::kP95, Coverage::kOneSigma})
+    if (name == CoverageName(coverage)) return coverage;
+  return std::nullopt;
 }
 
 // Each axis has one number per pulse, one number for all pulses, or none (PulseColumns).
@@ -59,6 +71,7 @@ struct AnswerSelection {
   bool standard_errors = false;  // Of those quantities.
   bool best_s44_orders = false;
   bool s44_remaining = false;
+  bool sea_frame = false;  // Of a sea that is not known by a table of winds.
 };
 
 // Element i of each column belongs to pulse i. Columns that are not selected are empty.
@@ -68,6 +81,8 @@ struct AnswerBatch {
   std::array<std::vector<float>, kQuantityCount> values, standard_errors;
   std::vector<std::uint8_t> best_s44_orders;
   std::vector<float> remaining_thu, remaining_tvu;
+  // The compass direction of the x axis of the sea [degree], and the standard deviation of its elevation [m].
+  std::vector<float> sea_axes, wave_heights;
 
   // Makes room for `count` answers and discards the previous ones.
   AnswerColumns Resize(std::size_t count, const AnswerSelection& selection);

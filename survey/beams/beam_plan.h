@@ -55,6 +55,7 @@ struct DivergingBeam {
 struct BeamPlan {
   BeamSource source = ConstantIncidence();
   std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
+  bool any_aircraft = false;                     // The motion of the aircraft is wanted, too.
   bool any_sea = false;                          // Not a table of winds: azimuths count from north.
   std::optional<float> azimuth;                  // degree from downwind, of all beams.
   std::optional<double> wind_from;               // degree, true

@@ -11,6 +11,7 @@
 #include "budget/beams/track_check.h"
 #include "sea/angle.h"
 #include "survey/beams/fitted_track.h"
+#include "survey/beams/track_motions.h"
 #include "survey/trajectories/projected_track.h"
 #include "survey/trajectories/trajectory_timeline.h"
 
@@ -158,6 +159,7 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
   }
   absl::Status near = CheckNearPoints(file.name, *timeline, *file.map, file.extent);
   if (!near.ok()) return near;
+  found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
   absl::StatusOr<std::unique_ptr<ProjectedTrack>> track =
       ProjectedTrack::Create(*std::move(timeline), file.map,
                              {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},
@@ -203,6 +205,7 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index
     found.notes.push_back("coordinate system not known: directions are from grid north");
   }
   found.track = std::make_unique<FittedTrack>(std::move(track), file.frame, file.map.get());
+  found.motions = std::make_unique<CourseMotions>(*found.track);
   return found;
 }
 

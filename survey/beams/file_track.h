@@ -10,6 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "budget/beams/return_pair.h"
+#include "budget/beams/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/local_frame.h"
@@ -33,6 +34,7 @@ struct TrackedFile {
 
 struct FileTrack {
   std::unique_ptr<const SensorTrack> track;
+  std::unique_ptr<const SensorMotions> motions;  // Of the aircraft, along the track.
   nlohmann::ordered_json json;     // For a summary.
   std::vector<std::string> notes;  // For the user, a line each.
 };

@@ -52,6 +52,40 @@ void BeamGeometry::Compute(const SurveyPoints& points, BeamScratch& scratch, Poi
   } else {
     FromAngles(points, beams);
   }
+  if (plan_.any_aircraft) FindAircraft(points, scratch, beams.aircraft);
+}
+
+void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& scratch,
+                                PointAircraft& aircraft) const {
+  const std::size_t count = points.size();
+  aircraft.altitude.resize(count);
+  aircraft.convergence.assign(count, 0);
+  for (std::vector<float>& column : aircraft.motion) column.resize(motions_ != nullptr ? count : 0);
+  if (plan_.has_track()) {
+    for (std::size_t i = 0; i < count; ++i) {
+      aircraft.altitude[i] = static_cast<float>(scratch.height[i]);
+      aircraft.convergence[i] = static_cast<float>(scratch.convergence[i]);
+    }
+  } else {
+    const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
+    const std::optional<double> altitude =
+        scan != nullptr ? scan->altitude : std::get<ConstantIncidence>(plan_.source).altitude;
+    aircraft.altitude.assign(count, static_cast<float>(altitude.value_or(kNan)));
+    if (scan != nullptr && scan->flight_direction.has_value())  // The heading, third of the motions.
+      aircraft.motion[2].assign(count, static_cast<float>(*scan->flight_direction));
+  }
+  if (motions_ == nullptr) return;
+  ForEachMotion(*motions_, points.times, [&](std::size_t i, const SensorMotion& motion) {
+    std::size_t next = 0;
+    const auto put = [&](double number) { aircraft.motion[next++][i] = static_cast<float>(number); };
+    put(motion.roll);
+    put(motion.pitch);
+    put(motion.heading);
+    for (const double velocity : motion.velocity) put(velocity);
+    for (const double rate : motion.rates) put(rate);
+    for (const double sigma : motion.position_sigma) put(sigma);
+    for (const double sigma : motion.attitude_sigma) put(sigma);
+  });
 }
 
 void BeamGeometry::Locate(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const {

@@ -2,10 +2,12 @@
 // about.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "budget/beams/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/outcome_counts.h"
@@ -16,6 +18,16 @@
 
 namespace albtpu::client {
 
+// The motion of the aircraft at each point; what a total needs beside the beam. NaN where there is no number.
+struct PointAircraft {
+  std::vector<float> altitude;     // m above the water
+  std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
+  // Roll, pitch, heading [degree], velocity north, east, down [m/s], rates [degree/s], sigmas of the position [m] and of
+  // the attitude [degree].
+  static constexpr std::size_t kMotions = 15;
+  std::array<std::vector<float>, kMotions> motion;
+};
+
 // One element for each point; NaN where there is no number.
 struct PointBeams {
   std::vector<std::optional<NoPulse>> why_not;  // Absent: the point has a pulse.
@@ -25,6 +37,7 @@ struct PointBeams {
   std::vector<float> footprint;                 // m
   std::vector<float> depth;                     // m below the surface; negative above it
   std::vector<float> slant_range;               // m, in air
+  PointAircraft aircraft;                       // Empty unless it is wanted.
   SurfaceCounts surface;
 };
 
@@ -44,10 +57,10 @@ double AcrossTrackAzimuth(double flight_direction, double scan_angle);
 // Immutable; any number of threads may use it at a time. What the arguments refer to must outlive it.
 class BeamGeometry {
  public:
-  // `track` may be null if the plan needs none or there are no points.
+  // `track` may be null if the plan needs none or there are no points; so may `motions`.
   BeamGeometry(const BeamPlan& plan, const LocalFrame& frame, const WaterHeights& water,
-               const SensorTrack* track)
-      : plan_(plan), frame_(frame), water_(water), track_(track) {}
+               const SensorTrack* track, const SensorMotions* motions = nullptr)
+      : plan_(plan), frame_(frame), water_(water), track_(track), motions_(motions) {}
 
   // The beams of `points`, each of which depends on its point alone.
   void Compute(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
@@ -56,11 +69,13 @@ class BeamGeometry {
   void Locate(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
   void FromTrack(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
   void FromAngles(const SurveyPoints& points, PointBeams& beams) const;
+  void FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointAircraft& aircraft) const;
 
   const BeamPlan& plan_;
   LocalFrame frame_;
   WaterHeights water_;
   const SensorTrack* track_;
+  const SensorMotions* motions_;
 };
 
 // The pulses of the points that have one; `rows` says which points these are. A coordinate that is the same for all

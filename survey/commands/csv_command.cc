@@ -49,7 +49,9 @@ std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
 }
 
 absl::Status RunCsv(const CsvOptions& options) {
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea);
+  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
+  if (!survey.ok()) return survey.status();
+  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
   if (!sea.ok()) return sea.status();
   FixedInputs fixed = options.fixed;
   if (absl::Status status = TakeWind(*sea, fixed); !status.ok()) return status;

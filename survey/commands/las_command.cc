@@ -39,6 +39,27 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
   return json;
 }
 
+// The share of the sea, and the total beside it.
+nlohmann::ordered_json AnswersJson(const LasAnnotation& annotation, const AnnotatedLas& annotated) {
+  nlohmann::ordered_json json = annotated.summary.Json();
+  if (!annotation.total.has_value()) return json;
+  json["total"] = annotated.totals.Json();
+  json["total"]["coverage"] = CoverageName(annotation.style.coverage);
+  json["total"]["assumed"] = Assumptions(*annotation.total);
+  for (const auto& [line, summary] : annotated.totals_by_line)
+    json["total"]["lines"][absl::StrCat(line)] = summary.Json();
+  return json;
+}
+
+std::string AnswersText(const LasAnnotation& annotation, const AnnotatedLas& annotated, const TableSummary& table) {
+  if (!annotation.total.has_value()) return annotated.summary.Text(WithoutAzimuth(table));
+  const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
+  std::string text = absl::StrCat(annotated.summary.outcomes().Text(WithoutAzimuth(table)),
+                                  annotated.totals.Text(annotation.style.coverage, order));
+  for (const std::string& assumed : Assumptions(*annotation.total)) absl::StrAppend(&text, "\n  ", assumed);
+  return text;
+}
+
 class LasFiles {
  public:
   LasFiles(const LasOptions& options, const LasAnnotation& annotation, std::optional<LasKind> kind,
@@ -67,9 +88,8 @@ class LasFiles {
         Findings{.input_bytes = annotated->input_bytes,
                  .input = InputJson(*annotated),
                  .output = {{"format", std::string(Name(annotated->output_kind))}},
-                 .answers = annotated->summary.Json()},
-        absl::StrCat("\n  ", points,
-                     " points; bathymetric: ", annotated->summary.Text(WithoutAzimuth(source_.table())),
+                 .answers = AnswersJson(annotation_, *annotated)},
+        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
                      absl::StrJoin(annotated->notes, "", [](std::string* text, const auto& note) {
                        absl::StrAppend(text, "\n  ", note);
                      }))};
@@ -120,10 +140,14 @@ CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
   return context;
 }
 
-absl::Status RunLas(const LasOptions& options) {
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea);
+absl::Status RunLas(const LasOptions& flags) {
+  absl::StatusOr<SurveyDescription> survey = SurveyOf(flags.sea);
+  if (!survey.ok()) return survey.status();
+  *survey = Together(flags.total, *std::move(survey));
+  const LasOptions options = Together(flags, *survey);
+  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
   if (!sea.ok()) return sea.status();
-  absl::StatusOr<LasAnnotation> annotation = Annotation(options, *sea);
+  absl::StatusOr<LasAnnotation> annotation = Annotation(options, *survey, *sea);
   if (!annotation.ok()) return annotation.status();
   const absl::StatusOr<std::optional<LasKind>> kind = OutputKind(options);
   if (!kind.ok()) return kind.status();
@@ -137,6 +161,13 @@ absl::Status RunLas(const LasOptions& options) {
   if (!answerer.ok()) return answerer.status();
   annotation->seas = answerer->timeline();
   const AnswerSource source = answerer->source();
+  if (annotation->total.has_value() && !sea->has_waves()) {
+    const auto& attributes = source.table().attributes;
+    const auto spectrum = attributes.find("spectrum");
+    annotation->total->wave_height =
+        WaveHeightOfWind(annotation->plan.wind_speed, annotation->plan.fetch,
+                         spectrum != attributes.end() ? spectrum->second : std::string());
+  }
   if (options.style.standard_errors) Note(answerer->ErrorNote());
   LasFiles files(options, *annotation, *kind, source);
   RunVerdict verdict(ContextOf(annotation->plan, source.table()), "chosen point");

@@ -1,5 +1,6 @@
 #include "survey/commands/las_options.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -9,13 +10,37 @@
 #include "survey/commands/commands.h"
 #include "survey/exit_status.h"
 #include "survey/las/las_points.h"
+#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::client {
+namespace {
+
+absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOptions& beams, const BeamPlan& plan,
+                                  bool told_divergence, Coverage coverage) {
+  if (!plan.has_track() && !beams.altitude.has_value())
+    return UsageError("las: --altitude is missing; a total needs the height of the sensor above the water");
+  TotalContext context{.coverage = coverage,
+                       .index = beams.water_index,
+                       .lever_arm = beams.lever_arm,
+                       .has_surface_returns = !plan.water_classes.empty(),
+                       .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
+                       .trajectory_errors = beams.trajectory_errors.empty() ? "" : "--trajectory-errors"};
+  absl::StatusOr<TotalPlan> total = PlanTotal(survey, context);
+  if (!total.ok()) return total.status();
+  if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint);
+      beam != nullptr && !told_divergence)
+    total->numbers.push_back({"divergence", absl::StrCat(beam->divergence, " mrad"), *survey.sensor->name, true});
+  if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
+  return total;
+}
+
+}  // namespace
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFileOptions(command, ".las", options.files, options.existing);
   AddBeamOptions(command, options.beams);
   AddSeaOptions(command, options.sea);
+  AddTotalOptions(command, options.total);
   command
       .add_option_function<std::string>(
           "--classes",
@@ -57,12 +82,59 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
       "--wind-speed 5 --wind-from 250 --details");
 }
 
-absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const ToldSea& sea) {
+LasOptions Together(LasOptions flags, const SurveyDescription& survey) {
+  BeamOptions& beams = flags.beams;
+  const bool way_told = !beams.trajectory.empty() || beams.from_returns || beams.scanner.has_value() ||
+                        beams.incidence.has_value();
+  if (survey.trajectory.has_value() && !way_told) {
+    beams.trajectory = survey.trajectory->files;
+    beams.from_returns = survey.trajectory->from_returns.value_or(false);
+    if (beams.trajectory_errors.empty()) beams.trajectory_errors = survey.trajectory->errors;
+    if (!beams.trajectory_time.has_value()) beams.trajectory_time = survey.trajectory->time;
+  }
+  const bool from_files = !beams.trajectory.empty();
+  if (from_files && !beams.lever_arm.has_value() && survey.sensor.has_value())
+    beams.lever_arm = survey.sensor->lever_arm;
+  if (from_files && !beams.geoid_separation.has_value() && survey.datum.has_value())
+    beams.geoid_separation = survey.datum->geoid_separation;
+  if ((from_files || beams.from_returns) && !beams.water_index.has_value() && survey.water.has_value())
+    beams.water_index = survey.water->index;
+  if (const std::optional<ToldSurface>& surface = survey.surface; surface.has_value()) {
+    if (beams.water_classes.empty()) beams.water_classes = {surface->classes.begin(), surface->classes.end()};
+    if (!beams.water_level.has_value() && surface->level.has_value()) beams.water_level = absl::StrCat(*surface->level);
+    if (!beams.water_level.has_value()) beams.water_level = surface->level_file;
+  }
+  if (const std::optional<ToldOutput>& output = survey.output; output.has_value()) {
+    if (!flags.classes.has_value() && !output->classes.empty())
+      flags.classes = std::set<int>(output->classes.begin(), output->classes.end());
+    flags.details = flags.details || output->details.value_or(false);
+  }
+  TakeStyle(survey, flags.style);
+  return flags;
+}
+
+absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const SurveyDescription& survey,
+                                         const ToldSea& sea) {
+  if (absl::Status status = CheckTotalFlags(options.total, survey); !status.ok()) return status;
   BeamOptions beams = options.beams;
+  const bool total = WantsTotal(survey);
+  if (total && !beams.divergence.has_value() && !beams.fixed[Index(AxisId::kFootprint)].has_value()) {
+    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+    if (!sensor.ok()) return sensor.status();
+    if (sensor->divergence.has_value()) beams.divergence = sensor->divergence->value;
+  }
   if (absl::Status status = TakeWind(sea, beams.fixed); !status.ok()) return status;
   if (!beams.wind_from.has_value()) beams.wind_from = sea.wind_from;
-  absl::StatusOr<BeamPlan> plan = MakePlan(beams, options.details, sea.has_waves());
+  absl::StatusOr<BeamPlan> plan = MakePlan(beams, options.details || total, sea.has_waves());
   if (!plan.ok()) return plan.status();
+  plan->any_aircraft = total;
+  std::optional<TotalPlan> totals;
+  if (total) {
+    absl::StatusOr<TotalPlan> made = TotalOf(survey, beams, *plan, options.beams.divergence.has_value(),
+                                               options.style.coverage);
+    if (!made.ok()) return made.status();
+    totals = *std::move(made);
+  }
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
   for (const int point_class : options.classes.value_or(std::set<int>{DefaultClass(kFirstModernFormat)})) {
     if (!options.beams.water_classes.contains(point_class)) continue;
@@ -74,7 +146,8 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const ToldSe
                        .plan = *std::move(plan),
                        .seas = nullptr,
                        .details = options.details,
-                       .style = options.style};
+                       .style = options.style,
+                       .total = std::move(totals)};
 }
 
 absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options) {
@@ -102,6 +175,7 @@ nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const ToldSea
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));
   json.update(Parameters(annotation.style));
+  if (annotation.total.has_value()) json["total"] = Parameters(*annotation.total);
   return json;
 }
 

@@ -10,6 +10,7 @@
 #include "survey/commands/beam_options.h"
 #include "survey/commands/options.h"
 #include "survey/commands/sea_options.h"
+#include "survey/commands/total_options.h"
 #include "survey/files/file_jobs.h"
 #include "survey/las/las_annotation.h"
 #include "survey/las/las_kind.h"
@@ -24,6 +25,7 @@ struct LasOptions {
   std::optional<LasKind> format;  // --format
   Existing existing = Existing::kKeep;
   SeaOptions sea;
+  TotalOptions total;
   SourceOptions source;
   AnswerStyle style;
 };
@@ -31,8 +33,13 @@ struct LasOptions {
 // `options` must live as long as `command`.
 void AddLasOptions(CLI::App& command, LasOptions& options);
 
-// IsUsageError if something needed is missing, is given in two ways or has no effect. `sea` is what ToldBy() gives.
-absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const ToldSea& sea);
+// The options with what the survey file says in place of flags.
+LasOptions Together(LasOptions flags, const SurveyDescription& survey);
+
+// IsUsageError if something needed is missing, is given in two ways or has no effect. `options` and `survey` are
+// together, and `sea` is what ToldBy() gives.
+absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const SurveyDescription& survey,
+                                         const ToldSea& sea);
 
 // The kind that --format or the name of a single output asks for; absent: that of each input. IsUsageError when the two
 // contradict each other.

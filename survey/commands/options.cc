@@ -137,11 +137,12 @@ void AddStyleOptions(CLI::App& command, AnswerStyle& style) {
       .add_option_function<std::string>(
           "--coverage",
           [&style](const std::string& text) {
-            style.coverage = text == "p95" ? Coverage::kP95 : Coverage::kTwoSigma;
+            style.coverage = *FindCoverage(text);
+            style.coverage_told = true;
           },
-          "2sigma for twice the standard deviation (default), p95 for 95 %")
-      ->type_name("2sigma|p95")
-      ->check(OneOf({"2sigma", "p95"}))
+          "2sigma for twice the standard deviation (default), p95 for 95 %, 1sigma for one standard deviation")
+      ->type_name("2sigma|p95|1sigma")
+      ->check(OneOf({"2sigma", "p95", "1sigma"}))
       ->group(group::kOutput);
   std::vector<std::string> orders;
   for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));

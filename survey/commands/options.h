@@ -21,6 +21,7 @@ inline constexpr char kPulse[] = "The pulse";
 inline constexpr char kBeam[] =
     "Where each beam went: by a trajectory, the returns, the scanner or one incidence";
 inline constexpr char kSea[] = "The sea";
+inline constexpr char kTotal[] = "The total";
 inline constexpr char kPoints[] = "The points";
 inline constexpr char kFiles[] = "Files";
 inline constexpr char kOutput[] = "Output";

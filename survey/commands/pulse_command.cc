@@ -25,7 +25,9 @@ struct PulseOptions {
 };
 
 absl::Status RunPulse(const PulseOptions& options) {
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea);
+  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
+  if (!survey.ok()) return survey.status();
+  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
   if (!sea.ok()) return sea.status();
   FixedInputs inputs = options.inputs;
   if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;

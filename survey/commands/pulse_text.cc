@@ -161,7 +161,7 @@ std::string PulseJson(const PulseAnswer& answer, const TableSummary& table, cons
   object["table"] = table.id;
   object["version"] = table.version;
   object["digest"] = table.digest;
-  object["coverage"] = answer.style.coverage == Coverage::kTwoSigma ? "2sigma" : "p95";
+  object["coverage"] = CoverageName(answer.style.coverage);
   AddInterpolationErrors(table, object);
   object.update(sea);
   return object.dump(2) + "\n";

@@ -84,7 +84,9 @@ absl::Status WriteSea(const SeaTimeline& seas, const SeaCommandOptions& options)
 }
 
 absl::Status RunSea(const SeaCommandOptions& options) {
-  const absl::StatusOr<ToldSea> told = ToldBy(options.sea);
+  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
+  if (!survey.ok()) return survey.status();
+  const absl::StatusOr<ToldSea> told = ToldBy(options.sea, *survey);
   if (!told.ok()) return told.status();
   if (!told->has_waves())
     return UsageError("sea: no waves are told; give a FILE, --survey, or --hs and --tp");
@@ -93,13 +95,13 @@ absl::Status RunSea(const SeaCommandOptions& options) {
   if (!options.output.empty()) {
     if (absl::Status status = WriteSea(*seas, options); !status.ok()) return status;
   }
-  const SlopeSurvey survey;
+  const SlopeSurvey slopes_of;
   ordered_json json = SeasHeadJson(*seas);
   json["records"] = ordered_json::array();
   if (!options.json) std::cout << kHeading;
   for (const std::size_t record : RecordsOf(*seas)) {
     const SeaFacts facts = FactsOf(*seas, record);
-    const SlopeFacts slopes = survey(*seas, record);
+    const SlopeFacts slopes = slopes_of(*seas, record);
     if (!options.json) {
       std::cout << Row(facts, slopes);
       continue;

@@ -68,7 +68,7 @@ void AddSeaOptions(CLI::App& command, SeaOptions& options) {
         ->group(group::kSea);
   };
   text("--survey", options.survey, "FILE.toml", "file",
-       "What is known of the survey, as TOML: [sea] in place of the flags of the sea");
+       "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output (docs/budget.md)");
   text("--sea", options.flags.file, "FILE", "file",
        "Spectra or heights of the waves: NDBC, WAVEWATCH III, SWAN or CSV; several records are interpolated "
        "to the "
@@ -114,7 +114,12 @@ void AddSeaOptions(CLI::App& command, SeaOptions& options) {
       ->group(group::kSea);
 }
 
-absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options) {
+absl::StatusOr<SurveyDescription> SurveyOf(const SeaOptions& options) {
+  if (!options.survey.has_value()) return SurveyDescription();
+  return ReadSurvey(*options.survey);
+}
+
+absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options, const SurveyDescription& survey) {
   ToldSea flags = options.flags;
   ReadAgain(options.wind_speed, flags.wind_speed);
   ReadAgain(options.wind_from, flags.wind_from);
@@ -125,12 +130,7 @@ absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options) {
       return UsageError(problem);
     flags.waves.insert(flags.waves.begin(), WavesOf(options.waves));
   }
-  ToldSea sea = flags;
-  if (options.survey.has_value()) {
-    const absl::StatusOr<SurveyDescription> survey = ReadSurvey(*options.survey);
-    if (!survey.ok()) return survey.status();
-    sea = Together(flags, survey->sea.value_or(ToldSea()));
-  }
+  const ToldSea sea = options.survey.has_value() ? Together(flags, survey.sea.value_or(ToldSea())) : flags;
   if (absl::Status status = CheckSea(sea); !status.ok()) return status;
   if (sea.has_waves())
     if (absl::Status status = CheckWind(sea); !status.ok()) return status;

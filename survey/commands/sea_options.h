@@ -11,6 +11,7 @@
 #include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
 #include "survey/csv/pulse_inputs.h"
+#include "survey/description/survey_description.h"
 #include "survey/seas/sea_answers.h"
 #include "survey/seas/told_sea.h"
 
@@ -27,8 +28,11 @@ struct SeaOptions {
 // Adds all flags but --wind-speed and --wind-from, which `command` has. `options` must live as long as `command`.
 void AddSeaOptions(CLI::App& command, SeaOptions& options);
 
-// What flags and survey file say together. Fails where they contradict themselves or each other.
-absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options);
+// What the file of --survey says; nothing without one.
+absl::StatusOr<SurveyDescription> SurveyOf(const SeaOptions& options);
+
+// What flags and survey file say of the sea together. Fails where they contradict themselves or each other.
+absl::StatusOr<ToldSea> ToldBy(const SeaOptions& options, const SurveyDescription& survey);
 
 // Where no waves are told: what the survey file says of the wind and no flag does. With waves the wind is not of the
 // pulses; UsageError if a fetch is given, which such a sea has not.

@@ -78,7 +78,7 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
   std::uint64_t written_records = 0;
   const absl::Status status = RunOrderedPipeline(
       [&] {
-        return Passing{.chunk = LasChunkWork::Chunk(annotation.style),
+        return Passing{.chunk = LasChunkWork::Chunk(annotation.style_of_sea()),
                        .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
                        .compressed = {}};
       },
@@ -94,6 +94,9 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
         const LasChunkWork::Chunk& chunk = passing.chunk;
         annotated.classes.Merge(chunk.classes);
         annotated.summary.Merge(chunk.summary);
+        annotated.totals.Merge(chunk.totals);
+        for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
+        annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
         written_records += chunk.own;
@@ -114,7 +117,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   if (!reader.ok()) return reader.status();
   const LasKind output_kind = kind.value_or(reader->kind());
   const absl::StatusOr<LasHead> head =
-      AnnotatedHead(*reader, AppendedFloats(annotation.style.coverage, annotation.details), output_kind);
+      AnnotatedHead(*reader, AppendedFloats(annotation.appended()), output_kind);
   if (!head.ok()) return head.status();
   FileProgress::File file_progress(progress, input.filename().string());
   const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
@@ -133,7 +136,10 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
                          .copc_index_left_out = HasCopcIndex(*reader),
                          .chosen_classes = annotation.ClassesOf(reader->header().point_format),
                          .classes = {},
-                         .summary = UncertaintySummary(annotation.style),
+                         .summary = UncertaintySummary(annotation.style_of_sea()),
+                         .totals = {},
+                         .totals_by_line = {},
+                         .sigmas_assumed = 0,
                          .surface = {},
                          .incidence = {},
                          .geometry = {},
@@ -157,6 +163,10 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   if (!annotation.plan.water_classes.empty()) {
     annotated.geometry["water_surface"] = annotated.surface.Json();
     annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
+  }
+  if (annotated.sigmas_assumed > 0) {
+    annotated.notes.push_back(absl::StrCat("no error file states the errors of the trajectory at ",
+                                           annotated.sigmas_assumed, " points; those of a good one are assumed"));
   }
   if (annotation.seas != nullptr) {
     const auto [first, last] = (*beams)->records();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -27,6 +28,9 @@ struct AnnotatedLas {
   std::set<int> chosen_classes;
   LasClassCounts classes;
   UncertaintySummary summary;
+  TotalSummary totals;  // Empty without a total; so are the next two.
+  std::map<int, TotalSummary> totals_by_line;
+  std::uint64_t sigmas_assumed = 0;
   SurfaceCounts surface;
   CoordinateSpread incidence;       // degree
   nlohmann::ordered_json geometry;  // How the beams were found, for a summary.

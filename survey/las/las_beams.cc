@@ -79,6 +79,7 @@ absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, 
                                         : TrackFromReturns(file, plan.refractive_index);
   if (!track.ok()) return track.status();
   track_ = std::move(track->track);
+  motions_ = std::move(track->motions);
   json_["trajectory"] = std::move(track->json);
   notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
@@ -151,7 +152,7 @@ absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const LasReader& reader
   if (plan.has_track()) {
     if (absl::Status status = beams->FindTrack(reader, plan, water); !status.ok()) return status;
   }
-  beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get());
+  beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get(), beams->motions_.get());
   return beams;
 }
 

@@ -44,6 +44,7 @@ class LasBeams {
   LasPrescan prescan_;
   std::optional<WaterLevelSeries> levels_;
   std::unique_ptr<const SensorTrack> track_;
+  std::unique_ptr<const SensorMotions> motions_;
   std::optional<BeamGeometry> geometry_;
   double utc_ = 0;
   std::pair<std::size_t, std::size_t> records_;

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "survey/las/las_extra_bytes.h"
 #include "survey/las/las_prescan.h"
 #include "survey/laz/coding/little_endian.h"
 
@@ -14,6 +13,12 @@ using laz::Store;
 
 std::set<int> LasAnnotation::ClassesOf(int point_format) const {
   return classes.has_value() ? *classes : std::set<int>{DefaultClass(point_format)};
+}
+
+AnswerStyle LasAnnotation::style_of_sea() const {
+  AnswerStyle of_sea = style;
+  if (total.has_value()) of_sea.coverage = Coverage::kTwoSigma;
+  return of_sea;
 }
 
 LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
@@ -26,10 +31,13 @@ LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotat
       seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
       utc_(utc),
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
-      details_(annotation.details),
-      style_(annotation.style),
+      appended_(annotation.appended()),
+      style_(annotation.style_of_sea()),
+      total_(annotation.total.has_value() ? &*annotation.total : nullptr),
       source_(source) {
+  for (const AppendedFloat& each : AppendedFloats(appended_)) no_data_.push_back(each.no_data);
   UncertaintySummary::Select(selection_);
+  if (total_ != nullptr) SelectForTotals(selection_);
   selection_.standard_errors = style_.standard_errors;
   for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
   for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
@@ -48,6 +56,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   }
   absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
   if (!status.ok()) return status;
+  if (total_ != nullptr) FindTotals(chunk);
   Summarize(chunk);
   Encode(chunk);
   return status;
@@ -113,6 +122,30 @@ void LasChunkWork::FindSeas(Chunk& chunk) const {
   }
 }
 
+void LasChunkWork::FindTotals(Chunk& chunk) const {
+  const auto column = [&](const std::vector<float>& of_points, std::vector<float>& of_pulses) {
+    of_pulses.clear();
+    if (of_points.empty()) return;
+    of_pulses.resize(chunk.rows.size());
+    for (std::size_t i = 0; i < chunk.rows.size(); ++i) of_pulses[i] = of_points[chunk.rows[i]];
+  };
+  const PointBeams& beams = chunk.beams;
+  column(beams.aircraft.altitude, chunk.aircraft.altitude);
+  chunk.aircraft.beam_azimuth.clear();
+  if (plan_.has_direction()) column(beams.beam_azimuth, chunk.aircraft.beam_azimuth);
+  for (std::size_t i = 0; i < AircraftColumns::kMotions; ++i)
+    column(beams.aircraft.motion[i], chunk.aircraft.motion[i]);
+  ComputeTotals(*total_, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
+  chunk.sigmas_assumed = chunk.total.sigmas_assumed;
+  chunk.totals = {};
+  chunk.totals_by_line.clear();
+  for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
+    const int line = fields_.PointSourceId(Record(chunk, chunk.chosen[chunk.rows[i]]));
+    chunk.totals_by_line[line].Add(chunk.pulses, chunk.answers, chunk.total, i);
+  }
+  for (const auto& [line, summary] : chunk.totals_by_line) chunk.totals.Merge(summary);
+}
+
 void LasChunkWork::Summarize(Chunk& chunk) const {
   chunk.summary = UncertaintySummary(style_);
   chunk.summary.Add(chunk.pulses, chunk.answers);
@@ -130,17 +163,14 @@ void LasChunkWork::Summarize(Chunk& chunk) const {
 }
 
 void LasChunkWork::Encode(Chunk& chunk) const {
-  const std::size_t appended = AppendedCount(details_) * sizeof(float);
+  const std::size_t appended = no_data_.size() * sizeof(float);
   const std::size_t annotated_length = record_length_ + appended;
   chunk.annotated.resize(chunk.own * annotated_length);
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  constexpr std::array<float, kUncertaintyCount + kDetailCount> kNoData = {
-      kNoNumber, kNoNumber, kNan, kNan, kNoNumber, kNoNumber, kNoNumber};
   const char* const records = chunk.records.data() + chunk.before * record_length_;
   for (std::size_t i = 0; i < chunk.own; ++i) {
     char* const record = chunk.annotated.data() + i * annotated_length;
     std::memcpy(record, records + i * record_length_, record_length_);
-    std::memcpy(record + record_length_, kNoData.data(), appended);
+    std::memcpy(record + record_length_, no_data_.data(), appended);
   }
   const auto appended_to = [&](std::size_t point) {
     return chunk.annotated.data() + (chunk.chosen[point] - chunk.before) * annotated_length + record_length_;
@@ -148,20 +178,53 @@ void LasChunkWork::Encode(Chunk& chunk) const {
   for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
     if (!chunk.answers.interpolated(i)) continue;
     char* const values = appended_to(chunk.rows[i]);
-    Store(chunk.answers[Quantity::kThu][i], values);
-    Store(chunk.answers[Quantity::kTvu][i], values + sizeof(float));
+    if (total_ != nullptr) {
+      EncodeTotals(chunk, values, i);
+    } else {
+      Store(chunk.answers[Quantity::kThu][i], values);
+      Store(chunk.answers[Quantity::kTvu][i], values + sizeof(float));
+    }
   }
-  if (!details_) return;
+  if (!appended_.details) return;
   const auto length_or_none = [](float value) { return value >= 0 ? value : kNoNumber; };  // Also for NaN.
   const PointBeams& beams = chunk.beams;
   for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
-    char* values = appended_to(i) + kUncertaintyCount * sizeof(float);
+    char* values = appended_to(i) + appended - kGeometryCount * sizeof(float);
     for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
                               length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
       Store(value, values);
       values += sizeof(float);
     }
   }
+}
+
+void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const {
+  const TotalBatch& total = chunk.total;
+  if (!std::isfinite(total.thu[i]) || !std::isfinite(total.tvu[i])) return;
+  const auto put = [&values](float value) {
+    Store(value, values);
+    values += sizeof(float);
+  };
+  put(total.thu[i]);
+  put(total.tvu[i]);
+  if (!appended_.details) return;
+  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea}) put((*column)[i]);
+  put(kNoNumber);  // The water column.
+  put(kNoNumber);
+  put(chunk.answers[Quantity::kBiasAlongBeam][i]);
+  put(chunk.answers[Quantity::kBiasVertical][i]);
+  // From north, east, down to the axes of the file: x has the true azimuth 90 degrees + convergence, y the convergence,
+  // z is up.
+  const float convergence = chunk.beams.aircraft.convergence[chunk.rows[i]];
+  const float c = std::cos(convergence), s = std::sin(convergence);
+  const float nn = total.covariance[0][i], ee = total.covariance[1][i], dd = total.covariance[2][i];
+  const float ne = total.covariance[3][i], nd = total.covariance[4][i], ed = total.covariance[5][i];
+  put(s * s * nn + c * c * ee - 2 * s * c * ne);
+  put(c * c * nn + s * s * ee + 2 * s * c * ne);
+  put(dd);
+  put(s * c * (ee - nn) + (c * c - s * s) * ne);
+  put(s * nd - c * ed);
+  put(-(c * nd + s * ed));
 }
 
 }  // namespace albtpu::client

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -15,10 +16,12 @@
 #include "survey/answers/uncertainty_summary.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/point_beams.h"
+#include "survey/las/las_extra_bytes.h"
 #include "survey/las/las_header.h"
 #include "survey/las/las_point_runs.h"
 #include "survey/las/las_points.h"
 #include "survey/seas/sea_timeline.h"
+#include "survey/totals/total_summary.h"
 
 namespace albtpu::client {
 
@@ -28,8 +31,14 @@ struct LasAnnotation {
   std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
   bool details = false;                     // Append the geometry of each beam, too.
   AnswerStyle style;
+  std::optional<TotalPlan> total = {};  // Absent: the share of the sea surface alone.
 
   std::set<int> ClassesOf(int point_format) const;
+  Appended appended() const {
+    return {.coverage = style.coverage, .total = total.has_value(), .details = details};
+  }
+  // How the share of the sea is asked: beside a total at 2 sigma.
+  AnswerStyle style_of_sea() const;
 };
 
 // Everything that the chunks of a file have in common.
@@ -50,6 +59,9 @@ class LasChunkWork {
     SurfaceCounts surface;
     CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
     UncertaintySummary summary;
+    TotalSummary totals;                         // Empty without a total.
+    std::map<int, TotalSummary> totals_by_line;  // By point source id.
+    std::uint64_t sigmas_assumed = 0;            // As TotalBatch.
 
    private:
     friend class LasChunkWork;
@@ -61,6 +73,8 @@ class LasChunkWork {
     std::vector<std::uint32_t> rows;  // Of the points that have a pulse.
     PulseBatch pulses;
     AnswerBatch answers;
+    AircraftColumns aircraft;  // Of the pulses.
+    TotalBatch total;
   };
 
   absl::Status operator()(Chunk& chunk) const;
@@ -72,8 +86,10 @@ class LasChunkWork {
   void Decode(Chunk& chunk) const;
   void FindPulseSurface(Chunk& chunk) const;
   void FindSeas(Chunk& chunk) const;
+  void FindTotals(Chunk& chunk) const;
   void Summarize(Chunk& chunk) const;
   void Encode(Chunk& chunk) const;
+  void EncodeTotals(Chunk& chunk, char* values, std::size_t pulse) const;
 
   LasPointFields fields_;
   std::size_t record_length_;
@@ -81,8 +97,11 @@ class LasChunkWork {
   const BeamGeometry& beams_;
   const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
   double utc_;
-  bool pulse_surface_, details_;
+  bool pulse_surface_;
+  Appended appended_;
+  std::vector<float> no_data_;      // Of what is appended.
   AnswerStyle style_;
+  const TotalPlan* total_;  // Null without a total.
   AnswerSelection selection_;
   std::array<bool, kClassCount> is_chosen_ = {}, is_water_ = {};
   AnswerSource source_;

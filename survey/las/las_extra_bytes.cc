@@ -102,12 +102,35 @@ class FreeNames {
 
 }  // namespace
 
-std::vector<AppendedFloat> AppendedFloats(Coverage coverage, bool details) {
+std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  const std::string_view share =
-      coverage == Coverage::kTwoSigma ? "sea surface only, 2 sigma, m" : "sea surface only, 95 %, m";
-  std::vector<AppendedFloat> floats = {{"sea_thu", share, kNoNumber}, {"sea_tvu", share, kNoNumber}};
-  if (details) {
+  const auto at = [&](std::string_view two_sigma, std::string_view one_sigma, std::string_view p95) {
+    return appended.coverage == Coverage::kTwoSigma   ? two_sigma
+           : appended.coverage == Coverage::kOneSigma ? one_sigma
+                                                      : p95;
+  };
+  const std::string_view length = at("2 sigma, m", "1 sigma, m", "95 %, m");
+  std::vector<AppendedFloat> floats;
+  if (appended.total) {
+    const std::string_view what = at("all but water column, 2 sigma, m", "all but water column, 1 sigma, m",
+                                     "all but water column, 95 %, m");
+    floats = {{"total_thu", what, kNoNumber}, {"total_tvu", what, kNoNumber}};
+  } else {
+    const std::string_view what =
+        at("sea surface only, 2 sigma, m", "sea surface only, 1 sigma, m", "sea surface only, 95 %, m");
+    floats = {{"sea_thu", what, kNoNumber}, {"sea_tvu", what, kNoNumber}};
+  }
+  if (appended.total && appended.details) {
+    for (const std::string_view name : {"thu_air", "tvu_air", "thu_sea", "tvu_sea"})
+      floats.push_back({name, length, kNoNumber});
+    for (const std::string_view name : {"thu_water", "tvu_water"}) floats.push_back({name, "left out", kNoNumber});
+    floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
+    floats.push_back({"bias_vertical", "too shallow, m", kNan});
+    for (const std::string_view name :
+         {"VarianceX", "VarianceY", "VarianceZ", "CovarianceXY", "CovarianceXZ", "CovarianceYZ"})
+      floats.push_back({name, "of the total, 1 sigma, m2", kNan});
+  }
+  if (appended.details) {
     floats.push_back({"incidence", "in air, at the water, degree", kNan});
     floats.push_back({"beam_azimuth", "from true north, degree", kNan});
     floats.push_back({"footprint", "diameter across the beam, m", kNoNumber});

@@ -19,13 +19,21 @@ struct AppendedFloat {
 
 inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of angles is NaN.
 
-// The uncertainties, and the geometry of each beam where it is wanted; in this order in a record.
-std::vector<AppendedFloat> AppendedFloats(Coverage coverage, bool details);
+// What is appended to each record.
+struct Appended {
+  Coverage coverage = Coverage::kTwoSigma;
+  bool total = false;    // The total uncertainty, not the share of the sea surface alone.
+  bool details = false;  // The geometry of each beam, too; of a total also its shares, biases and covariance.
+};
 
-inline constexpr std::size_t kUncertaintyCount = 2;  // sea_thu, sea_tvu
-inline constexpr std::size_t kDetailCount =
-    5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
-constexpr std::size_t AppendedCount(bool details) { return kUncertaintyCount + (details ? kDetailCount : 0); }
+// In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
+// more; with details the geometry.
+std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
+
+inline constexpr std::size_t kUncertaintyCount = 2;
+// thu_air to tvu_water, two biases, six entries of the covariance.
+inline constexpr std::size_t kTotalDetailCount = 14;
+inline constexpr std::size_t kGeometryCount = 5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
 
 // Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;

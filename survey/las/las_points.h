@@ -44,6 +44,9 @@ class LasPointFields {
                    : laz::Load<std::int8_t>(record, 16);
   }
 
+  // Mostly the number of the flight line.
+  int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
+
   bool has_gps_time() const { return gps_time_ != 0; }
   // As the file states it. Requires has_gps_time().
   double GpsTime(std::string_view record) const { return laz::Load<double>(record, gps_time_); }

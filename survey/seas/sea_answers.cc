@@ -37,6 +37,12 @@ void Blend(const AnswerBatch& others, const std::vector<float>& weights, AnswerB
       values[i] = value;
     }
   }
+  // The axis of the nearer sea; heights in variance.
+  for (std::size_t i = 0; i < answers.sea_axes.size(); ++i) {
+    if (weights[i] > 0.5f) answers.sea_axes[i] = others.sea_axes[i];
+    const float weight = weights[i], height = answers.wave_heights[i], other = others.wave_heights[i];
+    answers.wave_heights[i] = std::sqrt((1 - weight) * height * height + weight * other * other);
+  }
 }
 
 // The orders of S-44 that THU and TVU at 95 % leave open, and what remains of one of them.
@@ -96,6 +102,8 @@ void Scatter(const AnswerBatch& part, const std::vector<std::uint32_t>& rows, An
   Scatter(part.best_s44_orders, rows, all.best_s44_orders);
   Scatter(part.remaining_thu, rows, all.remaining_thu);
   Scatter(part.remaining_tvu, rows, all.remaining_tvu);
+  Scatter(part.sea_axes, rows, all.sea_axes);
+  Scatter(part.wave_heights, rows, all.wave_heights);
 }
 
 }  // namespace
@@ -147,6 +155,8 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
   if (groups.size() == 1)
     return AnswerBetween(query, pulses, last->between, last->weights, selection, answers);
   answers.Resize(pulses.size, selection);
+  answers.sea_axes.resize(selection.sea_frame ? pulses.size : 0);
+  answers.wave_heights.resize(answers.sea_axes.size());
   AnswerBatch part;
   for (const auto& [first, group] : groups) {
     const absl::Status status =

@@ -145,6 +145,9 @@ TrajectoryRecord Interpolate(const TrajectoryRecord& first, const TrajectoryReco
   record.roll = angle(&TrajectoryRecord::roll);
   record.pitch = angle(&TrajectoryRecord::pitch);
   record.heading = angle(&TrajectoryRecord::heading);
+  record.rate_forward = linear(&TrajectoryRecord::rate_forward);
+  record.rate_right = linear(&TrajectoryRecord::rate_right);
+  record.rate_down = linear(&TrajectoryRecord::rate_down);
   return record;
 }
 

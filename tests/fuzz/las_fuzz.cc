@@ -159,7 +159,7 @@ void CheckAnnotated(std::string_view file, const LasReader& reader, const std::s
   CheckVlrs(file, reader.vlrs(), annotated, again->vlrs());
   CheckVlrs(file, reader.evlrs(), annotated, again->evlrs());
   ALBTPU_MUST(absl::IsInvalidArgument(
-      AnnotatedHead(*again, AppendedFloats(Coverage::kTwoSigma, true), LasKind::kLas).status()));
+      AnnotatedHead(*again, AppendedFloats({.details = true}), LasKind::kLas).status()));
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ALBTPU_MUST(DescribeCrs(*reader).ok());
   if (reader->kind() == LasKind::kLaz) return 0;  // Its points are not in the file as they are.
   absl::StatusOr<LasHead> head =
-      AnnotatedHead(*reader, AppendedFloats(Coverage::kTwoSigma, true), LasKind::kLas);
+      AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
   if (!head.ok()) {
     MustExplain(head.status());
     return 0;

@@ -47,7 +47,7 @@ void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
 // The result starts with the existing description and ends with our entries of 192 bytes.
 void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   constexpr std::size_t kEntry = 192, kNameField = 4;
-  const std::vector<AppendedFloat> appended = AppendedFloats(Coverage::kTwoSigma, true);
+  const std::vector<AppendedFloat> appended = AppendedFloats({.details = true});
   const absl::StatusOr<std::string> ours = DescribeAppended(kName, described, extra_bytes, appended);
   if (!ours.ok()) return MustExplain(ours.status());
   ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + appended.size() * kEntry);

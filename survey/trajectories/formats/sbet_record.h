@@ -39,6 +39,9 @@ inline TrajectoryRecord TrajectoryRecordOf(const SbetRecord& record) {
   result.roll = record.roll;
   result.pitch = record.pitch;
   result.heading = record.platform_heading - record.wander_angle;
+  result.rate_forward = record.rate_x;
+  result.rate_right = record.rate_y;
+  result.rate_down = record.rate_z;
   return result;
 }
 

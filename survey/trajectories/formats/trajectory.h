@@ -23,6 +23,8 @@ struct TrajectoryRecord {
   double roll = kNotStated;            // rad, right side down positive.
   double pitch = kNotStated;           // rad, nose up positive.
   double heading = kNotStated;         // rad, of the nose, clockwise from true north; any turn.
+  // rad/s, about the axes of the body: forward, right, down.
+  double rate_forward = kNotStated, rate_right = kNotStated, rate_down = kNotStated;
 };
 
 // Standard deviations of a record, from an error file (SMRMSG) or from columns of an ASCII trajectory.

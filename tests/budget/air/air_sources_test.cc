@@ -51,6 +51,7 @@ Jacobian Ours(const AirPulse& pulse, SurfaceLocation located, const AirErrors& e
   Jacobian columns;
   int next = 0;
   for (const AirSource& source : AirSources(pulse, located, errors)) {
+    if (source.name == "surface_range") continue;  // An error of the height, seen along the beam.
     // Errors of the lever arm are alike on all axes, and those of the scan across the beam.
     columns.middleCols(next, source.columns.cols()) = source.columns;
     next += static_cast<int>(source.columns.cols());
@@ -184,6 +185,15 @@ TEST(AirSources, WithoutLeverArmAndInStillAirDependOnTheBeamAlone) {
   EXPECT_TRUE(Covariance(pulse, SurfaceLocation::kPulse, errors).isApprox(level, 1e-12));
   errors = {.time = 1};
   EXPECT_EQ(Covariance(pulse, SurfaceLocation::kPulse, errors).norm(), 0);
+}
+
+TEST(AirSources, OfARangeToTheSurfaceAreThoseOfItsHeight) {
+  const AirPulse pulse = {.incidence = 20, .altitude = 400, .depth = 10};
+  const Matrix3d by_range = Covariance(pulse, SurfaceLocation::kPulse, {.surface_range = 0.02});
+  const Matrix3d by_height =
+      Covariance(pulse, SurfaceLocation::kPulse, {.surface_height = 0.02 * std::cos(20 * kDegree)});
+  EXPECT_TRUE(by_range.isApprox(by_height, 1e-12));
+  EXPECT_EQ(Covariance(pulse, SurfaceLocation::kLocal, {.surface_range = 0.02}).norm(), 0);
 }
 
 TEST(AirSources, InAirAllTheWayAreThoseOfTheWholeRange) {

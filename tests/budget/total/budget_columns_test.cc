@@ -75,6 +75,7 @@ const AirErrors kErrors = {.position = {0.02, 0.03, 0.06},
                            .time = 1e-5,
                            .range_offset = 0.01,
                            .bottom_range = 0.025,
+                           .surface_range = 0.02,
                            .surface_height = 0.03,
                            .index = 0.002};
 

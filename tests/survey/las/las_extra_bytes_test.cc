@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 std::string Describe(const std::string& described, std::size_t extra_bytes) {
   const auto record =
-      DescribeAppended("in.las", described, extra_bytes, AppendedFloats(Coverage::kTwoSigma, false));
+      DescribeAppended("in.las", described, extra_bytes, AppendedFloats({}));
   return record.ok() ? *record : std::string(record.status().message());
 }
 
@@ -52,7 +52,7 @@ TEST(LasExtraBytes, StatesTheCoverage) {
 }
 
 TEST(LasExtraBytes, DescribesTheGeometryOfBeamsOnRequest) {
-  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats(Coverage::kTwoSigma, true));
+  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.details = true}));
   ASSERT_EQ(record->size(), AppendedCount(true) * 192);
   const struct {
     const char* name;

@@ -1,0 +1,41 @@
+// How the aircraft moved, by the files of its trajectory or by the track that the returns tell.
+#pragma once
+
+#include <optional>
+
+#include "budget/beams/sensor_motion.h"
+#include "budget/beams/sensor_track.h"
+#include "survey/beams/trajectory_errors.h"
+#include "survey/trajectories/trajectory_timeline.h"
+
+namespace albtpu::client {
+
+// Attitude, velocity and rates as the trajectory states them. Where it states no heading, the course; no velocity: that
+// of its positions. Standard deviations are those of the error files, or those that the trajectory states of itself.
+class TrajectoryMotions final : public SensorMotions {
+ public:
+  TrajectoryMotions(TrajectoryTimeline timeline, TrajectoryErrors errors)
+      : timeline_(std::move(timeline)), errors_(std::move(errors)) {}
+
+  std::optional<SensorMotion> At(double time) const override;
+
+ private:
+  std::optional<TrajectorySigma> SigmaAt(double time) const;
+
+  TrajectoryTimeline timeline_;
+  TrajectoryErrors errors_;
+};
+
+// Velocity and course of any track of the sensor; no attitude.
+class CourseMotions final : public SensorMotions {
+ public:
+  // `track` must outlive it.
+  explicit CourseMotions(const SensorTrack& track) : track_(track) {}
+
+  std::optional<SensorMotion> At(double time) const override;
+
+ private:
+  const SensorTrack& track_;
+};
+
+}  // namespace albtpu::client

@@ -1,0 +1,54 @@
+// The total uncertainty of batches of pulses, from the share of the sea and the motion of the aircraft.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "budget/total/budget_columns.h"
+#include "survey/answers/batch.h"
+#include "survey/totals/total_plan.h"
+
+namespace albtpu::client {
+
+// One element for each pulse, or one for all, or none (BudgetInput).
+struct AircraftColumns {
+  std::vector<float> altitude;      // m, of the sensor above the water.
+  std::vector<float> beam_azimuth;  // degree from true north. None: not known.
+  // From kRoll to kHeadingSigma. NaN in a sigma: not known.
+  static constexpr std::size_t kMotions = 15;
+  std::array<std::vector<float>, kMotions> motion;
+
+  std::vector<float>& operator[](BudgetInput input) {
+    return motion[static_cast<std::size_t>(input) - static_cast<std::size_t>(BudgetInput::kRoll)];
+  }
+};
+static_assert(static_cast<std::size_t>(BudgetInput::kHeadingSigma) ==
+              static_cast<std::size_t>(BudgetInput::kRoll) + AircraftColumns::kMotions - 1);
+
+// Element i of each column belongs to pulse i; NaN where the sea has no answer.
+struct TotalBatch {
+  std::vector<float> thu, tvu;                            // m, at the coverage of the plan.
+  std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea;  // The same of shares.
+  std::array<std::vector<float>, 6> covariance;           // m^2: kCovarianceNames, of the total.
+  // Variances, m^2: horizontal (north and east) and vertical.
+  struct Variances {
+    std::vector<float> north, east, down;
+  };
+  Variances air, sea;
+  std::array<Variances, kErrorGroups> groups;
+  std::vector<std::uint8_t> best_orders;
+  std::uint64_t sigmas_assumed = 0;  // Pulses at whose time no error file states how well the trajectory is known.
+
+  std::size_t size() const { return thu.size(); }
+};
+
+// What the answers of the sea must have, at 2 sigma.
+void SelectForTotals(AnswerSelection& selection);
+
+// `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
+                   TotalBatch& totals);
+
+}  // namespace albtpu::client
