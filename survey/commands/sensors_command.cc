@@ -39,15 +39,15 @@ std::string Row(const Sensor& sensor) {
     return known.has_value() ? absl::StrCat(known->value) : "-";
   };
   return absl::StrFormat(
-      "%-24s %-34s %8s %13s %15s\n", PrintableText(sensor.name), PrintableText(sensor.title),
+      "%-26s%-42s%10s%14s%16s\n", PrintableText(sensor.name), PrintableText(sensor.title),
       number(sensor.scan), number(sensor.bottom_range),
       sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
 }
 
 std::string Rows(const std::vector<Sensor>& sensors) {
   std::string text =
-      "name                     title                                  scan  bottom_range      divergence\n"
-      "                                                              degree             m            mrad\n";
+      absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan", "bottom_range",
+                      "divergence", "degree", "m", "mrad");
   for (const Sensor& sensor : sensors) absl::StrAppend(&text, Row(sensor));
   return text;
 }
@@ -69,10 +69,10 @@ std::string Text(const Sensor& sensor) {
   const bool no_divergence = std::erase(unknown, "divergence") > 0;
   if (std::erase(unknown, "surface_range") > 0) unknown.emplace_back("surface_height");
   if (!unknown.empty()) {
-    absl::StrAppend(&text, "  not known, to be given in [sigma] of the survey file: ",
-                    absl::StrJoin(unknown, ", "), "\n");
+    absl::StrAppend(&text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "),
+                    "\n");
   }
-  if (no_divergence) absl::StrAppend(&text, "  not known, to be given by --divergence: divergence\n");
+  if (no_divergence) absl::StrAppend(&text, "  not known; give it by --divergence: divergence\n");
   return text;
 }
 

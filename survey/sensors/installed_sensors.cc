@@ -52,14 +52,14 @@ absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path) {
   if (IsSensorFile(name)) return ReadSensor(name);
   const std::vector<std::string> names = InstalledNames();
   if (std::ranges::find(names, name) != names.end()) return ReadSensor(PathOf(name));
-  const std::string problem = absl::StrCat("'", OneLine(name), "' is no sensor (");
+  const std::string problem = absl::StrCat("'", OneLine(name), "' is no sensor");
   if (names.empty()) {
-    return absl::NotFoundError(absl::StrCat(problem, SensorsDirectory().string(),
-                                            " has none); name the folder of sensors by ALBTPU_SENSORS, or "
-                                            "give the path of a file"));
+    return absl::NotFoundError(absl::StrCat(problem, " (there are none in ", SensorsDirectory().string(),
+                                            "); name the folder of sensors by ALBTPU_SENSORS, or give the "
+                                            "path of a file"));
   }
-  return absl::NotFoundError(absl::StrCat(problem, "there are ", absl::StrJoin(names, ", "), ")",
-                                          Suggestion(name, names, "give one of them or the path of a file")));
+  return absl::NotFoundError(absl::StrCat(
+      problem, Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
 }  // namespace albtpu::client

@@ -1,6 +1,7 @@
 #include "survey/toml/toml_keys.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <sstream>
 #include <utility>
@@ -13,10 +14,18 @@
 namespace albtpu::client {
 namespace {
 
+// The shortest text of the number: 0.3, where toml++ writes 0.29999999999999999.
+std::string FloatText(double number) {
+  char text[32];
+  const std::string shortest(text, std::to_chars(text, text + sizeof text, number).ptr);
+  return shortest.find_first_of(".en") == std::string::npos ? shortest + ".0" : shortest;
+}
+
 // What stands in the file: short, and on one line.
 std::string ValueText(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array()) return "a list";
+  if (node.is_floating_point()) return FloatText(*node.value<double>());
   std::ostringstream text;
   node.visit([&](const auto& value) {
     if constexpr (toml::is_value<decltype(value)>) text << toml::toml_formatter(value);

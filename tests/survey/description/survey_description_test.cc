@@ -138,7 +138,7 @@ TEST(SurveyDescription, NamesTheKeyThatIsMeant) {
   EXPECT_THAT(ErrorOf("[see]\n"), HasSubstr("did you mean sea?"));
   EXPECT_THAT(ErrorOf("[[sea.waves]]\nhs=1\ntp=5\nwaves_from=20\nheight=2\n"),
               StartsWith("line 5: 'sea.waves.height'"));
-  EXPECT_THAT(ErrorOf("x = 1\n"), HasSubstr("there are sea"));
+  EXPECT_THAT(ErrorOf("x = 1\n"), HasSubstr("there are datum, output, sea, sensor"));
 }
 
 TEST(SurveyDescription, RefusesTablesThatAreNone) {

@@ -1,0 +1,299 @@
+#include "survey/description/survey_sections.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+
+#include "survey/description/survey_description.h"
+
+namespace albtpu::client {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr char kWhole[] = R"([sensor]
+name = "riegl-vq-880-g"
+lever_arm = [0.3, -0.2, 0.5]
+[trajectory]
+files = ["sbet/", "/data/b.out"]
+errors = ["smrmsg/"]
+time = "utc"
+[surface]
+classes = [41, 42]
+located = "local"
+[sea]
+wind_speed = 5
+[water]
+kd = 0.12
+temperature = 24
+salinity = 36
+index = 1.3397
+[datum]
+sigma = 0.08
+geoid_separation = -25.1
+[sigma]
+position = [0.02, 0.02, 0.06]
+attitude = [0.005, 0, 0.008]
+boresight = [0, 0, 0]
+lever_arm = 0.02
+scan = 0.02
+time = 1e-5
+range_offset = 0.01
+bottom_range = 0.025
+surface_height = 0
+index = 0.001
+[output]
+classes = [40]
+coverage = "p95"
+s44_order = "1b"
+details = true
+)";
+
+std::string ErrorOf(const std::string& text) {
+  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "/data");
+  EXPECT_FALSE(survey.ok()) << text;
+  return std::string(survey.status().message());
+}
+
+SurveyDescription Survey(const std::string& text) {
+  absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "/data");
+  EXPECT_TRUE(survey.ok()) << text << survey.status();
+  return survey.value_or(SurveyDescription());
+}
+
+TEST(SurveySections, SayAllOfASurvey) {
+  const SurveyDescription survey = Survey(kWhole);
+  EXPECT_EQ(survey.sensor.value().name, "riegl-vq-880-g");
+  EXPECT_THAT(survey.sensor->lever_arm.value(), ElementsAre(0.3, -0.2, 0.5));
+  EXPECT_THAT(survey.trajectory.value().files, ElementsAre("/data/sbet/", "/data/b.out"));
+  EXPECT_THAT(survey.trajectory->errors, ElementsAre("/data/smrmsg/"));
+  EXPECT_EQ(survey.trajectory->time, "utc");
+  EXPECT_FALSE(survey.trajectory->from_returns.has_value());
+  EXPECT_THAT(survey.surface.value().classes, ElementsAre(41, 42));
+  EXPECT_EQ(survey.surface->located, "local");
+  EXPECT_EQ(survey.sea.value().wind_speed, 5);
+  EXPECT_EQ(survey.water.value().kd, 0.12);
+  EXPECT_EQ(survey.water->temperature, 24);
+  EXPECT_EQ(survey.water->salinity, 36);
+  EXPECT_EQ(survey.water->index, 1.3397);
+  EXPECT_FALSE(survey.water->without_column);
+  EXPECT_EQ(survey.datum.value().sigma, 0.08);
+  EXPECT_EQ(survey.datum->geoid_separation, -25.1);
+  EXPECT_THAT(survey.sigma.value().position.value(), ElementsAre(0.02, 0.02, 0.06));
+  EXPECT_THAT(survey.sigma->attitude.value(), ElementsAre(0.005, 0, 0.008));
+  EXPECT_THAT(survey.sigma->boresight.value(), ElementsAre(0, 0, 0));
+  EXPECT_EQ(survey.sigma->lever_arm, 0.02);
+  EXPECT_EQ(survey.sigma->scan, 0.02);
+  EXPECT_EQ(survey.sigma->time, 1e-5);
+  EXPECT_EQ(survey.sigma->range_offset, 0.01);
+  EXPECT_EQ(survey.sigma->bottom_range, 0.025);
+  EXPECT_EQ(survey.sigma->surface_height, 0);
+  EXPECT_EQ(survey.sigma->index, 0.001);
+  EXPECT_THAT(survey.output.value().classes, ElementsAre(40));
+  EXPECT_EQ(survey.output->coverage, "p95");
+  EXPECT_EQ(survey.output->s44_order, "1b");
+  EXPECT_EQ(survey.output->details, true);
+}
+
+TEST(SurveySections, MayEachBeAbsentOrEmpty) {
+  const SurveyDescription none = Survey("");
+  EXPECT_FALSE(none.sensor || none.trajectory || none.surface || none.sea || none.water || none.datum ||
+               none.sigma || none.output);
+  const SurveyDescription empty =
+      Survey("[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n");
+  EXPECT_TRUE(empty.sensor && empty.trajectory && empty.surface && empty.sea && empty.water && empty.datum &&
+              empty.sigma && empty.output);
+  EXPECT_FALSE(empty.sensor->name.has_value());
+  EXPECT_FALSE(empty.sigma->position.has_value());
+  EXPECT_TRUE(empty.output->classes.empty());
+}
+
+TEST(SurveySections, FindFilesFromTheFolderOfTheSurvey) {
+  EXPECT_EQ(Survey("[sensor]\nname = 'mine.toml'\n").sensor->name, "/data/mine.toml");
+  EXPECT_EQ(Survey("[sensor]\nname = 'sensors/mine'\n").sensor->name, "/data/sensors/mine");
+  EXPECT_EQ(Survey("[sensor]\nname = '/x/mine.toml'\n").sensor->name, "/x/mine.toml");
+  EXPECT_EQ(Survey("[sensor]\nname = 'mine'\n").sensor->name, "mine");
+  EXPECT_EQ(Survey("[surface]\nlevel = 'level.csv'\n").surface->level_file, "/data/level.csv");
+}
+
+TEST(SurveySections, HaveALevelAsANumberOrAFile) {
+  const ToldSurface number = Survey("[surface]\nlevel = -23\nlocated = 'level'\n").surface.value();
+  EXPECT_EQ(number.level, -23);
+  EXPECT_FALSE(number.level_file.has_value());
+  EXPECT_FALSE(Survey("[surface]\nlevel = 'level.csv'\n").surface->level.has_value());
+  for (const char* level : {"true", "''", "[1]", "nan", "inf", "1e9"})
+    EXPECT_THAT(ErrorOf("[surface]\nlevel = " + std::string(level) + "\n"), StartsWith("line 2: 'surface.level' is "))
+        << level;
+}
+
+TEST(SurveySections, TakeWholeNumbersAsNumbers) {
+  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor->lever_arm.value(), ElementsAre(1, 2.5, -3));
+  EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma->scan, 1);
+}
+
+// What stands in the file, and how the message begins and what it says.
+struct WrongKey {
+  std::string text, begins, says;
+};
+void PrintTo(const WrongKey& wrong, std::ostream* out) { *out << wrong.text; }
+
+class RefusesWrongKeys : public ::testing::TestWithParam<WrongKey> {};
+
+TEST_P(RefusesWrongKeys, WithOneClearMessage) {
+  const std::string error = ErrorOf(GetParam().text);
+  EXPECT_THAT(error, StartsWith(GetParam().begins));
+  EXPECT_THAT(error, HasSubstr(GetParam().says));
+  EXPECT_THAT(error, HasSubstr("; "));
+  EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sensor, RefusesWrongKeys,
+    ::testing::Values(
+        WrongKey{"[sensor]\nname = 880\n", "line 2: 'sensor.name' is 880 (", "write it in quotes"},
+        WrongKey{"[sensor]\nname = ''\n", "line 2: 'sensor.name' is '' (", "the name of a sensor"},
+        WrongKey{"[sensor]\nlever_arm = 0.3\n", "line 2: 'sensor.lever_arm' is 0.3 (",
+                 "give [forward, right, down]"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, 0.2]\n", "line 2: 'sensor.lever_arm' is a list (",
+                 "give [forward, right, down]"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, 300, 0.5]\n", "line 2: 'sensor.lever_arm' has 300",
+                 "from -100 to 100 m"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'", "3 numbers"},
+        WrongKey{"[sensor]\nscan = 0.02\n", "line 2: 'sensor.scan' is no key of a survey file",
+                 "there are lever_arm, name"},
+        WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'",
+                 "begin it with [sensor]"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Trajectory, RefusesWrongKeys,
+    ::testing::Values(
+        WrongKey{"[trajectory]\nfiles = 'sbet/'\n", "line 2: 'trajectory.files' is 'sbet/'",
+                 "write a list in brackets"},
+        WrongKey{"[trajectory]\nfiles = []\n", "line 2: 'trajectory.files' is empty", "name one or more"},
+        WrongKey{"[trajectory]\nfiles = ['a', '']\n", "line 2: 'trajectory.files' has ''", "path"},
+        WrongKey{"[trajectory]\nfiles = ['a', 5]\n", "line 2: 'trajectory.files' has 5", "path"},
+        WrongKey{"[trajectory]\nfiles = [\n'a',\n'a']\n", "line 4: 'trajectory.files' has 'a' twice", "once"},
+        WrongKey{"[trajectory]\nerrors = []\n", "line 2: 'trajectory.errors' is empty", "leave it out"},
+        WrongKey{"[trajectory]\ntime = 'GPS'\n", "line 2: 'trajectory.time' is 'GPS'", "gps, utc"},
+        WrongKey{"[trajectory]\nfrom_returns = 'yes'\n", "line 2: 'trajectory.from_returns' is 'yes'",
+                 "true or false"},
+        WrongKey{"[trajectory]\nfrom_returns = 1\n", "line 2: 'trajectory.from_returns' is 1", "true or false"},
+        WrongKey{"[trajectory]\nfrom_returns = true\nfiles = ['a']\n",
+                 "line 3: 'trajectory.files' contradicts from_returns", "give one of them"},
+        WrongKey{"[trajectory]\nerrors = ['a']\nfrom_returns = true\n",
+                 "line 2: 'trajectory.errors' contradicts from_returns", "give one of them"},
+        WrongKey{"[trajectory]\nfile = ['a']\n", "line 2: 'trajectory.file' is no key", "did you mean files?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Surface, RefusesWrongKeys,
+    ::testing::Values(
+        WrongKey{"[surface]\nclasses = 41\n", "line 2: 'surface.classes' is 41", "write a list in brackets"},
+        WrongKey{"[surface]\nclasses = []\n", "line 2: 'surface.classes' is empty", "whole numbers"},
+        WrongKey{"[surface]\nclasses = [41.0]\n", "line 2: 'surface.classes' has 41.0", "from 0 to 255"},
+        WrongKey{"[surface]\nclasses = [256]\n", "line 2: 'surface.classes' has 256", "from 0 to 255"},
+        WrongKey{"[surface]\nclasses = [-1]\n", "line 2: 'surface.classes' has -1", "from 0 to 255"},
+        WrongKey{"[surface]\nclasses = [41, 9, 41]\n", "line 2: 'surface.classes' has 41 twice", "once"},
+        WrongKey{"[surface]\nlocated = 'locally'\n", "line 2: 'surface.located' is 'locally'",
+                 "pulse, local, level"},
+        WrongKey{"[surface]\nlocated = 'pulse'\nlevel = 3\n", "line 3: 'surface.level' contradicts located",
+                 "give one of them"},
+        WrongKey{"[surface]\nlevel = 'level.csv'\nlocated = 'local'\n",
+                 "line 2: 'surface.level' contradicts located", "\"local\""},
+        WrongKey{"[surface]\nclass = [41]\n", "line 2: 'surface.class' is no key", "did you mean classes?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    WaterAndDatum, RefusesWrongKeys,
+    ::testing::Values(
+        WrongKey{"[water]\ncolumn = 'all'\n", "line 2: 'water.column' is 'all' (expected none)", ""},
+        WrongKey{"[water]\ncolumn = true\n", "line 2: 'water.column' is true", "none"},
+        WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is no key", ""},
+        WrongKey{"[water]\ntemperature = 297\n", "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)",
+                 ""},
+        WrongKey{"[datum]\nsigma = 8\nsigma_95 = 5\n", "line 3: 'datum.sigma_95' is no key", "sigma"},
+        WrongKey{"[datum]\nsigma = -0.1\n", "line 2: 'datum.sigma' is -0.1 (expected 0 to 10 m)", ""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Output, RefusesWrongKeys,
+    ::testing::Values(
+        WrongKey{"[output]\nclasses = ['40']\n", "line 2: 'output.classes' has '40'", "whole numbers"},
+        WrongKey{"[output]\ncoverage = 95\n", "line 2: 'output.coverage' is 95", "2sigma, p95, 1sigma"},
+        WrongKey{"[output]\ncoverage = '95'\n", "line 2: 'output.coverage' is '95'", "did you mean \"p95\"?"},
+        WrongKey{"[output]\ns44_order = '1c'\n", "line 2: 'output.s44_order' is '1c'", "1a, 1b"},
+        WrongKey{"[output]\ns44_order = 2\n", "line 2: 'output.s44_order' is 2", "exclusive"},
+        WrongKey{"[output]\ndetails = 'true'\n", "line 2: 'output.details' is 'true'", "without quotes"},
+        WrongKey{"[outputs]\n", "line 1: 'outputs' is no key of a survey file", "did you mean output?"}));
+
+// Each number with a value of another type and beyond its range.
+TEST(SurveySections, RefuseEachWrongNumber) {
+  const auto refuse = [](const std::string& section, std::string_view key, double beyond) {
+    const std::string name(key);
+    for (const std::string& value :
+         {std::string("\"6\""), std::string("true"), std::string("[1]"), std::string("{}"), std::string("nan"),
+          std::string("inf"), std::string("-1e9"), std::to_string(beyond)}) {
+      const std::string error = ErrorOf("[" + section + "]\n" + name + " = " + value + "\n");
+      EXPECT_THAT(error, StartsWith("line 2: '" + section + "." + name + "' is ")) << value;
+      EXPECT_THAT(error, HasSubstr("(expected ")) << value;
+    }
+  };
+  for (const auto& each : kWaterNumbers) refuse("water", each.key, each.greatest * 1.01);
+  for (const auto& each : kDatumNumbers) refuse("datum", each.key, each.greatest * 1.01);
+  for (const auto& each : kSigmaNumbers) refuse("sigma", each.range.key, each.range.greatest * 1.01);
+  for (const auto& each : kSigmaTriples) {
+    const std::string key(each.range.key);
+    for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]", "[nan, 1, 1]", "[1, 1, inf]",
+                              "[1, 1, 101]", "[1, 1, \"1\"]"}) {
+      const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
+      EXPECT_THAT(error, StartsWith("line 2: 'sigma." + key + "' ")) << value;
+      EXPECT_THAT(error, HasSubstr("(expected 3 numbers from 0 to ")) << value;
+    }
+  }
+}
+
+TEST(SurveySections, TakeTheEndsOfEachRange) {
+  for (const auto& each : kWaterNumbers) {
+    for (const double end : {each.least, each.greatest}) {
+      const std::string text = "[water]\n" + std::string(each.key) + " = " + std::to_string(end) + "\n";
+      EXPECT_EQ(Survey(text).water.value().*each.field, end) << text;
+    }
+  }
+  for (const auto& each : kSigmaNumbers) {
+    for (const double end : {0.0, each.range.greatest}) {
+      const std::string text = "[sigma]\n" + std::string(each.range.key) + " = " + std::to_string(end) + "\n";
+      EXPECT_EQ(Survey(text).sigma.value().*each.field, end) << text;
+    }
+  }
+}
+
+// Roll and pitch of the best systems are known to 0.0025 degrees, 4.4e-5 rad.
+TEST(SurveySections, RefuseAnglesInRadians) {
+  for (const char* key : {"attitude", "boresight"}) {
+    const std::string error = ErrorOf("[sigma]\n" + std::string(key) + " = [0.1, 4.4e-5, 0.1]\n");
+    EXPECT_THAT(error, StartsWith("line 2: 'sigma." + std::string(key) + "' "));
+    EXPECT_THAT(error, HasSubstr("looks like radians); give it in degree"));
+    EXPECT_TRUE(ParseSurvey("[sigma]\n" + std::string(key) + " = [0.0025, 0, 0.0025]\n", "").ok());
+  }
+  EXPECT_THAT(ErrorOf("[sigma]\nscan = 1.7e-5\n"), HasSubstr("looks like radians"));
+  EXPECT_TRUE(ParseSurvey("[sigma]\nscan = 0.001\ntime = 1e-7\nindex = 1e-6\n", "").ok());
+}
+
+TEST(SurveySections, LeaveOutTheColumnOfWaterWhereToldSo) {
+  EXPECT_TRUE(Survey("[water]\ncolumn = 'none'\n").water->without_column);
+  EXPECT_FALSE(Survey("[water]\nkd = 0.1\n").water->without_column);
+}
+
+TEST(SurveySections, MayBeCutAnywhere) {
+  const std::string text = kWhole;
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text.substr(0, size), "");
+    if (survey.ok()) continue;
+    EXPECT_THAT(std::string(survey.status().message()), StartsWith("line ")) << size;
+    EXPECT_EQ(survey.status().message().find('\n'), std::string::npos) << size;
+  }
+}
+
+}  // namespace
+}  // namespace albtpu::client
