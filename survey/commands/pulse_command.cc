@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,10 @@
 #include "survey/commands/options.h"
 #include "survey/commands/pulse_text.h"
 #include "survey/commands/sea_options.h"
+#include "survey/commands/total_options.h"
+#include "survey/commands/total_pulse.h"
 #include "survey/exit_status.h"
+#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::client {
 namespace {
@@ -21,16 +25,82 @@ struct PulseOptions {
   SeaOptions sea;
   SourceOptions source;
   AnswerStyle style;
+  TotalOptions total;
+  PulseMotion motion;
   bool json = false;
 };
 
+// What of the inputs only a total takes, and a footprint from the divergence of the sensor.
+absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, PulseTotal& total) {
+  if (!inputs[PulseInput::kAltitude].has_value())
+    return UsageError("pulse: --altitude is missing; a total needs the height of the sensor above the water");
+  total.altitude = *inputs[PulseInput::kAltitude];
+  total.beam_azimuth = inputs[PulseInput::kBeamAzimuth];
+  if (inputs[PulseInput::kFootprint].has_value()) {
+    if (!inputs[PulseInput::kDivergence].has_value()) inputs[PulseInput::kAltitude].reset();
+  } else if (!inputs[PulseInput::kDivergence].has_value()) {
+    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+    if (!sensor.ok()) return sensor.status();
+    if (sensor->divergence.has_value()) {
+      inputs[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
+      total.plan.numbers.push_back(
+          {"divergence", absl::StrCat(sensor->divergence->value, " mrad"), "assumed: the sensor's", true});
+    }
+  }
+  // Over a table of winds a direction from north counts with that of the wind alone.
+  if (inputs.any_sea) return absl::OkStatus();
+  const std::optional<float>& wind_from = inputs[PulseInput::kWindFrom];
+  if (wind_from.has_value()) total.plan.sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
+  if (!wind_from.has_value()) inputs[PulseInput::kBeamAzimuth].reset();
+  return absl::OkStatus();
+}
+
+absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& survey, const ToldSea& sea,
+                      FixedInputs inputs) {
+  AnswerStyle style = options.style;
+  TakeStyle(survey, style);
+  PulseTotal total;
+  total.motion = options.motion;
+  absl::StatusOr<TotalPlan> plan = PlanTotal(
+      survey, {.coverage = style.coverage, .index = {}, .lever_arm = {}, .has_surface_returns = false,
+               .has_level = survey.surface.has_value() && (survey.surface->level || survey.surface->level_file),
+               .trajectory_errors = "", .decided = false});
+  if (!plan.ok()) return plan.status();
+  total.plan = *std::move(plan);
+  if (absl::Status status = TakeForTotal(survey, inputs, total); !status.ok()) return status;
+  const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
+  if (!coordinates.ok()) return coordinates.status();
+  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
+  if (!answerer.ok()) return answerer.status();
+  if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
+  const AnswerSource source = answerer->source();
+  total.pulse = OnePulse(*coordinates);
+  total.pulse.azimuths_from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
+  if (!sea.has_waves()) {
+    const auto spectrum = source.table().attributes.find("spectrum");
+    total.plan.wave_height =
+        WaveHeightOfWind(inputs[PulseInput::kWindSpeed].value_or(0), inputs[PulseInput::kFetch],
+                         spectrum != source.table().attributes.end() ? spectrum->second : "");
+  }
+  absl::StatusOr<nlohmann::ordered_json> json = TotalJson(total, source);
+  if (!json.ok()) return json.status();
+  json->update(answerer->SeaJson());
+  std::cout << (options.json ? json->dump(2) + "\n" : TotalText(*json) + answerer->SeaText());
+  return FlushStandardOutput();
+}
+
 absl::Status RunPulse(const PulseOptions& options) {
-  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
+  absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
   if (!survey.ok()) return survey.status();
+  *survey = Together(options.total, *std::move(survey));
+  if (absl::Status status = CheckTotalFlags(options.total, *survey); !status.ok()) return status;
   const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
   if (!sea.ok()) return sea.status();
   FixedInputs inputs = options.inputs;
   if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;
+  if (WantsTotal(*survey)) return RunTotal(options, *survey, *sea, inputs);
+  if (options.motion.attitude || options.motion.velocity || options.motion.rates)
+    return UsageError("pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
@@ -56,6 +126,13 @@ void AddPulseCommand(CLI::App& program, Run& run) {
   for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->inputs.coordinates);
   AddBeamInputs(*command, options->inputs);
   AddSeaOptions(*command, options->sea);
+  AddTotalOptions(*command, options->total);
+  AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]",
+            options->motion.attitude);
+  AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]",
+            options->motion.velocity);
+  AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
+            options->motion.rates);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")

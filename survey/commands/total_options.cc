@@ -1,8 +1,10 @@
 #include "survey/commands/total_options.h"
 
+#include <cmath>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "command_line/checks.h"
 #include "survey/commands/options.h"
 #include "survey/exit_status.h"
@@ -33,6 +35,28 @@ void AddTotalOptions(CLI::App& command, TotalOptions& options) {
                   "none: leave out the share of the water column, which cannot be computed yet")
       ->type_name("none")
       ->check(OneOf({"none"}))
+      ->group(group::kTotal);
+}
+
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
+               std::optional<std::array<double, 3>>& value) {
+  command
+      .add_option_function<std::string>(
+          flag,
+          [flag, type, &value](const std::string& text) {
+            const std::vector<std::string> parts = absl::StrSplit(text, ',');
+            std::array<double, 3> numbers = {};
+            bool good = parts.size() == numbers.size();
+            for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+              const std::optional<double> number = ParseDouble(parts[i]);
+              good = number.has_value() && std::isfinite(*number);
+              numbers[i] = number.value_or(0);
+            }
+            if (!good) throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
+            value = numbers;
+          },
+          description)
+      ->type_name(type)
       ->group(group::kTotal);
 }
 

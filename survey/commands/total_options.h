@@ -22,6 +22,10 @@ struct TotalOptions {
 // `options` must live as long as `command`.
 void AddTotalOptions(CLI::App& command, TotalOptions& options);
 
+// Three numbers, of the motion of the aircraft at one pulse.
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
+               std::optional<std::array<double, 3>>& value);
+
 // The survey file with what flags say in place of it.
 SurveyDescription Together(const TotalOptions& flags, SurveyDescription survey);
 

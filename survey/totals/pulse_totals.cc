@@ -24,54 +24,61 @@ void SelectForTotals(AnswerSelection& selection) {
   selection.sea_frame = true;
 }
 
-void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
-                   TotalBatch& totals) {
-  const std::size_t size = pulses.size;
+TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
+                         AircraftColumns& aircraft)
+    : sea_axis_(plan.sea_axis.value_or(NAN)),
+      wave_height_(plan.wave_height),
+      directed_(!aircraft.beam_azimuth.empty()) {
   const AirErrors& errors = plan.options.errors;
-  totals.sigmas_assumed = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto fill = [&](bool by_pulse, BudgetInput first, double assumed) {
       std::vector<float>& column = aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(first) + axis)];
       if (!by_pulse) return column.clear();
-      totals.sigmas_assumed = std::max<std::uint64_t>(totals.sigmas_assumed, FillSigma(assumed, column));
+      sigmas_assumed_ = std::max<std::uint64_t>(sigmas_assumed_, FillSigma(assumed, column));
     };
     fill(plan.position_by_pulse, BudgetInput::kPositionSigmaNorth, errors.position[axis]);
     fill(plan.attitude_by_pulse, BudgetInput::kRollSigma, errors.attitude[axis]);
   }
 
-  BudgetInputs inputs{.size = size};
-  const float north = 0;  // Where no direction is known, lengths are right, and horizontal covariances are not stated.
-  inputs[BudgetInput::kIncidence] = pulses.axis[Index(AxisId::kIncidence)];
-  inputs[BudgetInput::kDepth] = pulses.axis[Index(AxisId::kDepth)];
-  inputs[BudgetInput::kAltitude] = aircraft.altitude;
-  inputs[BudgetInput::kBeamAzimuth] = aircraft.beam_azimuth;
-  const bool directed = !aircraft.beam_azimuth.empty();
-  if (!directed) inputs[BudgetInput::kBeamAzimuth] = std::span<const float>(&north, 1);
+  // Where no direction is known, lengths are right, and horizontal covariances are not stated.
+  static constexpr float kNorth = 0;
+  columns_.size = pulses.size;
+  columns_[BudgetInput::kIncidence] = pulses.axis[Index(AxisId::kIncidence)];
+  columns_[BudgetInput::kDepth] = pulses.axis[Index(AxisId::kDepth)];
+  columns_[BudgetInput::kAltitude] = aircraft.altitude;
+  columns_[BudgetInput::kBeamAzimuth] =
+      directed_ ? std::span<const float>(aircraft.beam_azimuth) : std::span<const float>(&kNorth, 1);
   for (std::size_t i = 0; i < AircraftColumns::kMotions; ++i)
-    inputs.columns[static_cast<std::size_t>(BudgetInput::kRoll) + i] = aircraft.motion[i];
+    columns_.columns[static_cast<std::size_t>(BudgetInput::kRoll) + i] = aircraft.motion[i];
   const auto answer = [&](Quantity quantity) -> std::span<const float> { return sea.values[Index(quantity)]; };
-  inputs[BudgetInput::kSeaThu] = answer(Quantity::kThu);
-  inputs[BudgetInput::kSeaTvu] = answer(Quantity::kTvu);
-  inputs[BudgetInput::kRefractionAlong] = answer(Quantity::kRefractionAlongWind);
-  inputs[BudgetInput::kRefractionCross] = answer(Quantity::kRefractionCrossWind);
+  columns_[BudgetInput::kSeaThu] = answer(Quantity::kThu);
+  columns_[BudgetInput::kSeaTvu] = answer(Quantity::kTvu);
+  columns_[BudgetInput::kRefractionAlong] = answer(Quantity::kRefractionAlongWind);
+  columns_[BudgetInput::kRefractionCross] = answer(Quantity::kRefractionCrossWind);
   // A table without biases does not know them.
-  std::vector<float> along(answer(Quantity::kBiasAlongBeam).begin(), answer(Quantity::kBiasAlongBeam).end());
-  std::vector<float> vertical(answer(Quantity::kBiasVertical).begin(), answer(Quantity::kBiasVertical).end());
-  for (std::vector<float>* column : {&along, &vertical})
-    for (float& bias : *column) bias = std::isfinite(bias) ? bias : 0;
-  inputs[BudgetInput::kBiasAlongBeam] = along;
-  inputs[BudgetInput::kBiasVertical] = vertical;
-  if (!sea.sea_axes.empty()) {
-    inputs[BudgetInput::kSeaAxis] = sea.sea_axes;
-  } else if (plan.sea_axis.has_value()) {
-    inputs[BudgetInput::kSeaAxis] = std::span<const float>(&*plan.sea_axis, 1);
+  const auto known = [&](Quantity quantity, std::vector<float>& column) {
+    const std::span<const float> biases = answer(quantity);
+    column.assign(biases.begin(), biases.end());
+    for (float& bias : column) bias = std::isfinite(bias) ? bias : 0;
+    return std::span<const float>(column);
+  };
+  columns_[BudgetInput::kBiasAlongBeam] = known(Quantity::kBiasAlongBeam, bias_along_);
+  columns_[BudgetInput::kBiasVertical] = known(Quantity::kBiasVertical, bias_vertical_);
+  if (directed_) {
+    columns_[BudgetInput::kSeaAxis] =
+        sea.sea_axes.empty() ? std::span<const float>(&sea_axis_, 1) : std::span<const float>(sea.sea_axes);
   }
-  if (!directed) inputs[BudgetInput::kSeaAxis] = {};
   if (plan.waves_unseen()) {
-    inputs[BudgetInput::kWaveHeight] =
-        sea.wave_heights.empty() ? std::span<const float>(&plan.wave_height, 1) : std::span<const float>(sea.wave_heights);
+    columns_[BudgetInput::kWaveHeight] = sea.wave_heights.empty() ? std::span<const float>(&wave_height_, 1)
+                                                                  : std::span<const float>(sea.wave_heights);
   }
+}
 
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
+                   TotalBatch& totals) {
+  const std::size_t size = pulses.size;
+  const TotalInputs inputs(plan, pulses, sea, aircraft);
+  totals.sigmas_assumed = inputs.sigmas_assumed();
   BudgetOutputs outputs;
   const auto column = [&](std::vector<float>& numbers) {
     numbers.resize(size);
@@ -94,8 +101,8 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
   for (std::size_t g = 0; g < kErrorGroups; ++g) variances(totals.groups[g], outputs.groups[g]);
   totals.best_orders.resize(size);
   outputs.best_orders = totals.best_orders;
-  ComputeBudget(inputs, plan.options, outputs);
-  if (directed) return;
+  ComputeBudget(inputs.columns(), plan.options, outputs);
+  if (inputs.directed()) return;
   for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(size, NAN);
 }
 

@@ -47,6 +47,26 @@ struct TotalBatch {
 // What the answers of the sea must have, at 2 sigma.
 void SelectForTotals(AnswerSelection& selection);
 
+// The columns of a budget, which refer to this and to the arguments.
+class TotalInputs {
+ public:
+  // `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
+  TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft);
+  TotalInputs(const TotalInputs&) = delete;
+  TotalInputs& operator=(const TotalInputs&) = delete;
+
+  const BudgetInputs& columns() const { return columns_; }
+  bool directed() const { return directed_; }  // The direction of the beam is known.
+  std::uint64_t sigmas_assumed() const { return sigmas_assumed_; }
+
+ private:
+  BudgetInputs columns_;
+  std::vector<float> bias_along_, bias_vertical_;
+  float sea_axis_, wave_height_;
+  bool directed_;
+  std::uint64_t sigmas_assumed_ = 0;
+};
+
 // `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
                    TotalBatch& totals);

@@ -75,7 +75,7 @@ std::string_view Record(std::string_view file, const LasHeader& header, std::siz
 void CheckRecords(std::string_view before, const LasHeader& old_header, std::string_view after,
                   const LasHeader& header, float largest_incidence) {
   ALBTPU_MUST(header.point_count == old_header.point_count && header.point_format == old_header.point_format);
-  ALBTPU_MUST(header.record_length == old_header.record_length + AppendedCount(true) * sizeof(float));
+  ALBTPU_MUST(header.record_length == old_header.record_length + AppendedFloats({.details = true}).size() * sizeof(float));
   for (std::size_t i = 0; i < header.point_count; ++i) {
     const std::string_view record = Record(after, header, i);
     ALBTPU_MUST(record.substr(0, old_header.record_length) == Record(before, old_header, i));
@@ -183,7 +183,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const LasHeader& header = reader->header();
-  const std::uint64_t length = header.record_length + AppendedCount(true) * sizeof(float);
+  const std::uint64_t length = header.record_length + AppendedFloats({.details = true}).size() * sizeof(float);
   MoveTailStarts(*reader, header.end_of_points(), head->bytes.size() + header.point_count * length,
                  head->bytes);
   static const LasAnnotation by_angle = Annotation(), by_track = TrackAnnotation();

@@ -47,13 +47,13 @@ TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
 }
 
 TEST(LasExtraBytes, StatesTheCoverage) {
-  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats(Coverage::kP95, false));
+  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
   EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
 }
 
 TEST(LasExtraBytes, DescribesTheGeometryOfBeamsOnRequest) {
   const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.details = true}));
-  ASSERT_EQ(record->size(), AppendedCount(true) * 192);
+  ASSERT_EQ(record->size(), AppendedFloats({.details = true}).size() * 192);
   const struct {
     const char* name;
     bool is_angle;

@@ -1,0 +1,168 @@
+#include "survey/commands/total_pulse.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "budget/air/air_sources.h"
+#include "budget/total/horizontal_ellipse.h"
+#include "survey/answers/answer_cells.h"
+#include "survey/number_text.h"
+#include "survey/totals/pulse_totals.h"
+
+namespace albtpu::client {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Numbers = std::array<float, 6>;
+
+Json CovarianceJson(const Numbers& numbers, bool known) {
+  Json json;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool vertical = kCovarianceNames[i] == "DD";
+    json[std::string(kCovarianceNames[i])] = known || vertical ? JsonNumber(numbers[i]) : Json();
+  }
+  return json;
+}
+
+Json NumberOrNull(float number) { return std::isfinite(number) ? JsonNumber(number) : Json(); }
+
+void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
+  const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& told) {
+    for (std::size_t i = 0; told.has_value() && i < 3; ++i)
+      aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(first) + i)] = {static_cast<float>((*told)[i])};
+  };
+  set(BudgetInput::kRoll, motion.attitude);
+  set(BudgetInput::kVelocityNorth, motion.velocity);
+  set(BudgetInput::kRollRate, motion.rates);
+}
+
+// Of each source of the air side.
+Json SourcesJson(const PulseTotal& total) {
+  const auto vector = [](const std::optional<std::array<double, 3>>& told) {
+    return told.has_value() ? Eigen::Vector3d(told->data()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  };
+  const Eigen::Vector3d attitude = vector(total.motion.attitude);
+  const AirPulse pulse = {.incidence = total.pulse.coordinate(AxisId::kIncidence, 0),
+                          .beam_azimuth = total.beam_azimuth.value_or(0),
+                          .altitude = total.altitude,
+                          .depth = total.pulse.coordinate(AxisId::kDepth, 0),
+                          .roll = attitude[0],
+                          .pitch = attitude[1],
+                          .heading = attitude[2],
+                          .velocity = vector(total.motion.velocity),
+                          .rates = vector(total.motion.rates),
+                          .lever_arm = Eigen::Vector3d(total.plan.options.lever_arm.data()),
+                          .index = total.plan.options.index};
+  Json json;
+  for (const AirSource& source : AirSources(pulse, total.plan.options.located, total.plan.options.errors)) {
+    const Eigen::Matrix3d c = source.Covariance();
+    json[std::string(source.name)] = {{"horizontal", c(0, 0) + c(1, 1)},
+                                      {"vertical", c(2, 2)},
+                                      {"group", std::string(kErrorGroupNames[static_cast<std::size_t>(source.group)])}};
+  }
+  return json;
+}
+
+}  // namespace
+
+absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& source) {
+  AnswerSelection selection;
+  SelectForTotals(selection);
+  AnswerBatch sea;
+  absl::Status status = AnswerPulses(source, {}, total.pulse, selection, sea);
+  if (!status.ok()) return status;
+  AircraftColumns aircraft;
+  aircraft.altitude = {total.altitude};
+  if (total.beam_azimuth.has_value()) aircraft.beam_azimuth = {*total.beam_azimuth};
+  SetMotion(total.motion, aircraft);
+  const TotalInputs inputs(total.plan, total.pulse, sea, aircraft);
+  float thu = 0, tvu = 0, thu_air = 0, tvu_air = 0, thu_sea = 0, tvu_sea = 0;
+  std::uint8_t best = 0;
+  std::array<Numbers, 3 + kErrorGroups> numbers;  // Air, sea, total, groups.
+  const auto one = [](float& number) { return std::span<float>(&number, 1); };
+  BudgetOutputs outputs{.thu = one(thu),
+                        .tvu = one(tvu),
+                        .thu_air = one(thu_air),
+                        .tvu_air = one(tvu_air),
+                        .thu_sea = one(thu_sea),
+                        .tvu_sea = one(tvu_sea),
+                        .best_orders = std::span<std::uint8_t>(&best, 1)};
+  const auto entries = [&](Numbers& of, CovarianceColumns& columns) {
+    for (std::size_t i = 0; i < of.size(); ++i) columns[i] = one(of[i]);
+  };
+  entries(numbers[0], outputs.air);
+  entries(numbers[1], outputs.sea);
+  entries(numbers[2], outputs.total);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) entries(numbers[3 + g], outputs.groups[g]);
+  ComputeBudget(inputs.columns(), total.plan.options, outputs);
+
+  const bool directed = total.beam_azimuth.has_value();
+  Json json = {{"thu", NumberOrNull(thu)},
+               {"tvu", NumberOrNull(tvu)},
+               {"coverage", CoverageName(total.plan.options.coverage)},
+               {"outcome", std::string(OutcomeName(sea, 0))},
+               {"covariance_air", CovarianceJson(numbers[0], directed)},
+               {"covariance_sea", CovarianceJson(numbers[1], directed)},
+               {"covariance_water", nullptr},
+               {"covariance_total", CovarianceJson(numbers[2], directed)},
+               {"thu_air", NumberOrNull(thu_air)},
+               {"tvu_air", NumberOrNull(tvu_air)},
+               {"thu_sea", NumberOrNull(thu_sea)},
+               {"tvu_sea", NumberOrNull(tvu_sea)}};
+  const Numbers& all = numbers[2];
+  const HorizontalEllipse ellipse = EllipseOf(all[0], all[1], all[3]);
+  json["semi_major"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_major)) : Json();
+  json["semi_minor"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_minor)) : Json();
+  json["major_azimuth"] = directed ? NumberOrNull(static_cast<float>(ellipse.major_azimuth)) : Json();
+  json["bias_along_beam"] = NumberOrNull(sea[Quantity::kBiasAlongBeam][0]);
+  json["bias_vertical"] = NumberOrNull(sea[Quantity::kBiasVertical][0]);
+  json["s44_order_met"] = best > 0 ? Json(std::string(Name(kS44Orders[best - 1]))) : Json();
+  json["sources"] = SourcesJson(total);
+  json["sources"]["datum"] = {
+      {"horizontal", 0}, {"vertical", std::pow(total.plan.options.datum, 2)}, {"group", "survey"}};
+  json["sources"]["sea"] = {{"horizontal", NumberOrNull(numbers[1][0] + numbers[1][1])},
+                            {"vertical", NumberOrNull(numbers[1][2])},
+                            {"group", "pulse"}};
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
+    json["groups"][std::string(kErrorGroupNames[g])] = CovarianceJson(numbers[3 + g], directed);
+  json["plan"] = Parameters(total.plan);
+  json["assumed"] = Assumptions(total.plan);
+  if (!total.motion.attitude.has_value()) json["assumed"].push_back("attitude of level flight to the north");
+  if (!total.motion.velocity.has_value()) json["assumed"].push_back("velocity 0");
+  json["table"] = source.table().id;
+  json["version"] = source.table().version;
+  json["digest"] = source.table().digest;
+  return json;
+}
+
+std::string TotalText(const Json& total) {
+  const auto number = [](const Json& value) {
+    return value.is_number() ? absl::StrFormat("%.4g", value.get<double>()) : std::string("no number");
+  };
+  std::string text = absl::StrFormat("total THU %s m, TVU %s m, %s; outcome %s\n", number(total["thu"]),
+                                     number(total["tvu"]), total["coverage"].get<std::string>(),
+                                     total["outcome"].get<std::string>());
+  absl::StrAppend(&text, "order of S-44 met: ",
+                  total["s44_order_met"].is_string() ? total["s44_order_met"].get<std::string>() : "none",
+                  " (at 95 %, biases added)\n");
+  absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n", number(total["bias_along_beam"]),
+                                         number(total["bias_vertical"])));
+  absl::StrAppend(&text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m",
+                                         "vertical, m (1 sigma)"));
+  for (const auto& [name, source] : total["sources"].items()) {
+    const auto root = [&](const char* axis) {
+      return source[axis].is_number() ? absl::StrFormat("%.4f", std::sqrt(source[axis].get<double>()))
+                                      : std::string("no number");
+    };
+    absl::StrAppend(&text, absl::StrFormat("%-16s %-8s %18s %18s\n", name, source["group"].get<std::string>(),
+                                           root("horizontal"), root("vertical")));
+  }
+  absl::StrAppend(&text, "\nassumed:\n");
+  for (const Json& assumed : total["assumed"]) absl::StrAppend(&text, "  ", assumed.get<std::string>(), "\n");
+  return text;
+}
+
+}  // namespace albtpu::client
