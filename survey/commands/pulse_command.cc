@@ -61,10 +61,15 @@ absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& surv
   TakeStyle(survey, style);
   PulseTotal total;
   total.motion = options.motion;
-  absl::StatusOr<TotalPlan> plan = PlanTotal(
-      survey, {.coverage = style.coverage, .index = {}, .lever_arm = {}, .has_surface_returns = false,
-               .has_level = survey.surface.has_value() && (survey.surface->level || survey.surface->level_file),
-               .trajectory_errors = "", .decided = false});
+  const ToldSurface surface = survey.surface.value_or(ToldSurface());
+  absl::StatusOr<TotalPlan> plan =
+      PlanTotal(survey, {.coverage = style.coverage,
+                         .index = {},
+                         .lever_arm = {},
+                         .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
+                         .has_level = surface.level.has_value() || surface.level_file.has_value(),
+                         .trajectory_errors = "",
+                         .decided = false});
   if (!plan.ok()) return plan.status();
   total.plan = *std::move(plan);
   if (absl::Status status = TakeForTotal(survey, inputs, total); !status.ok()) return status;
