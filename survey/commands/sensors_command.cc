@@ -38,16 +38,14 @@ std::string Row(const Sensor& sensor) {
   const auto number = [](const std::optional<SourcedNumber>& known) {
     return known.has_value() ? absl::StrCat(known->value) : "-";
   };
-  return absl::StrFormat(
-      "%-26s%-42s%10s%14s%16s\n", PrintableText(sensor.name), PrintableText(sensor.title),
-      number(sensor.scan), number(sensor.bottom_range),
-      sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
+  return absl::StrFormat("%-26s%-42s%10s%14s%16s\n", PrintableText(sensor.name), PrintableText(sensor.title),
+                         number(sensor.scan), number(sensor.bottom_range),
+                         sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
 }
 
 std::string Rows(const std::vector<Sensor>& sensors) {
-  std::string text =
-      absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan", "bottom_range",
-                      "divergence", "degree", "m", "mrad");
+  std::string text = absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan",
+                                     "bottom_range", "divergence", "degree", "m", "mrad");
   for (const Sensor& sensor : sensors) absl::StrAppend(&text, Row(sensor));
   return text;
 }
@@ -59,7 +57,8 @@ std::string Text(const Sensor& sensor) {
     absl::StrAppendFormat(&text, "  %-14s %s %s, %s\n", key, value, unit, PrintableText(source));
   };
   for (const auto& [range, field] : kSensorNumbers)
-    if (const auto& known = sensor.*field) line(range.key, absl::StrCat(known->value), range.unit, known->source);
+    if (const auto& known = sensor.*field)
+      line(range.key, absl::StrCat(known->value), range.unit, known->source);
   for (const auto& [range, field] : kSensorTriples)
     if (const auto& known = sensor.*field)
       line(range.key, absl::StrCat("[", absl::StrJoin(known->value, ", "), "]"), range.unit, known->source);
@@ -69,8 +68,8 @@ std::string Text(const Sensor& sensor) {
   const bool no_divergence = std::erase(unknown, "divergence") > 0;
   if (std::erase(unknown, "surface_range") > 0) unknown.emplace_back("surface_height");
   if (!unknown.empty()) {
-    absl::StrAppend(&text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "),
-                    "\n");
+    absl::StrAppend(
+        &text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "), "\n");
   }
   if (no_divergence) absl::StrAppend(&text, "  not known; give it by --divergence: divergence\n");
   return text;
@@ -88,7 +87,8 @@ ordered_json Json(const Sensor& sensor) {
   add(kSensorTriples, sensor);
   if (const auto& known = sensor.divergence) {
     ordered_json& divergence = json["divergence"] = {{"value", known->value}};
-    if (known->least.has_value()) divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
+    if (known->least.has_value())
+      divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
     divergence["unit"] = "mrad";
     divergence["source"] = known->source;
   }
@@ -131,7 +131,8 @@ void AddSensorsCommand(CLI::App& program, Run& run) {
   command->add_flag("--json", options->json, "Print one JSON object; of all sensors, with an array `sensors`")
       ->group(group::kOutput);
   EndHelp(*command,
-          "Numbers are standard deviations; the divergence is the full angle. What no source gives is not known.\n"
+          "Numbers are standard deviations; the divergence is the full angle. What no source gives is not "
+          "known.\n"
           "The environment variable ALBTPU_SENSORS names another folder of sensors.",
           "riegl-vq-880-g", "my_sensor.toml --json");
   command->callback([options, &run] { run = [options] { return RunSensors(*options); }; });

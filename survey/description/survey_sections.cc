@@ -76,7 +76,8 @@ ToldTrajectory ReadTrajectory(TomlKeys& keys, const fs::path& folder) {
   keys.Finish();
   if (!trajectory.from_returns.value_or(false)) return trajectory;
   for (const std::string_view key : {"files", "errors", "time"})
-    if (keys.Has(key)) keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
+    if (keys.Has(key))
+      keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
   return trajectory;
 }
 

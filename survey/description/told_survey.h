@@ -19,7 +19,7 @@ struct ToldSensor {                 // [sensor]
   std::optional<Triple> lever_arm;  // Forward, right, down, m.
 };
 
-struct ToldTrajectory {                   // [trajectory]
+struct ToldTrajectory {                    // [trajectory]
   std::vector<std::string> files, errors;  // Files and folders.
   std::optional<std::string> time;         // kTrajectoryTimes
   std::optional<bool> from_returns;
@@ -32,20 +32,20 @@ struct ToldSurface {                   // [surface]
   std::optional<std::string> level_file;
 };
 
-struct ToldWater {                                        // [water]
+struct ToldWater {                                         // [water]
   std::optional<double> index, kd, temperature, salinity;  // 1, 1/m, degree C, 1
-  bool without_column = false;                             // column = "none": the share of the water is left out.
+  bool without_column = false;  // column = "none": the share of the water is left out.
 };
 
 struct ToldDatum {                                // [datum]
   std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
 };
 
-struct ToldSigma {                                          // [sigma], 1 sigma; 0 is none.
-  std::optional<Triple> position, attitude, boresight;      // m, degree, degree
-  std::optional<double> lever_arm, scan, time;              // m, degree, s
-  std::optional<double> range_offset, bottom_range;         // m
-  std::optional<double> surface_height, index;              // m, 1
+struct ToldSigma {                                      // [sigma], 1 sigma; 0 is none.
+  std::optional<Triple> position, attitude, boresight;  // m, degree, degree
+  std::optional<double> lever_arm, scan, time;          // m, degree, s
+  std::optional<double> range_offset, bottom_range;     // m
+  std::optional<double> surface_height, index;          // m, 1
 };
 
 struct ToldOutput {                      // [output]

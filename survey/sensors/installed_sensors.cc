@@ -58,8 +58,8 @@ absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path) {
                                             "); name the folder of sensors by ALBTPU_SENSORS, or give the "
                                             "path of a file"));
   }
-  return absl::NotFoundError(absl::StrCat(
-      problem, Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
+  return absl::NotFoundError(
+      absl::StrCat(problem, Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
 }  // namespace albtpu::client

@@ -74,8 +74,8 @@ std::optional<SourcedDivergence> ReadDivergence(TomlKeys& root) {
     } else if (divergence.least.has_value() &&
                !(divergence.least < divergence.greatest && divergence.least <= divergence.value &&
                  divergence.value <= divergence.greatest)) {
-      keys.Fail(absl::StrCat("value is ", divergence.value, " (least is ", *divergence.least,
-                             ", greatest ", *divergence.greatest, "); give them in order"));
+      keys.Fail(absl::StrCat("value is ", divergence.value, " (least is ", *divergence.least, ", greatest ",
+                             *divergence.greatest, "); give them in order"));
     }
     return divergence;
   }

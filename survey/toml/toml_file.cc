@@ -35,8 +35,8 @@ absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kin
 absl::StatusOr<std::string> ReadTomlText(const fs::path& path, const TomlKind& kind) {
   std::error_code unknown;
   if (!fs::exists(path, unknown)) {
-    return InFile(path, absl::NotFoundError(
-                            absl::StrCat("does not exist; check ", std::string(kind.given_by))));
+    return InFile(path,
+                  absl::NotFoundError(absl::StrCat("does not exist; check ", std::string(kind.given_by))));
   }
   if (!fs::is_regular_file(path, unknown))
     return InFile(path, absl::FailedPreconditionError("is not a regular file; give a file of TOML"));

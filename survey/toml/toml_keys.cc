@@ -92,7 +92,8 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
                                                       std::string_view unit, std::string_view parts) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
-  const std::string expected = absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
+  const std::string expected =
+      absl::StrCat("3 numbers from ", least, " to ", greatest, " ", std::string(unit));
   const toml::array* const array = node->as_array();
   if (array == nullptr || array->size() != 3) {
     Wrong(*node, key, expected, absl::StrCat("give ", std::string(parts)));
@@ -212,8 +213,8 @@ void TomlKeys::WrongElement(const toml::node& element, std::string_view key, con
 }
 
 void TomlKeys::Twice(const toml::node& element, std::string_view key) {
-  problem_.Remember(element.source(), absl::StrCat(Quoted(key), "has ", ValueText(element),
-                                                   " twice; name it once"));
+  problem_.Remember(element.source(),
+                    absl::StrCat(Quoted(key), "has ", ValueText(element), " twice; name it once"));
 }
 
 void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::string& expected,

@@ -1,5 +1,5 @@
-// Arbitrary text as a survey file is rejected with one line that names a line of it, or what it says of the sea is in
-// range.
+// Arbitrary text as a survey file is rejected with one line that names a line of it, or what it says is in range and does
+// not contradict itself.
 #include <cmath>
 #include <string_view>
 
@@ -29,6 +29,48 @@ void CheckSeaIsInRange(const ToldSea& sea) {
   ALBTPU_MUST(status.ok() || absl::IsInvalidArgument(status));
 }
 
+template <typename Keys, typename Told>
+void CheckNumbersAreInRange(const Keys& keys, const Told& told) {
+  for (const auto& each : keys) {
+    const std::optional<double>& value = told.*each.field;
+    ALBTPU_MUST(!value.has_value() || (*value >= each.least && *value <= each.greatest));
+  }
+}
+
+void CheckSigma(const SigmaRange& range, double value) {
+  ALBTPU_MUST(value >= 0 && value <= range.greatest);
+  ALBTPU_MUST(range.unit != "degree" || value == 0 || value >= kLeastAngle);
+}
+
+void CheckSigmasAreInRange(const ToldSigma& sigma) {
+  for (const auto& [range, field] : kSigmaNumbers)
+    if ((sigma.*field).has_value()) CheckSigma(range, *(sigma.*field));
+  for (const auto& [range, field] : kSigmaTriples) {
+    if (!(sigma.*field).has_value()) continue;
+    for (const double value : *(sigma.*field)) CheckSigma(range, value);
+  }
+}
+
+void CheckClasses(const std::vector<int>& classes) {
+  for (const int each : classes) ALBTPU_MUST(each >= 0 && each <= kGreatestClass);
+}
+
+void CheckSurvey(const SurveyDescription& survey) {
+  if (survey.sea.has_value()) CheckSeaIsInRange(*survey.sea);
+  if (survey.water.has_value()) CheckNumbersAreInRange(kWaterNumbers, *survey.water);
+  if (survey.datum.has_value()) CheckNumbersAreInRange(kDatumNumbers, *survey.datum);
+  if (survey.sigma.has_value()) CheckSigmasAreInRange(*survey.sigma);
+  if (survey.output.has_value()) CheckClasses(survey.output->classes);
+  if (const auto& trajectory = survey.trajectory; trajectory.has_value())
+    ALBTPU_MUST(!trajectory->from_returns.value_or(false) ||
+                (trajectory->files.empty() && trajectory->errors.empty()));
+  if (const auto& surface = survey.surface; surface.has_value()) {
+    CheckClasses(surface->classes);
+    const bool level = surface->level.has_value() || surface->level_file.has_value();
+    ALBTPU_MUST(!level || surface->located.value_or("level") == "level");
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -40,8 +82,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ALBTPU_MUST(absl::IsInvalidArgument(survey.status()));
     ALBTPU_MUST(message.starts_with("line ") || message.starts_with("has "));
     ALBTPU_MUST(message.find('\n') == message.npos && message.find("; ") != message.npos);
-  } else if (survey->sea.has_value()) {
-    CheckSeaIsInRange(*survey->sea);
+  } else {
+    CheckSurvey(*survey);
   }
   return 0;
 }

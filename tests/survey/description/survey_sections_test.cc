@@ -126,12 +126,14 @@ TEST(SurveySections, HaveALevelAsANumberOrAFile) {
   EXPECT_FALSE(number.level_file.has_value());
   EXPECT_FALSE(Survey("[surface]\nlevel = 'level.csv'\n").surface->level.has_value());
   for (const char* level : {"true", "''", "[1]", "nan", "inf", "1e9"})
-    EXPECT_THAT(ErrorOf("[surface]\nlevel = " + std::string(level) + "\n"), StartsWith("line 2: 'surface.level' is "))
+    EXPECT_THAT(ErrorOf("[surface]\nlevel = " + std::string(level) + "\n"),
+                StartsWith("line 2: 'surface.level' is "))
         << level;
 }
 
 TEST(SurveySections, TakeWholeNumbersAsNumbers) {
-  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor->lever_arm.value(), ElementsAre(1, 2.5, -3));
+  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor->lever_arm.value(),
+              ElementsAre(1, 2.5, -3));
   EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma->scan, 1);
 }
 
@@ -162,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "give [forward, right, down]"},
         WrongKey{"[sensor]\nlever_arm = [0.3, 300, 0.5]\n", "line 2: 'sensor.lever_arm' has 300",
                  "from -100 to 100 m"},
-        WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'", "3 numbers"},
+        WrongKey{"[sensor]\nlever_arm = [0.3, '1', 0.5]\n", "line 2: 'sensor.lever_arm' has '1'",
+                 "3 numbers"},
         WrongKey{"[sensor]\nscan = 0.02\n", "line 2: 'sensor.scan' is no key of a survey file",
                  "there are lever_arm, name"},
         WrongKey{"sensor = 'riegl-vq-880-g'\n", "line 1: 'sensor' is 'riegl-vq-880-g'",
@@ -181,12 +184,14 @@ INSTANTIATE_TEST_SUITE_P(
         WrongKey{"[trajectory]\ntime = 'GPS'\n", "line 2: 'trajectory.time' is 'GPS'", "gps, utc"},
         WrongKey{"[trajectory]\nfrom_returns = 'yes'\n", "line 2: 'trajectory.from_returns' is 'yes'",
                  "true or false"},
-        WrongKey{"[trajectory]\nfrom_returns = 1\n", "line 2: 'trajectory.from_returns' is 1", "true or false"},
+        WrongKey{"[trajectory]\nfrom_returns = 1\n", "line 2: 'trajectory.from_returns' is 1",
+                 "true or false"},
         WrongKey{"[trajectory]\nfrom_returns = true\nfiles = ['a']\n",
                  "line 3: 'trajectory.files' contradicts from_returns", "give one of them"},
         WrongKey{"[trajectory]\nerrors = ['a']\nfrom_returns = true\n",
                  "line 2: 'trajectory.errors' contradicts from_returns", "give one of them"},
-        WrongKey{"[trajectory]\nfile = ['a']\n", "line 2: 'trajectory.file' is no key", "did you mean files?"}));
+        WrongKey{"[trajectory]\nfile = ['a']\n", "line 2: 'trajectory.file' is no key",
+                 "did you mean files?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Surface, RefusesWrongKeys,
@@ -211,8 +216,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongKey{"[water]\ncolumn = 'all'\n", "line 2: 'water.column' is 'all' (expected none)", ""},
         WrongKey{"[water]\ncolumn = true\n", "line 2: 'water.column' is true", "none"},
         WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is no key", ""},
-        WrongKey{"[water]\ntemperature = 297\n", "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)",
-                 ""},
+        WrongKey{"[water]\ntemperature = 297\n",
+                 "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)", ""},
         WrongKey{"[datum]\nsigma = 8\nsigma_95 = 5\n", "line 3: 'datum.sigma_95' is no key", "sigma"},
         WrongKey{"[datum]\nsigma = -0.1\n", "line 2: 'datum.sigma' is -0.1 (expected 0 to 10 m)", ""}));
 
@@ -232,8 +237,8 @@ TEST(SurveySections, RefuseEachWrongNumber) {
   const auto refuse = [](const std::string& section, std::string_view key, double beyond) {
     const std::string name(key);
     for (const std::string& value :
-         {std::string("\"6\""), std::string("true"), std::string("[1]"), std::string("{}"), std::string("nan"),
-          std::string("inf"), std::string("-1e9"), std::to_string(beyond)}) {
+         {std::string("\"6\""), std::string("true"), std::string("[1]"), std::string("{}"),
+          std::string("nan"), std::string("inf"), std::string("-1e9"), std::to_string(beyond)}) {
       const std::string error = ErrorOf("[" + section + "]\n" + name + " = " + value + "\n");
       EXPECT_THAT(error, StartsWith("line 2: '" + section + "." + name + "' is ")) << value;
       EXPECT_THAT(error, HasSubstr("(expected ")) << value;
@@ -244,8 +249,8 @@ TEST(SurveySections, RefuseEachWrongNumber) {
   for (const auto& each : kSigmaNumbers) refuse("sigma", each.range.key, each.range.greatest * 1.01);
   for (const auto& each : kSigmaTriples) {
     const std::string key(each.range.key);
-    for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]", "[nan, 1, 1]", "[1, 1, inf]",
-                              "[1, 1, 101]", "[1, 1, \"1\"]"}) {
+    for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]", "[nan, 1, 1]",
+                              "[1, 1, inf]", "[1, 1, 101]", "[1, 1, \"1\"]"}) {
       const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
       EXPECT_THAT(error, StartsWith("line 2: 'sigma." + key + "' ")) << value;
       EXPECT_THAT(error, HasSubstr("(expected 3 numbers from 0 to ")) << value;

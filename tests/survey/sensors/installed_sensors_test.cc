@@ -67,10 +67,10 @@ TEST(ShippedSensors, RepeatTheNumbersOfCblue) {
   const struct {
     const char* name;
     double scan, range;
-  } rows[] = {{"riegl-vq-880-g", 0.02, 0.025},        {"leica-chiroptera-4x", 0.025, 0.020},
-              {"leica-chiroptera-5", 0.025, 0.020},   {"leica-hawkeye-4x-deep", 0.025, 0.020},
-              {"leica-hawkeye-5-deep", 0.025, 0.020}, {"arete-pills", 0.015, 0.033},
-              {"fugro-ramms", 0.015, 0.033},          {"teledyne-czmil", 0.00392, 0.025},
+  } rows[] = {{"riegl-vq-880-g", 0.02, 0.025},         {"leica-chiroptera-4x", 0.025, 0.020},
+              {"leica-chiroptera-5", 0.025, 0.020},    {"leica-hawkeye-4x-deep", 0.025, 0.020},
+              {"leica-hawkeye-5-deep", 0.025, 0.020},  {"arete-pills", 0.015, 0.033},
+              {"fugro-ramms", 0.015, 0.033},           {"teledyne-czmil", 0.00392, 0.025},
               {"teledyne-czmil-nova", 0.00392, 0.025}, {"teledyne-czmil-supernova", 0.00392, 0.025}};
   for (const auto& row : rows) {
     const Sensor sensor = FindSensor(row.name).value();

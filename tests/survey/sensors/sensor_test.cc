@@ -41,7 +41,8 @@ std::string ErrorOf(const std::string& text) {
 // The number `key` of a sensor, from line 2 on.
 std::string Number(const std::string& key, const std::string& value, const std::string& unit,
                    const std::string& more = "") {
-  return "title = \"a\"\n[" + key + "]\nvalue = " + value + "\nunit = \"" + unit + "\"\nsource = \"b\"\n" + more;
+  return "title = \"a\"\n[" + key + "]\nvalue = " + value + "\nunit = \"" + unit + "\"\nsource = \"b\"\n" +
+         more;
 }
 
 TEST(Sensor, HasNumbersWithTheirSources) {
@@ -62,8 +63,8 @@ TEST(Sensor, LacksWhatNoSourceGives) {
   const Sensor sensor = ParseSensor(kWhole).value();
   EXPECT_FALSE(sensor.bottom_range.has_value());
   EXPECT_FALSE(sensor.boresight.has_value());
-  EXPECT_THAT(UnknownOf(sensor), ElementsAre("bottom_range", "surface_range", "range_offset", "lever_arm", "time",
-                                             "position", "boresight"));
+  EXPECT_THAT(UnknownOf(sensor), ElementsAre("bottom_range", "surface_range", "range_offset", "lever_arm",
+                                             "time", "position", "boresight"));
   EXPECT_EQ(UnknownOf(ParseSensor("title = 'a'\n").value()).size(), 10u);
 }
 
@@ -98,8 +99,9 @@ TEST(Sensor, NeedsTheSourceAndTheUnitOfEachNumber) {
   EXPECT_THAT(ErrorOf("title = 'a'\n[divergence]\nvalue = 1\nunit = 'mrad'\n"),
               StartsWith("line 2: [divergence] source is missing"));
   for (const char* blank : {"''", "' '", "5", "true", "['b']"}) {
-    EXPECT_THAT(ErrorOf("title = 'a'\n[scan]\nvalue = 1\nunit = 'degree'\nsource = " + std::string(blank) + "\n"),
-                StartsWith("line 5: 'scan.source' is "))
+    EXPECT_THAT(
+        ErrorOf("title = 'a'\n[scan]\nvalue = 1\nunit = 'degree'\nsource = " + std::string(blank) + "\n"),
+        StartsWith("line 5: 'scan.source' is "))
         << blank;
   }
 }
@@ -145,7 +147,8 @@ TEST(Sensor, RefusesRadians) {
 
 TEST(Sensor, HasTheDivergenceWithinItsLimits) {
   for (const char* limits : {"least = 0.5\n", "greatest = 3\n"})
-    EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)), HasSubstr("has one of least and greatest"));
+    EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)),
+                HasSubstr("has one of least and greatest"));
   for (const char* limits : {"least = 2\ngreatest = 3\n", "least = 0.1\ngreatest = 0.9\n",
                              "least = 3\ngreatest = 0.5\n", "least = 1\ngreatest = 1\n"})
     EXPECT_THAT(ErrorOf(Number("divergence", "1", "mrad", limits)), HasSubstr("give them in order"));
@@ -158,7 +161,8 @@ TEST(Sensor, NamesTheKeyThatIsMeant) {
             "line 2: 'scann' is no key of a sensor file; did you mean scan?");
   EXPECT_EQ(ErrorOf("title = 'a'\n[scan]\nvalu = 1\nunit = 'degree'\nsource = 'b'\n"),
             "line 3: 'scan.valu' is no key of a sensor file; did you mean value?");
-  EXPECT_THAT(ErrorOf(Number("scan", "1", "degree", "least = 0.5\n")), StartsWith("line 6: 'scan.least' is no key"));
+  EXPECT_THAT(ErrorOf(Number("scan", "1", "degree", "least = 0.5\n")),
+              StartsWith("line 6: 'scan.least' is no key"));
   EXPECT_THAT(ErrorOf("title = 'a'\nunknown = ['scan']\n"), StartsWith("line 2: 'unknown' is no key"));
   EXPECT_THAT(ErrorOf("title = 'a'\nscan = 0.02\n"), HasSubstr("begin it with [scan]"));
   EXPECT_THAT(ErrorOf("title = 5\n"), StartsWith("line 1: 'title' is 5"));
@@ -178,9 +182,11 @@ TEST(Sensor, MayBeCutAnywhere) {
 TEST(ReadSensor, NamesTheFile) {
   const albtpu::testing::TemporaryFolder folder;
   const std::filesystem::path path = folder / "mine.toml";
-  EXPECT_THAT(std::string(ReadSensor(path).status().message()), StartsWith(path.string() + ": does not exist"));
+  EXPECT_THAT(std::string(ReadSensor(path).status().message()),
+              StartsWith(path.string() + ": does not exist"));
   std::ofstream(path) << "title = 5\n";
-  EXPECT_THAT(std::string(ReadSensor(path).status().message()), StartsWith(path.string() + ": line 1: 'title'"));
+  EXPECT_THAT(std::string(ReadSensor(path).status().message()),
+              StartsWith(path.string() + ": line 1: 'title'"));
   std::ofstream(path) << kWhole;
   EXPECT_EQ(ReadSensor(path).value().name, "mine");
   EXPECT_EQ(ReadSensor(path).value().path, path.string());
