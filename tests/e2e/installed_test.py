@@ -64,6 +64,11 @@ class Installation(unittest.TestCase):
         unnamed = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
         self.assertNotIn("birkebak2018", unnamed["table"])
 
+    def test_the_client_knows_the_installed_sensors(self):
+        sensors = json.loads(self.run_program("albtpu-query", "sensors", "--json"))["sensors"]
+        shipped = pathlib.Path(__file__).resolve().parents[2] / "survey/sensors/shipped"
+        self.assertEqual([sensor["name"] for sensor in sensors], sorted(path.stem for path in shipped.glob("*.toml")))
+
     def test_the_service_serves_the_installed_tables(self):
         inside = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
         server = Server(self.prefix / "bin/albtpu-serve", environment={"ALBTPU_TABLES": ""})

@@ -1,5 +1,5 @@
-// Arbitrary text as a file of a sensor is rejected with one line that names a line of it, or each of its numbers is above
-// 0, in range, and has a source.
+// Arbitrary text as a file of a sensor is rejected with one line that names a line of it, or each of its numbers is
+// above 0, in range, and has a source.
 #include <string_view>
 
 #include "survey/sensors/sensor.h"

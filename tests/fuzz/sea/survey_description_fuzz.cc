@@ -1,5 +1,5 @@
-// Arbitrary text as a survey file is rejected with one line that names a line of it, or what it says is in range and does
-// not contradict itself.
+// Arbitrary text as a survey file is rejected with one line that names a line of it, or what it says is in range and
+// does not contradict itself.
 #include <cmath>
 #include <string_view>
 
