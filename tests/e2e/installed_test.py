@@ -20,7 +20,7 @@ PROGRAMS = ("albtpu-generate", "albtpu-serve", "albtpu-query")
 PULSE = ("--wind-speed", "6", "--incidence", "12.5", "--azimuth", "0", "--footprint", "0.7", "--depth", "5")
 # The environment of the test must not help the programs to find their files.
 CLEAN = {name: value for name, value in os.environ.items()
-         if name not in ("LD_LIBRARY_PATH", "ALBTPU_TABLES")}
+         if name not in ("LD_LIBRARY_PATH", "ALBTPU_SENSORS", "ALBTPU_TABLES")}
 
 
 class Installation(unittest.TestCase):
