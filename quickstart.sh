@@ -38,7 +38,9 @@ echo "$ready"
 address=${BASH_REMATCH[1]}
 
 echo "== Annotating a flight line through the service"
-conditions=(--wind-speed 5 --divergence 1 --s44-order 1b --details)
+# Heights are above the ellipsoid, so that no vertical datum adds to the uncertainty.
+conditions=(--sensor riegl-vq-880-g --datum-sigma 0 --water-column none --wind-speed 5 --s44-order 1b --coverage p95
+            --details)
 if [[ -r $sample ]]; then
   input=$sample
   conditions+=(--trajectory-from-returns --classes 26 --water-level -23.09)
@@ -54,7 +56,8 @@ echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite
 
 echo "== Done"
-echo "$annotated has sea_thu and sea_tvu at each bathymetric point: 2 sigma, in m, of the sea surface alone,"
-echo "and the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
+echo "$annotated has total_thu and total_tvu at each bathymetric point, at 95 %, in m: of the air side, the location"
+echo "of the surface, the sea surface and the datum, without the water column; its shares, biases and covariance; and"
+echo "the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
 echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

@@ -44,7 +44,7 @@ absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, 
     if (sensor->divergence.has_value()) {
       inputs[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
       total.plan.numbers.push_back(
-          {"divergence", absl::StrCat(sensor->divergence->value, " mrad"), "assumed: the sensor's", true});
+          {"divergence", absl::StrCat(sensor->divergence->value, " mrad"), "assumed: the default of the sensor", true});
     }
   }
   // Over a table of winds a direction from north counts with that of the wind alone.
