@@ -85,9 +85,9 @@ PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage) {
   if (coverage == Coverage::kTwoSigma || uncertainty.outcome != Outcome::kInterpolated) return uncertainty;
   for (Quantity quantity : kQuantities) {
     if (Describe(quantity).is_bias) continue;
-    const double factor = coverage == Coverage::kOneSigma   ? 0.5
-                          : quantity == Quantity::kThu ? uncertainty.radius_over_thu
-                                                       : kFactor95;
+    const double factor = coverage == Coverage::kOneSigma ? 0.5
+                          : quantity == Quantity::kThu    ? uncertainty.radius_over_thu
+                                                          : kFactor95;
     float& value = uncertainty.values[Index(quantity)];
     float& standard_error = uncertainty.standard_errors[Index(quantity)];
     value = static_cast<float>(value * factor);

@@ -17,7 +17,8 @@ struct AirConstants {
   // 1 where the height of the surface is given, 0 where the lidar located it: for all errors, and for the scan angle.
   float given, scan_given;
   float forward, right, down;  // The lever arm, m.
-  float boresight[3], lever_arm, scan, time, range_offset, bottom_range, surface_range, surface_height[kErrorGroups], refractive;
+  float boresight[3], lever_arm, scan, time, range_offset, bottom_range, surface_range,
+      surface_height[kErrorGroups], refractive;
 };
 
 }  // namespace albtpu

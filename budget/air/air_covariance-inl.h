@@ -1,5 +1,5 @@
-// The covariance of the air side of several pulses at a time, in single precision. air_sources.h is the obvious twin and
-// explains the symbols.
+// The covariance of the air side of several pulses at a time, in single precision. air_sources.h is the obvious twin
+// and explains the symbols.
 //
 // Sources that include this must be compiled without contraction of a * b + c (-ffp-contract=off): only +, -, *, /,
 // square roots and floor in one order, so that every processor has the same bits.
@@ -38,11 +38,13 @@ HWY_INLINE SineAndCosine SineAndCosineOfDegrees(F degrees) {
   const F x = (degrees - quarter * Constant(90)) * Constant(0.017453292519943295f);
   const F x2 = x * x, one = Constant(1);
   // Taylor's series; what is left out is below 4e-9 and 3e-8.
-  const F s = x + x * x2 * (Constant(-1.0f / 6) +
-                            x2 * (Constant(1.0f / 120) +
-                                  x2 * (Constant(-1.0f / 5040) + x2 * Constant(1.0f / 362880))));
-  const F c = one + x2 * (Constant(-0.5f) +
-                          x2 * (Constant(1.0f / 24) + x2 * (Constant(-1.0f / 720) + x2 * Constant(1.0f / 40320))));
+  const F s =
+      x + x * x2 *
+              (Constant(-1.0f / 6) +
+               x2 * (Constant(1.0f / 120) + x2 * (Constant(-1.0f / 5040) + x2 * Constant(1.0f / 362880))));
+  const F c =
+      one + x2 * (Constant(-0.5f) +
+                  x2 * (Constant(1.0f / 24) + x2 * (Constant(-1.0f / 720) + x2 * Constant(1.0f / 40320))));
   const F turn = quarter - Constant(4) * hn::Floor(quarter * Constant(0.25f));  // 0, 1, 2 or 3.
   const auto first = turn == one, third = turn == Constant(3), back = turn >= Constant(2);
   const auto swapped = hn::Or(first, third);
@@ -85,12 +87,12 @@ HWY_INLINE NedCovariance operator+(const NedCovariance& a, const NedCovariance& 
 
 // AirPulse (air_sources.h) in columns.
 struct AirNumbers {
-  F incidence, beam_azimuth, altitude, depth;   // degree, degree, m, m
-  F roll, pitch, heading;                       // degree
-  Ned velocity;                                 // m/s
-  F roll_rate, pitch_rate, yaw_rate;            // degree/s
-  Ned position_sigma;                           // m
-  F roll_sigma, pitch_sigma, heading_sigma;     // degree
+  F incidence, beam_azimuth, altitude, depth;  // degree, degree, m, m
+  F roll, pitch, heading;                      // degree
+  Ned velocity;                                // m/s
+  F roll_rate, pitch_rate, yaw_rate;           // degree/s
+  Ned position_sigma;                          // m
+  F roll_sigma, pitch_sigma, heading_sigma;    // degree
 };
 
 // The directions of beams that other shares need, too.
@@ -144,10 +146,10 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
                       heading = SineAndCosineOfDegrees(pulse.heading);
   const Ned forward = {heading.cosine * pitch.cosine, heading.sine * pitch.cosine, hn::Neg(pitch.sine)};
   const F cp = heading.cosine * pitch.sine, sp = heading.sine * pitch.sine;
-  const Ned right = {cp * roll.sine - heading.sine * roll.cosine, sp * roll.sine + heading.cosine * roll.cosine,
-                     pitch.cosine * roll.sine};
-  const Ned below = {cp * roll.cosine + heading.sine * roll.sine, sp * roll.cosine - heading.cosine * roll.sine,
-                     pitch.cosine * roll.cosine};
+  const Ned right = {cp * roll.sine - heading.sine * roll.cosine,
+                     sp * roll.sine + heading.cosine * roll.cosine, pitch.cosine * roll.sine};
+  const Ned below = {cp * roll.cosine + heading.sine * roll.sine,
+                     sp * roll.cosine - heading.cosine * roll.sine, pitch.cosine * roll.cosine};
   const Ned lever = Constant(is.forward) * forward + Constant(is.right) * right + Constant(is.down) * below;
   const Ned rates = (radian * pulse.roll_rate) * forward + (radian * pulse.pitch_rate) * right +
                     (radian * pulse.yaw_rate) * below;

@@ -1,5 +1,5 @@
-// What may be wrong on the way from the aircraft to a reported point, before the sea and the water: standard deviations,
-// and how the water surface was located.
+// What may be wrong on the way from the aircraft to a reported point, before the sea and the water: standard
+// deviations, and how the water surface was located.
 #pragma once
 
 #include <array>
@@ -10,17 +10,18 @@ namespace albtpu {
 
 // One standard deviation each; 0 is an error that does not occur. Errors of different sources are independent.
 struct AirErrors {
-  std::array<double, 3> position = {};   // m; of the trajectory, north, east, down.
-  std::array<double, 3> attitude = {};   // degree; of the trajectory, roll, pitch, heading.
-  std::array<double, 3> boresight = {};  // degree; rotations about the forward, right and down axes of the aircraft.
-  double lever_arm = 0;                  // m; of each axis.
-  double scan = 0;                       // degree; of each of two angles across the beam, pulse by pulse.
-  double time = 0;                       // s; of the laser's clock against the trajectory's, constant.
-  double range_offset = 0;               // m; constant, of all ranges.
-  double bottom_range = 0;               // m; optical, of the range to the bottom, pulse by pulse.
-  double surface_range = 0;              // m; of the range to the surface, where the pulse's own return located it.
-  double surface_height = 0;             // m; of the height at which the surface was located.
-  double index = 0;                      // of the refractive index of the water.
+  std::array<double, 3> position = {};  // m; of the trajectory, north, east, down.
+  std::array<double, 3> attitude = {};  // degree; of the trajectory, roll, pitch, heading.
+  std::array<double, 3> boresight =
+      {};                     // degree; rotations about the forward, right and down axes of the aircraft.
+  double lever_arm = 0;       // m; of each axis.
+  double scan = 0;            // degree; of each of two angles across the beam, pulse by pulse.
+  double time = 0;            // s; of the laser's clock against the trajectory's, constant.
+  double range_offset = 0;    // m; constant, of all ranges.
+  double bottom_range = 0;    // m; optical, of the range to the bottom, pulse by pulse.
+  double surface_range = 0;   // m; of the range to the surface, where the pulse's own return located it.
+  double surface_height = 0;  // m; of the height at which the surface was located.
+  double index = 0;           // of the refractive index of the water.
 };
 
 // How the processing of the survey found where each beam entered the water.
@@ -43,8 +44,6 @@ inline constexpr std::array<std::string_view, kErrorGroups> kErrorGroupNames = {
 
 // The group of the height of the surface: of the own return that of the pulse, of a model that of the line, because
 // neighbouring pulses share it, of a level that of the survey.
-constexpr ErrorGroup SurfaceHeightGroup(SurfaceLocation located) {
-  return static_cast<ErrorGroup>(located);
-}
+constexpr ErrorGroup SurfaceHeightGroup(SurfaceLocation located) { return static_cast<ErrorGroup>(located); }
 
 }  // namespace albtpu

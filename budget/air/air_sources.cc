@@ -17,7 +17,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 struct Rays {
   explicit Rays(const AirPulse& pulse) : n(pulse.index) {
     const double incidence = pulse.incidence * kDegree, azimuth = pulse.beam_azimuth * kDegree;
-    u << std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth), std::cos(incidence);
+    u << std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
+        std::cos(incidence);
     const double horizontal = u.x() * u.x() + u.y() * u.y();
     const double down = std::sqrt(1 - horizontal / (n * n));
     w << u.x() / n, u.y() / n, down;
@@ -86,8 +87,10 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
   add("lever_arm", ErrorGroup::kSurvey, errors.lever_arm * by_position * attitude);
   add("scan", ErrorGroup::kPulse, errors.scan * kDegree * scan_by_direction * rays.across);
   add("time", ErrorGroup::kSurvey,
-      errors.time * (by_position * (pulse.velocity + rates.cross(lever_arm)) + by_direction * rates.cross(rays.u)));
-  add("range_offset", ErrorGroup::kSurvey, errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
+      errors.time *
+          (by_position * (pulse.velocity + rates.cross(lever_arm)) + by_direction * rates.cross(rays.u)));
+  add("range_offset", ErrorGroup::kSurvey,
+      errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
   add("bottom_range", ErrorGroup::kPulse, errors.bottom_range / rays.n * rays.w);
   if (located == SurfaceLocation::kPulse)
     add("surface_range", ErrorGroup::kPulse, errors.surface_range * rays.k);

@@ -18,10 +18,11 @@ struct AirPulse {
   double altitude = 0;      // Of the sensor above the water: above 0.
   double depth = 0;         // Of the point below the water: 0 or more.
   double roll = 0, pitch = 0, heading = 0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   // m/s; north, east, down.
-  Eigen::Vector3d rates = Eigen::Vector3d::Zero();      // degree/s; about the axes of the aircraft.
-  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  // m; from the trajectory's point to the sensor, aircraft axes.
-  double index = 1.34;                                  // Refractive index of the water: 1 or more.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s; north, east, down.
+  Eigen::Vector3d rates = Eigen::Vector3d::Zero();     // degree/s; about the axes of the aircraft.
+  Eigen::Vector3d lever_arm =
+      Eigen::Vector3d::Zero();  // m; from the trajectory's point to the sensor, aircraft axes.
+  double index = 1.34;          // Refractive index of the water: 1 or more.
 };
 
 // What a source contributes: the reported point errs by `columns` times independent standard normal numbers.
@@ -38,11 +39,11 @@ struct AirSource {
 // With O the point of the trajectory, l the lever arm, u the direction of the beam in air, rho the slant range, T the
 // measured optical range and w the direction in water, which Snell's law makes of u, the point is
 //     B = O + R l + rho u + s w,    s = (T - rho) / n.
-// Where the surface was located by the lidar, rho is measured; where a level gives its height, rho follows from O and u.
-// docs/budget.md has the derivatives.
+// Where the surface was located by the lidar, rho is measured; where a level gives its height, rho follows from O and
+// u. docs/budget.md has the derivatives.
 //
-// A model of the surface that is made of many returns moves with all that these have in common, as the pulse's own return
-// does, but not with the scan angle of this pulse: for that its height is given.
+// A model of the surface that is made of many returns moves with all that these have in common, as the pulse's own
+// return does, but not with the scan angle of this pulse: for that its height is given.
 //
 // Example, a nadir beam from 400 m over 10 m of water:
 //     AirSources({.altitude = 400, .depth = 10}, SurfaceLocation::kPulse, {.position = {0.02, 0.02, 0.06}});

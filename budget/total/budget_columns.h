@@ -1,4 +1,5 @@
-// The total uncertainty of many pulses: the shares of the air side, the sea surface and the datum, added as covariances.
+// The total uncertainty of many pulses: the shares of the air side, the sea surface and the datum, added as
+// covariances.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace albtpu {
 
-// What is known of a pulse. A column has one number for each pulse, or one for all, or none where the comment allows it.
+// What is known of a pulse. A column has one number for each pulse, or one for all, or none where the comment allows
+// it.
 enum class BudgetInput : std::uint8_t {
   kIncidence,    // degree from the vertical, in air: 0 or more, below 90.
   kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to.
@@ -43,8 +45,8 @@ enum class BudgetInput : std::uint8_t {
   kRefractionCross,  // degree, across it.
   kBiasAlongBeam,    // m. None: not known, taken as 0.
   kBiasVertical,     // m. None: not known, taken as 0.
-  kSeaAxis,          // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
-  kWaveHeight,       // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
+  kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
+  kWaveHeight,  // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
 };
 inline constexpr std::size_t kBudgetInputCount = 28;
 
@@ -62,9 +64,10 @@ struct BudgetInputs {
 struct BudgetOptions {
   AirErrors errors = {};
   SurfaceLocation located = SurfaceLocation::kPulse;
-  std::array<double, 3> lever_arm = {};  // m; forward, right, down, from the trajectory's point to the sensor.
-  double index = 1.34;                   // Refractive index of the water: 1 or more.
-  double datum = 0;                      // m, standard deviation of the height of the vertical datum.
+  std::array<double, 3> lever_arm =
+      {};               // m; forward, right, down, from the trajectory's point to the sensor.
+  double index = 1.34;  // Refractive index of the water: 1 or more.
+  double datum = 0;     // m, standard deviation of the height of the vertical datum.
   Coverage coverage = Coverage::kTwoSigma;
 };
 
@@ -78,10 +81,10 @@ inline constexpr std::array<std::string_view, 6> kCovarianceNames = {"NN", "EE",
 // the radius that holds 95 % of the two-dimensional normal distribution with this covariance, and 1.96 standard
 // deviations. At 1 sigma half of 2 sigma.
 struct BudgetOutputs {
-  std::span<float> thu = {}, tvu = {};               // m, of all shares.
-  std::span<float> thu_air = {}, tvu_air = {};       // m, of the air side alone.
-  std::span<float> thu_sea = {}, tvu_sea = {};       // m, of sea surface and unseen waves.
-  CovarianceColumns air = {}, sea = {}, total = {};  // Of shares and their sum.
+  std::span<float> thu = {}, tvu = {};                      // m, of all shares.
+  std::span<float> thu_air = {}, tvu_air = {};              // m, of the air side alone.
+  std::span<float> thu_sea = {}, tvu_sea = {};              // m, of sea surface and unseen waves.
+  CovarianceColumns air = {}, sea = {}, total = {};         // Of shares and their sum.
   std::array<CovarianceColumns, kErrorGroups> groups = {};  // Of the same sum by ErrorGroup.
   // 0: none; otherwise 1 plus the number of the strictest order of S-44 (kS44Orders) whose limits exceed the total at
   // 95 % plus the magnitude of the bias, horizontally and vertically.
@@ -93,11 +96,12 @@ struct BudgetOutputs {
 //
 //     C = C_air + C_sea + diag(0, 0, datum^2)
 //
-// C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2 and variances along and across the axis of the sea
-// in the proportion of the squared refractions; its covariance with up is sin r cos r (r: the angle in water) times the
-// covariance with the direction of the beam, because the table's errors are those of a spot that moves on a level bottom;
-// vertically (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height.
-// Biases are in no covariance.
+// C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2, variances along and across the axis of the sea
+// in the proportion of the squared refractions, and the covariance of the two that Snell's law makes of uncorrelated
+// slopes (docs/budget.md); its covariance with up is sin r cos r (r: the angle in water) times the covariance with the
+// direction of the beam, because the table's errors are those of a spot that moves on a level bottom; vertically
+// (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height. Biases are in no
+// covariance.
 //
 // Errors of rounding are below 1e-5 of the standard deviations.
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);

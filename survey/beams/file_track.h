@@ -10,7 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "budget/beams/return_pair.h"
-#include "budget/beams/sensor_motion.h"
+#include "budget/air/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/local_frame.h"
@@ -35,8 +35,8 @@ struct TrackedFile {
 struct FileTrack {
   std::unique_ptr<const SensorTrack> track;
   std::unique_ptr<const SensorMotions> motions;  // Of the aircraft, along the track.
-  nlohmann::ordered_json json;     // For a summary.
-  std::vector<std::string> notes;  // For the user, a line each.
+  nlohmann::ordered_json json;                   // For a summary.
+  std::vector<std::string> notes;                // For the user, a line each.
 };
 
 // From the trajectory files of the plan that overlap the points in time and lie near them. Fails when they do not, and

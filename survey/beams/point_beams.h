@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "budget/beams/sensor_motion.h"
+#include "budget/air/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/outcome_counts.h"
@@ -22,8 +22,8 @@ namespace albtpu::client {
 struct PointAircraft {
   std::vector<float> altitude;     // m above the water
   std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
-  // Roll, pitch, heading [degree], velocity north, east, down [m/s], rates [degree/s], sigmas of the position [m] and of
-  // the attitude [degree].
+  // Roll, pitch, heading [degree], velocity north, east, down [m/s], rates [degree/s], sigmas of the position [m] and
+  // of the attitude [degree].
   static constexpr std::size_t kMotions = 15;
   std::array<std::vector<float>, kMotions> motion;
 };

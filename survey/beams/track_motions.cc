@@ -38,7 +38,8 @@ std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
   const std::optional<TrajectoryRecord> record = timeline_.RecordAt(time);
   if (!record.has_value()) return std::nullopt;
   SensorMotion motion;
-  motion.velocity = {Or(record->velocity_north, 0), Or(record->velocity_east, 0), -Or(record->velocity_up, 0)};
+  motion.velocity = {Or(record->velocity_north, 0), Or(record->velocity_east, 0),
+                     -Or(record->velocity_up, 0)};
   motion.roll = DegreesOfRadians(Or(record->roll, 0));
   motion.pitch = DegreesOfRadians(Or(record->pitch, 0));
   motion.heading = std::isfinite(record->heading) ? DegreesOfRadians(record->heading)
@@ -54,7 +55,8 @@ std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
 }
 
 std::optional<SensorMotion> CourseMotions::At(double time) const {
-  constexpr double kStep = 0.1;  // s, over which the velocity is taken: twice as far where the track begins or ends.
+  constexpr double kStep =
+      0.1;  // s, over which the velocity is taken: twice as far where the track begins or ends.
   const std::array<double, 3> times = {time - kStep, time, time + kStep};
   std::array<SensorPosition, 3> positions;
   std::array<TrackOutcome, 3> outcomes;
@@ -64,7 +66,8 @@ std::optional<SensorMotion> CourseMotions::At(double time) const {
   if (first == last || outcomes[1] != TrackOutcome::kKnown) return std::nullopt;
   const SensorPosition &from = positions[first], &to = positions[last];
   const double seconds = times[last] - times[first];
-  const double x = (to.x - from.x) * from.metres_per_x / seconds, y = (to.y - from.y) * from.metres_per_y / seconds;
+  const double x = (to.x - from.x) * from.metres_per_x / seconds,
+               y = (to.y - from.y) * from.metres_per_y / seconds;
   // True azimuth = grid azimuth + convergence.
   const double c = std::cos(from.convergence), s = std::sin(from.convergence);
   SensorMotion motion;

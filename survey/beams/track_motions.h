@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "budget/beams/sensor_motion.h"
+#include "budget/air/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/beams/trajectory_errors.h"
 #include "survey/trajectories/trajectory_timeline.h"

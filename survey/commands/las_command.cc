@@ -51,7 +51,8 @@ nlohmann::ordered_json AnswersJson(const LasAnnotation& annotation, const Annota
   return json;
 }
 
-std::string AnswersText(const LasAnnotation& annotation, const AnnotatedLas& annotated, const TableSummary& table) {
+std::string AnswersText(const LasAnnotation& annotation, const AnnotatedLas& annotated,
+                        const TableSummary& table) {
   if (!annotation.total.has_value()) return annotated.summary.Text(WithoutAzimuth(table));
   const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
   std::string text = absl::StrCat(annotated.summary.outcomes().Text(WithoutAzimuth(table)),
@@ -89,10 +90,10 @@ class LasFiles {
                  .input = InputJson(*annotated),
                  .output = {{"format", std::string(Name(annotated->output_kind))}},
                  .answers = AnswersJson(annotation_, *annotated)},
-        absl::StrCat("\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
-                     absl::StrJoin(annotated->notes, "", [](std::string* text, const auto& note) {
-                       absl::StrAppend(text, "\n  ", note);
-                     }))};
+        absl::StrCat(
+            "\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
+            absl::StrJoin(annotated->notes, "",
+                          [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
   }
 
   bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }

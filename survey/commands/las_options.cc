@@ -15,8 +15,8 @@
 namespace albtpu::client {
 namespace {
 
-absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOptions& beams, const BeamPlan& plan,
-                                  bool told_divergence, Coverage coverage) {
+absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOptions& beams,
+                                  const BeamPlan& plan, bool told_divergence, Coverage coverage) {
   if (!plan.has_track() && !beams.altitude.has_value())
     return UsageError("las: --altitude is missing; a total needs the height of the sensor above the water");
   TotalContext context{.coverage = coverage,
@@ -27,9 +27,9 @@ absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOpt
                        .trajectory_errors = beams.trajectory_errors.empty() ? "" : "--trajectory-errors"};
   absl::StatusOr<TotalPlan> total = PlanTotal(survey, context);
   if (!total.ok()) return total.status();
-  if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint);
-      beam != nullptr && !told_divergence)
-    total->numbers.push_back({"divergence", absl::StrCat(beam->divergence, " mrad"), "assumed: the default of the sensor", true});
+  if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint); beam != nullptr && !told_divergence)
+    total->numbers.push_back(
+        {"divergence", absl::StrCat(beam->divergence, " mrad"), "assumed: the default of the sensor", true});
   if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
 }
@@ -101,7 +101,8 @@ LasOptions Together(LasOptions flags, const SurveyDescription& survey) {
     beams.water_index = survey.water->index;
   if (const std::optional<ToldSurface>& surface = survey.surface; surface.has_value()) {
     if (beams.water_classes.empty()) beams.water_classes = {surface->classes.begin(), surface->classes.end()};
-    if (!beams.water_level.has_value() && surface->level.has_value()) beams.water_level = absl::StrCat(*surface->level);
+    if (!beams.water_level.has_value() && surface->level.has_value())
+      beams.water_level = absl::StrCat(*surface->level);
     if (!beams.water_level.has_value()) beams.water_level = surface->level_file;
   }
   if (const std::optional<ToldOutput>& output = survey.output; output.has_value()) {
@@ -130,8 +131,8 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const Survey
   plan->any_aircraft = total;
   std::optional<TotalPlan> totals;
   if (total) {
-    absl::StatusOr<TotalPlan> made = TotalOf(survey, beams, *plan, options.beams.divergence.has_value(),
-                                               options.style.coverage);
+    absl::StatusOr<TotalPlan> made =
+        TotalOf(survey, beams, *plan, options.beams.divergence.has_value(), options.style.coverage);
     if (!made.ok()) return made.status();
     totals = *std::move(made);
   }

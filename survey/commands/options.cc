@@ -140,7 +140,8 @@ void AddStyleOptions(CLI::App& command, AnswerStyle& style) {
             style.coverage = *FindCoverage(text);
             style.coverage_told = true;
           },
-          "2sigma for twice the standard deviation (default), p95 for 95 %, 1sigma for one standard deviation")
+          "2sigma for twice the standard deviation (default), p95 for 95 %, 1sigma for one standard "
+          "deviation")
       ->type_name("2sigma|p95|1sigma")
       ->check(OneOf({"2sigma", "p95", "1sigma"}))
       ->group(group::kOutput);

@@ -13,9 +13,9 @@
 #include "survey/commands/pulse_text.h"
 #include "survey/commands/sea_options.h"
 #include "survey/commands/total_options.h"
-#include "survey/commands/total_pulse.h"
 #include "survey/exit_status.h"
 #include "survey/sensors/installed_sensors.h"
+#include "survey/totals/pulse_report.h"
 
 namespace albtpu::client {
 namespace {
@@ -43,8 +43,8 @@ absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, 
     if (!sensor.ok()) return sensor.status();
     if (sensor->divergence.has_value()) {
       inputs[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
-      total.plan.numbers.push_back(
-          {"divergence", absl::StrCat(sensor->divergence->value, " mrad"), "assumed: the default of the sensor", true});
+      total.plan.numbers.push_back({"divergence", absl::StrCat(sensor->divergence->value, " mrad"),
+                                    "assumed: the default of the sensor", true});
     }
   }
   // Over a table of winds a direction from north counts with that of the wind alone.
@@ -105,7 +105,8 @@ absl::Status RunPulse(const PulseOptions& options) {
   if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;
   if (WantsTotal(*survey)) return RunTotal(options, *survey, *sea, inputs);
   if (options.motion.attitude || options.motion.velocity || options.motion.rates)
-    return UsageError("pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
+    return UsageError(
+        "pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
@@ -134,8 +135,7 @@ void AddPulseCommand(CLI::App& program, Run& run) {
   AddTotalOptions(*command, options->total);
   AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]",
             options->motion.attitude);
-  AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]",
-            options->motion.velocity);
+  AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
   AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
             options->motion.rates);
   AddSourceOptions(*command, options->source);

@@ -68,7 +68,8 @@ void AddSeaOptions(CLI::App& command, SeaOptions& options) {
         ->group(group::kSea);
   };
   text("--survey", options.survey, "FILE.toml", "file",
-       "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output (docs/budget.md)");
+       "What is known of the survey, as TOML: sensor, trajectory, surface, sea, water, datum, output "
+       "(docs/budget.md)");
   text("--sea", options.flags.file, "FILE", "file",
        "Spectra or heights of the waves: NDBC, WAVEWATCH III, SWAN or CSV; several records are interpolated "
        "to the "

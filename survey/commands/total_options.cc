@@ -15,15 +15,17 @@ namespace albtpu::client {
 void AddTotalOptions(CLI::App& command, TotalOptions& options) {
   command
       .add_option("--sensor", options.sensor,
-                  "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the "
+                  "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the "
+                  "air side, the "
                   "location of the surface and the datum, instead of the share of the sea surface")
       ->type_name("NAME|FILE.toml")
       ->check(NotEmpty("sensor"))
       ->group(group::kTotal);
   command
-      .add_option("--surface-located", options.located,
-                  "How the points' processing found the water surface: by the return of each pulse, a local model of "
-                  "returns (default with --water-classes) or a level (default without)")
+      .add_option(
+          "--surface-located", options.located,
+          "How the points' processing found the water surface: by the return of each pulse, a local model of "
+          "returns (default with --water-classes) or a level (default without)")
       ->type_name("pulse|local|level")
       ->check(OneOf({kWaysToLocate.begin(), kWaysToLocate.end()}))
       ->group(group::kTotal);
@@ -38,8 +40,8 @@ void AddTotalOptions(CLI::App& command, TotalOptions& options) {
       ->group(group::kTotal);
 }
 
-void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
-               std::optional<std::array<double, 3>>& value) {
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
+               const std::string& description, std::optional<std::array<double, 3>>& value) {
   command
       .add_option_function<std::string>(
           flag,
@@ -52,7 +54,8 @@ void AddTriple(CLI::App& command, const std::string& flag, const std::string& ty
               good = number.has_value() && std::isfinite(*number);
               numbers[i] = number.value_or(0);
             }
-            if (!good) throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
+            if (!good)
+              throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
             value = numbers;
           },
           description)
@@ -86,7 +89,8 @@ absl::Status CheckTotalFlags(const TotalOptions& flags, const SurveyDescription&
                         {"--water-column", flags.water_column.has_value()}};
   for (const auto& flag : flags_of_total) {
     if (flag.given)
-      return UsageError(absl::StrCat(flag.flag, " has no effect without --sensor; give both or none of them"));
+      return UsageError(
+          absl::StrCat(flag.flag, " has no effect without --sensor; give both or none of them"));
   }
   if (survey.sigma.has_value())
     return UsageError("[sigma] has no effect without a sensor; give [sensor] name, or --sensor");

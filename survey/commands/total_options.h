@@ -13,9 +13,9 @@
 namespace albtpu::client {
 
 struct TotalOptions {
-  std::optional<std::string> sensor;   // --sensor
-  std::optional<std::string> located;  // --surface-located
-  std::optional<double> datum_sigma;   // --datum-sigma, m
+  std::optional<std::string> sensor;        // --sensor
+  std::optional<std::string> located;       // --surface-located
+  std::optional<double> datum_sigma;        // --datum-sigma, m
   std::optional<std::string> water_column;  // --water-column none
 };
 
@@ -23,8 +23,8 @@ struct TotalOptions {
 void AddTotalOptions(CLI::App& command, TotalOptions& options);
 
 // Three numbers, of the motion of the aircraft at one pulse.
-void AddTriple(CLI::App& command, const std::string& flag, const std::string& type, const std::string& description,
-               std::optional<std::array<double, 3>>& value);
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
+               const std::string& description, std::optional<std::array<double, 3>>& value);
 
 // The survey file with what flags say in place of it.
 SurveyDescription Together(const TotalOptions& flags, SurveyDescription survey);

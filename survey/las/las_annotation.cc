@@ -95,7 +95,8 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
         annotated.classes.Merge(chunk.classes);
         annotated.summary.Merge(chunk.summary);
         annotated.totals.Merge(chunk.totals);
-        for (const auto& [line, summary] : chunk.totals_by_line) annotated.totals_by_line[line].Merge(summary);
+        for (const auto& [line, summary] : chunk.totals_by_line)
+          annotated.totals_by_line[line].Merge(summary);
         annotated.sigmas_assumed += chunk.sigmas_assumed;
         annotated.surface.Merge(chunk.surface);
         annotated.incidence.Merge(chunk.incidence);
@@ -166,7 +167,8 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   }
   if (annotated.sigmas_assumed > 0) {
     annotated.notes.push_back(absl::StrCat("no error file states the errors of the trajectory at ",
-                                           annotated.sigmas_assumed, " points; those of a good one are assumed"));
+                                           annotated.sigmas_assumed,
+                                           " points; those of a good one are assumed"));
   }
   if (annotation.seas != nullptr) {
     const auto [first, last] = (*beams)->records();

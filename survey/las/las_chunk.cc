@@ -208,7 +208,8 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
   put(total.thu[i]);
   put(total.tvu[i]);
   if (!appended_.details) return;
-  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea}) put((*column)[i]);
+  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea})
+    put((*column)[i]);
   put(kNoNumber);  // The water column.
   put(kNoNumber);
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);

@@ -99,7 +99,7 @@ class LasChunkWork {
   double utc_;
   bool pulse_surface_;
   Appended appended_;
-  std::vector<float> no_data_;      // Of what is appended.
+  std::vector<float> no_data_;  // Of what is appended.
   AnswerStyle style_;
   const TotalPlan* total_;  // Null without a total.
   AnswerSelection selection_;

@@ -123,7 +123,8 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   if (appended.total && appended.details) {
     for (const std::string_view name : {"thu_air", "tvu_air", "thu_sea", "tvu_sea"})
       floats.push_back({name, length, kNoNumber});
-    for (const std::string_view name : {"thu_water", "tvu_water"}) floats.push_back({name, "left out", kNoNumber});
+    for (const std::string_view name : {"thu_water", "tvu_water"})
+      floats.push_back({name, "left out", kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
     floats.push_back({"bias_vertical", "too shallow, m", kNan});
     for (const std::string_view name :

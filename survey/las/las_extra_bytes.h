@@ -33,7 +33,8 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 inline constexpr std::size_t kUncertaintyCount = 2;
 // thu_air to tvu_water, two biases, six entries of the covariance.
 inline constexpr std::size_t kTotalDetailCount = 14;
-inline constexpr std::size_t kGeometryCount = 5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
+inline constexpr std::size_t kGeometryCount =
+    5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
 
 // Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;

@@ -45,7 +45,9 @@ class LasPointFields {
   }
 
   // Mostly the number of the flight line.
-  int PointSourceId(std::string_view record) const { return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18); }
+  int PointSourceId(std::string_view record) const {
+    return laz::Load<std::uint16_t>(record, modern_ ? 20 : 18);
+  }
 
   bool has_gps_time() const { return gps_time_ != 0; }
   // As the file states it. Requires has_gps_time().

@@ -145,7 +145,8 @@ absl::Status SeaAnswers::Answer(const Query& query, const PulseBatch& pulses,
   std::map<std::size_t, Group> groups;  // By the first record.
   Group* last = nullptr;
   for (std::size_t i = 0; i < pulses.size; ++i) {
-    const std::optional<BetweenRecords> between = seas_->At(pulses.times[i], last == nullptr ? 0 : last->between.first);
+    const std::optional<BetweenRecords> between =
+        seas_->At(pulses.times[i], last == nullptr ? 0 : last->between.first);
     assert(between.has_value());
     if (last == nullptr || last->between.first != between->first) last = &groups[between->first];
     if (last->rows.empty() || between->second != between->first) last->between = *between;

@@ -15,14 +15,15 @@
 namespace albtpu::client {
 namespace {
 
-// What is assumed where nothing else is known, 1 sigma: a well calibrated system with a good trajectory, as post-processed
-// GNSS and inertial navigation of airborne surveys state it (data sheets of Applanix AP and POS AV, PPK).
-constexpr Triple kPosition = {0.02, 0.02, 0.06};     // m
-constexpr Triple kAttitude = {0.005, 0.005, 0.008};  // degree
+// What is assumed where nothing else is known, 1 sigma: a well calibrated system with a good trajectory, as
+// post-processed GNSS and inertial navigation of airborne surveys state it (data sheets of Applanix AP and POS AV,
+// PPK).
+constexpr Triple kPosition = {0.02, 0.02, 0.06};      // m
+constexpr Triple kAttitude = {0.005, 0.005, 0.008};   // degree
 constexpr Triple kBoresight = {0.001, 0.001, 0.004};  // degree
-constexpr double kLeverArm = 0.02;                   // m
-constexpr double kTime = 1e-5;                       // s
-constexpr double kLevel = 0.05;                      // m; of a water level of a gauge or a tide model near by.
+constexpr double kLeverArm = 0.02;                    // m
+constexpr double kTime = 1e-5;                        // s
+constexpr double kLevel = 0.05;  // m; of a water level of a gauge or a tide model near by.
 // Sea water of 5 to 30 degrees C and salinities of 25 to 38 has 1.337 to 1.344 at 532 nm (Quan and Fry 1995).
 constexpr double kIndex = 0.002;
 
@@ -37,13 +38,16 @@ class Numbers {
   // The user's number, else the sensor's, else what is assumed, which says why; else a problem.
   template <typename Value, typename Sourced>
   Value Choose(const char* key, const char* unit, const std::optional<Value>& told,
-               const std::optional<Sourced>& sourced, const std::optional<Value>& assumed, const std::string& why) {
+               const std::optional<Sourced>& sourced, const std::optional<Value>& assumed,
+               const std::string& why) {
     const auto take = [&](const Value& value, const std::string& source, bool is_assumed) {
-      plan_.numbers.push_back({key, absl::StrCat(Text(value), *unit == '\0' ? "" : " ", unit), source, is_assumed});
+      plan_.numbers.push_back(
+          {key, absl::StrCat(Text(value), *unit == '\0' ? "" : " ", unit), source, is_assumed});
       return value;
     };
     if (told.has_value()) return take(*told, "[sigma]", false);
-    if (sourced.has_value()) return take(sourced->value, absl::StrCat(sensor_.name, ": ", sourced->source), false);
+    if (sourced.has_value())
+      return take(sourced->value, absl::StrCat(sensor_.name, ": ", sourced->source), false);
     if (assumed.has_value()) return take(*assumed, why, true);
     missing_.push_back(absl::StrCat(key, " (", unit, ")"));
     return {};
@@ -51,13 +55,14 @@ class Numbers {
   template <typename Value>
   Value Choose(const char* key, const char* unit, const std::optional<Value>& told, const Value& assumed,
                const std::string& why) {
-    return Choose(key, unit, told, std::optional<SourcedNumberOr<Value>>(), std::optional<Value>(assumed), why);
+    return Choose(key, unit, told, std::optional<SourcedNumberOr<Value>>(), std::optional<Value>(assumed),
+                  why);
   }
 
   absl::Status status() const {
     if (missing_.empty()) return absl::OkStatus();
-    return UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ", sensor_.title,
-                                   "; state it under [sigma] in the survey file"));
+    return UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ",
+                                   sensor_.title, "; state it under [sigma] in the survey file"));
   }
 
  private:
@@ -74,29 +79,35 @@ class Numbers {
 
 absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const TotalContext& context) {
   if (surface.located.has_value()) {
-    const auto found = std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
+    const auto found =
+        std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
     const auto located = static_cast<SurfaceLocation>(found - kSurfaceLocationNames.begin());
-    if (located == SurfaceLocation::kLevel || context.has_surface_returns || !context.has_level) return located;
-    return UsageError(absl::StrCat("[surface] located = \"", *surface.located,
-                                   "\" needs returns from the surface, but only a level is told; give their classes, or "
-                                   "located = \"level\""));
+    if (located == SurfaceLocation::kLevel || context.has_surface_returns || !context.has_level)
+      return located;
+    return UsageError(
+        absl::StrCat("[surface] located = \"", *surface.located,
+                     "\" needs returns from the surface, but only a level is told; give their classes, or "
+                     "located = \"level\""));
   }
   if (context.has_surface_returns) return SurfaceLocation::kLocal;
   if (context.has_level) return SurfaceLocation::kLevel;
   return UsageError(
-      "nothing says how the surface was located when the points were made; give [surface] located = \"pulse\" (by the "
+      "nothing says how the surface was located when the points were made; give [surface] located = "
+      "\"pulse\" (by the "
       "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
 }
 
 absl::Status CheckDecided(const SurveyDescription& survey) {
   if (!survey.datum.has_value() || !survey.datum->sigma.has_value()) {
     return UsageError(
-        "the uncertainty of the vertical datum is not decided, so that no number may be called total; give [datum] sigma "
+        "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
+        "[datum] sigma "
         "in m, 1 sigma (0 for ellipsoidal heights)");
   }
   if (survey.water.has_value() && survey.water->without_column) return absl::OkStatus();
   return UsageError(
-      "the share of the water column is not decided, so that no number may be called total; it cannot be computed yet: give "
+      "the share of the water column is not decided, so that no number may be called total; it cannot be "
+      "computed yet: give "
       "[water] column = \"none\" to leave it out");
 }
 
@@ -107,14 +118,14 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
     if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
   const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
   if (!sensor.ok()) return sensor.status();
-  const absl::StatusOr<SurfaceLocation> located =
-      LocationOf(survey.surface.value_or(ToldSurface()), context);
+  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface.value_or(ToldSurface()), context);
   if (!located.ok()) return located.status();
   TotalPlan plan;
   BudgetOptions& options = plan.options;
   options.located = *located;
   options.coverage = context.coverage;
-  const auto state = [&](const char* name, const std::string& value, const std::string& source, bool assumed) {
+  const auto state = [&](const char* name, const std::string& value, const std::string& source,
+                         bool assumed) {
     plan.numbers.push_back({name, value, source, assumed});
   };
   state("sensor", sensor->title, sensor->name, false);
@@ -135,27 +146,31 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
     errors.attitude = kAttitude;
     state("attitude", "pulse by pulse", context.trajectory_errors, false);
   } else {
-    errors.attitude = numbers.Choose("attitude", "degree", told.attitude, sensor->attitude, {kAttitude}, good);
+    errors.attitude =
+        numbers.Choose("attitude", "degree", told.attitude, sensor->attitude, {kAttitude}, good);
   }
   errors.boresight = numbers.Choose("boresight", "degree", told.boresight, sensor->boresight, {kBoresight},
                                     "assumed: a good calibration");
-  errors.lever_arm =
-      numbers.Choose("lever_arm", "m", told.lever_arm, sensor->lever_arm, {kLeverArm}, "assumed: a good survey of it");
+  errors.lever_arm = numbers.Choose("lever_arm", "m", told.lever_arm, sensor->lever_arm, {kLeverArm},
+                                    "assumed: a good survey of it");
   errors.scan = numbers.Choose("scan", "degree", told.scan, sensor->scan, {}, "");
-  errors.time = numbers.Choose("time", "s", told.time, sensor->time, {kTime}, "assumed: hardware time stamps");
+  errors.time =
+      numbers.Choose("time", "s", told.time, sensor->time, {kTime}, "assumed: hardware time stamps");
   errors.range_offset = numbers.Choose("range_offset", "m", told.range_offset, sensor->range_offset, {0.0},
                                        "assumed: calibrated");
   errors.bottom_range = numbers.Choose("bottom_range", "m", told.bottom_range, sensor->bottom_range, {}, "");
   if (absl::Status status = numbers.status(); !status.ok()) return status;
-  const double return_range = sensor->surface_range.has_value() ? sensor->surface_range->value : errors.bottom_range;
+  const double return_range =
+      sensor->surface_range.has_value() ? sensor->surface_range->value : errors.bottom_range;
   if (*located == SurfaceLocation::kPulse && !told.surface_height.has_value()) {
-    errors.surface_range = numbers.Choose("surface_range", "m", std::optional<double>(), sensor->surface_range,
-                                          {return_range}, "assumed: as good as the range to the bottom");
+    errors.surface_range =
+        numbers.Choose("surface_range", "m", std::optional<double>(), sensor->surface_range, {return_range},
+                       "assumed: as good as the range to the bottom");
   } else {
     const bool level = *located == SurfaceLocation::kLevel;
-    errors.surface_height =
-        numbers.Choose("surface_height", "m", told.surface_height, level ? kLevel : return_range,
-                       level ? "assumed: a gauge or tide model near by" : "assumed: no better than one return");
+    errors.surface_height = numbers.Choose(
+        "surface_height", "m", told.surface_height, level ? kLevel : return_range,
+        level ? "assumed: a gauge or tide model near by" : "assumed: no better than one return");
   }
   errors.index = numbers.Choose("index", "", told.index, kIndex,
                                 "assumed: sea water of unknown temperature and salinity");
@@ -163,15 +178,17 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
   const ToldWater water = survey.water.value_or(ToldWater());
   options.index = context.index.value_or(water.index.value_or(options.index));
   const bool index_told = context.index.has_value() || water.index.has_value();
-  state("refractive_index", Text(options.index), index_told ? "the user" : "assumed: sea water at 532 nm", !index_told);
-  const std::optional<Triple> arm = context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
+  state("refractive_index", Text(options.index), index_told ? "the user" : "assumed: sea water at 532 nm",
+        !index_told);
+  const std::optional<Triple> arm =
+      context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
   options.lever_arm = arm.value_or(Triple{});
   state("lever_arm_vector", absl::StrCat(Text(options.lever_arm), " m"),
         arm.has_value() ? "the user" : "assumed: none", !arm.has_value());
   const bool datum_told = survey.datum.has_value() && survey.datum->sigma.has_value();
   options.datum = datum_told ? *survey.datum->sigma : 0;
-  state("datum", absl::StrCat(options.datum, " m"), datum_told ? "[datum]" : "assumed: none, ellipsoidal heights",
-        !datum_told);
+  state("datum", absl::StrCat(options.datum, " m"),
+        datum_told ? "[datum]" : "assumed: none, ellipsoidal heights", !datum_told);
   state("water_column", "left out", water.without_column ? "[water]" : "not decided", !water.without_column);
   return plan;
 }

@@ -50,7 +50,9 @@ TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const 
       directed_ ? std::span<const float>(aircraft.beam_azimuth) : std::span<const float>(&kNorth, 1);
   for (std::size_t i = 0; i < AircraftColumns::kMotions; ++i)
     columns_.columns[static_cast<std::size_t>(BudgetInput::kRoll) + i] = aircraft.motion[i];
-  const auto answer = [&](Quantity quantity) -> std::span<const float> { return sea.values[Index(quantity)]; };
+  const auto answer = [&](Quantity quantity) -> std::span<const float> {
+    return sea.values[Index(quantity)];
+  };
   columns_[BudgetInput::kSeaThu] = answer(Quantity::kThu);
   columns_[BudgetInput::kSeaTvu] = answer(Quantity::kTvu);
   columns_[BudgetInput::kRefractionAlong] = answer(Quantity::kRefractionAlongWind);
@@ -74,8 +76,8 @@ TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const 
   }
 }
 
-void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
-                   TotalBatch& totals) {
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
+                   AircraftColumns& aircraft, TotalBatch& totals) {
   const std::size_t size = pulses.size;
   const TotalInputs inputs(plan, pulses, sea, aircraft);
   totals.sigmas_assumed = inputs.sigmas_assumed();

@@ -39,7 +39,8 @@ struct TotalBatch {
   Variances air, sea;
   std::array<Variances, kErrorGroups> groups;
   std::vector<std::uint8_t> best_orders;
-  std::uint64_t sigmas_assumed = 0;  // Pulses at whose time no error file states how well the trajectory is known.
+  std::uint64_t sigmas_assumed =
+      0;  // Pulses at whose time no error file states how well the trajectory is known.
 
   std::size_t size() const { return thu.size(); }
 };
@@ -51,7 +52,8 @@ void SelectForTotals(AnswerSelection& selection);
 class TotalInputs {
  public:
   // `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
-  TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft);
+  TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
+              AircraftColumns& aircraft);
   TotalInputs(const TotalInputs&) = delete;
   TotalInputs& operator=(const TotalInputs&) = delete;
 
@@ -68,7 +70,7 @@ class TotalInputs {
 };
 
 // `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
-void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea, AircraftColumns& aircraft,
-                   TotalBatch& totals);
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
+                   AircraftColumns& aircraft, TotalBatch& totals);
 
 }  // namespace albtpu::client

@@ -8,14 +8,16 @@ nlohmann::ordered_json Parameters(const TotalPlan& plan) {
   nlohmann::ordered_json json;
   json["located"] = std::string(kSurfaceLocationNames[static_cast<std::size_t>(plan.options.located)]);
   for (const StatedNumber& number : plan.numbers)
-    json["numbers"][number.name] = {{"value", number.value}, {"source", number.source}, {"assumed", number.assumed}};
+    json["numbers"][number.name] = {
+        {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}};
   return json;
 }
 
 std::vector<std::string> Assumptions(const TotalPlan& plan) {
   std::vector<std::string> lines;
   for (const StatedNumber& number : plan.numbers) {
-    if (number.assumed) lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
+    if (number.assumed)
+      lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
   }
   return lines;
 }

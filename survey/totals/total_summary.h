@@ -1,4 +1,5 @@
-// A summary of all totals in a file or a line: by depth, THU and TVU, the shares of the variance, and the orders of S-44.
+// A summary of all totals in a file or a line: by depth, THU and TVU, the shares of the variance, and the orders of
+// S-44.
 #pragma once
 
 #include <array>

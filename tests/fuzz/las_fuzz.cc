@@ -75,7 +75,8 @@ std::string_view Record(std::string_view file, const LasHeader& header, std::siz
 void CheckRecords(std::string_view before, const LasHeader& old_header, std::string_view after,
                   const LasHeader& header, float largest_incidence) {
   ALBTPU_MUST(header.point_count == old_header.point_count && header.point_format == old_header.point_format);
-  ALBTPU_MUST(header.record_length == old_header.record_length + AppendedFloats({.details = true}).size() * sizeof(float));
+  ALBTPU_MUST(header.record_length ==
+              old_header.record_length + AppendedFloats({.details = true}).size() * sizeof(float));
   for (std::size_t i = 0; i < header.point_count; ++i) {
     const std::string_view record = Record(after, header, i);
     ALBTPU_MUST(record.substr(0, old_header.record_length) == Record(before, old_header, i));
@@ -176,14 +177,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ALBTPU_MUST(FindFeet(*reader).ok());
   ALBTPU_MUST(DescribeCrs(*reader).ok());
   if (reader->kind() == LasKind::kLaz) return 0;  // Its points are not in the file as they are.
-  absl::StatusOr<LasHead> head =
-      AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
+  absl::StatusOr<LasHead> head = AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
   if (!head.ok()) {
     MustExplain(head.status());
     return 0;
   }
   const LasHeader& header = reader->header();
-  const std::uint64_t length = header.record_length + AppendedFloats({.details = true}).size() * sizeof(float);
+  const std::uint64_t length =
+      header.record_length + AppendedFloats({.details = true}).size() * sizeof(float);
   MoveTailStarts(*reader, header.end_of_points(), head->bytes.size() + header.point_count * length,
                  head->bytes);
   static const LasAnnotation by_angle = Annotation(), by_track = TrackAnnotation();

@@ -208,7 +208,8 @@ std::vector<Comparison> VerdictsOnResolvedSeas(const std::vector<ComparedBeam>& 
   std::vector<ComparedBeam> shorter, longer;
   for (const ComparedBeam& beam : beams) (beam.seen < kFarLonger ? longer : shorter).push_back(beam);
   std::vector<Comparison> verdicts;
-  for (const Bound& bound : kOnResolvedSeas) verdicts.push_back(Judge(shorter, bound, "seas that a grid holds"));
+  for (const Bound& bound : kOnResolvedSeas)
+    verdicts.push_back(Judge(shorter, bound, "seas that a grid holds"));
   verdicts.push_back(Judge(longer, kUnderFarLongerBeams, "footprints far longer than the waves"));
   return verdicts;
 }

@@ -13,8 +13,26 @@ namespace albtpu::testing {
 
 // What may err, in the units of AirErrors, with angles in radians.
 enum AirUnknown {
-  kNorth, kEast, kDown, kRoll, kPitch, kHeading, kBoresightX, kBoresightY, kBoresightZ, kLeverX, kLeverY, kLeverZ,
-  kScanA, kScanB, kTime, kRangeOffset, kBottomRange, kSurfaceHeight, kIndex, kAirUnknowns
+  kNorth,
+  kEast,
+  kDown,
+  kRoll,
+  kPitch,
+  kHeading,
+  kBoresightX,
+  kBoresightY,
+  kBoresightZ,
+  kLeverX,
+  kLeverY,
+  kLeverZ,
+  kScanA,
+  kScanB,
+  kTime,
+  kRangeOffset,
+  kBottomRange,
+  kSurfaceHeight,
+  kIndex,
+  kAirUnknowns
 };
 
 template <typename T>
@@ -41,9 +59,9 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   using std::sqrt;
   constexpr double kDegree = std::numbers::pi / 180;
   const double incidence = pulse.incidence * kDegree, azimuth = pulse.beam_azimuth * kDegree;
-  const Eigen::Matrix3d attitude =
-      Turn<double>(2, pulse.heading * kDegree) * Turn<double>(1, pulse.pitch * kDegree) *
-      Turn<double>(0, pulse.roll * kDegree);
+  const Eigen::Matrix3d attitude = Turn<double>(2, pulse.heading * kDegree) *
+                                   Turn<double>(1, pulse.pitch * kDegree) *
+                                   Turn<double>(0, pulse.roll * kDegree);
   // The direction in the scanner, without errors.
   const Eigen::Vector3d u0(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
                            std::cos(incidence));
@@ -52,8 +70,8 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   const Eigen::Vector3d b0(-std::sin(azimuth), std::cos(azimuth), 0);
   const Vector3<T> scanned = u0.cast<T>() + a0.cast<T>() * errors[kScanA] + b0.cast<T>() * errors[kScanB];
   const Vector3<T> in_aircraft = attitude.transpose().cast<T>() * (scanned / scanned.norm());
-  const Eigen::Matrix<T, 3, 3> boresight = Turn<T>(2, errors[kBoresightZ]) * Turn<T>(1, errors[kBoresightY]) *
-                                           Turn<T>(0, errors[kBoresightX]);
+  const Eigen::Matrix<T, 3, 3> boresight =
+      Turn<T>(2, errors[kBoresightZ]) * Turn<T>(1, errors[kBoresightY]) * Turn<T>(0, errors[kBoresightX]);
   // The laser's time is late by errors[kTime]: the aircraft has moved and turned.
   const T t = errors[kTime];
   const Vector3<T> turned = (pulse.rates * kDegree).cast<T>() * t;
@@ -66,8 +84,8 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   const Eigen::Matrix<T, 3, 3> by_angles = Turn<T>(2, T(pulse.heading * kDegree) + errors[kHeading]) *
                                            Turn<T>(1, T(pulse.pitch * kDegree) + errors[kPitch]) *
                                            Turn<T>(0, T(pulse.roll * kDegree) + errors[kRoll]) * spin;
-  const Vector3<T> lever = pulse.lever_arm.cast<T>() +
-                           Vector3<T>(errors[kLeverX], errors[kLeverY], errors[kLeverZ]);
+  const Vector3<T> lever =
+      pulse.lever_arm.cast<T>() + Vector3<T>(errors[kLeverX], errors[kLeverY], errors[kLeverZ]);
   Vector3<T> sensor = by_angles * lever + pulse.velocity.cast<T>() * t;
   sensor += Vector3<T>(errors[kNorth], errors[kEast], errors[kDown]);
   const Vector3<T> u = by_angles * (boresight * in_aircraft);
@@ -79,7 +97,8 @@ Vector3<T> ReportedPoint(const AirPulse& pulse, bool given, const Eigen::Matrix<
   const double surface_down = sensor0.z() + pulse.altitude;
   const T n = T(pulse.index) + errors[kIndex];
   const T ranged = T(optical) + errors[kRangeOffset] + errors[kBottomRange];
-  // An error of the height upwards shortens the way to a surface given; of the own return, the range is by that shorter.
+  // An error of the height upwards shortens the way to a surface given; of the own return, the range is by that
+  // shorter.
   T in_air = T(slant) + errors[kRangeOffset] - errors[kSurfaceHeight] / u[2];
   if (given) in_air = (T(surface_down) - errors[kSurfaceHeight] - sensor[2]) / u[2];
   const T in_water = (ranged - in_air) / n;

@@ -157,7 +157,8 @@ TEST_F(LasChunkTest, GivesTheSameBytesForChunksOfAnySize) {
 TEST_F(LasChunkTest, FindsTheSurfaceReturnOfThePulse) {
   const LasSpec spec = MixedPulses(2000);
   const Result whole = AnnotateInChunks(BuildLas(spec), 64);
-  const std::size_t length = albtpu::testing::PointSize(6) + AppendedFloats({.details = true}).size() * sizeof(float);
+  const std::size_t length =
+      albtpu::testing::PointSize(6) + AppendedFloats({.details = true}).size() * sizeof(float);
   std::size_t found = 0, beyond = 0;
   for (std::size_t i = 0; i < spec.points.size(); ++i) {
     const LasPoint& point = spec.points[i];

@@ -18,8 +18,7 @@ using laz::Load;
 using ::testing::HasSubstr;
 
 std::string Describe(const std::string& described, std::size_t extra_bytes) {
-  const auto record =
-      DescribeAppended("in.las", described, extra_bytes, AppendedFloats({}));
+  const auto record = DescribeAppended("in.las", described, extra_bytes, AppendedFloats({}));
   return record.ok() ? *record : std::string(record.status().message());
 }
 
@@ -47,7 +46,8 @@ TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
 }
 
 TEST(LasExtraBytes, StatesTheCoverage) {
-  const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
+  const auto record =
+      DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
   EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
 }
 

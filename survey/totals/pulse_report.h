@@ -21,17 +21,17 @@ struct PulseMotion {
 
 struct PulseTotal {
   TotalPlan plan;
-  PulseBatch pulse;  // One pulse, at the axes of the table.
-  float altitude = 0;                  // m above the water
-  std::optional<float> beam_azimuth;   // degree, true
+  PulseBatch pulse;                   // One pulse, at the axes of the table.
+  float altitude = 0;                 // m above the water
+  std::optional<float> beam_azimuth;  // degree, true
   PulseMotion motion;
 };
 
-// One object: `thu`, `tvu` at the coverage asked for, `coverage`; `covariance_air`, `covariance_sea`, `covariance_water`,
-// `covariance_total` (m^2, 1 sigma: NN EE DD NE ND ED; null where not known or left out); `sources` (the variances of
-// each, horizontal and vertical, m^2, and its group); `groups`; `semi_major`, `semi_minor` (m, 1 sigma),
-// `major_azimuth` (degree from north); `bias_along_beam`, `bias_vertical` (m); `s44_order_met`; `outcome`; `numbers` of
-// the plan with their sources; `assumed`, `undecided`. Fails where the source does.
+// One object: `thu`, `tvu` at the coverage asked for, `coverage`; `covariance_air`, `covariance_sea`,
+// `covariance_water`, `covariance_total` (m^2, 1 sigma: NN EE DD NE ND ED; null where not known or left out); `sources`
+// (the variances of each, horizontal and vertical, m^2, and its group); `groups`; `semi_major`, `semi_minor` (m, 1
+// sigma), `major_azimuth` (degree from north); `bias_along_beam`, `bias_vertical` (m); `s44_order_met`; `outcome`;
+// `numbers` of the plan with their sources; `assumed`, `undecided`. Fails where the source does.
 absl::StatusOr<nlohmann::ordered_json> TotalJson(const PulseTotal& total, const AnswerSource& source);
 
 // The same for people.

@@ -1,4 +1,4 @@
-#include "survey/commands/total_pulse.h"
+#include "survey/totals/pulse_report.h"
 
 #include <array>
 #include <cmath>
@@ -32,7 +32,8 @@ Json NumberOrNull(float number) { return std::isfinite(number) ? JsonNumber(numb
 void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
   const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& told) {
     for (std::size_t i = 0; told.has_value() && i < 3; ++i)
-      aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(first) + i)] = {static_cast<float>((*told)[i])};
+      aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(first) + i)] = {
+          static_cast<float>((*told)[i])};
   };
   set(BudgetInput::kRoll, motion.attitude);
   set(BudgetInput::kVelocityNorth, motion.velocity);
@@ -59,9 +60,10 @@ Json SourcesJson(const PulseTotal& total) {
   Json json;
   for (const AirSource& source : AirSources(pulse, total.plan.options.located, total.plan.options.errors)) {
     const Eigen::Matrix3d c = source.Covariance();
-    json[std::string(source.name)] = {{"horizontal", c(0, 0) + c(1, 1)},
-                                      {"vertical", c(2, 2)},
-                                      {"group", std::string(kErrorGroupNames[static_cast<std::size_t>(source.group)])}};
+    json[std::string(source.name)] = {
+        {"horizontal", c(0, 0) + c(1, 1)},
+        {"vertical", c(2, 2)},
+        {"group", std::string(kErrorGroupNames[static_cast<std::size_t>(source.group)])}};
   }
   return json;
 }
@@ -148,8 +150,8 @@ std::string TotalText(const Json& total) {
   absl::StrAppend(&text, "order of S-44 met: ",
                   total["s44_order_met"].is_string() ? total["s44_order_met"].get<std::string>() : "none",
                   " (at 95 %, biases added)\n");
-  absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n", number(total["bias_along_beam"]),
-                                         number(total["bias_vertical"])));
+  absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n",
+                                         number(total["bias_along_beam"]), number(total["bias_vertical"])));
   absl::StrAppend(&text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m",
                                          "vertical, m (1 sigma)"));
   for (const auto& [name, source] : total["sources"].items()) {

@@ -1,11 +1,11 @@
-// A simulated survey, whose errors are drawn by the declared standard deviations: does the reported uncertainty hold 95 %
-// of the points?
+// A simulated survey, whose errors are drawn by the declared standard deviations: does the reported uncertainty hold 95
+// % of the points?
 //
 // Errors of survey and line are drawn once for each line and are constant along it, those of a pulse anew. Points come
 // from an exact forward model of the lidar. Waves are those of the Monte Carlo: each pulse is a beam that was traced
 // through a realization of the sea. Its share is stated as a table would, from the sample itself.
 //
-// ALBTPU_SIMULATED_TOTALS=FILE.csv also writes what was found, for tests/validation/budget/draw_simulated_totals.py.
+// ALBTPU_SIMULATED_TOTALS=FILE.csv also writes what was found, for tests/validation/physics/draw_simulated_totals.py.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -55,7 +55,7 @@ const AirErrors kErrors = {.position = {0.02, 0.02, 0.06},
 // What waves do to one kind of beam.
 struct TracedErrors {
   std::vector<BeamErrors> draws;  // Less their means, which are biases.
-  BeamUncertainty uncertainty;  // At kDepths.
+  BeamUncertainty uncertainty;    // At kDepths.
 };
 
 // By incidence, then azimuth.
@@ -69,7 +69,10 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
   const Discretization grid = ChooseDiscretization(sea, beams);
   const SurfaceModel model(sea, beams.back(), grid);
   const auto tracing = MakePlainTracing(
-      model, {.beams = beams, .refractive_index = kIndex, .rays = 600, .unresolved_slopes = Eigen::Matrix2d::Zero(),
+      model, {.beams = beams,
+              .refractive_index = kIndex,
+              .rays = 600,
+              .unresolved_slopes = Eigen::Matrix2d::Zero(),
               .resolved_slopes = model.FacetSlopeCovariance([](double, double) { return 1.0; })});
   std::vector<std::vector<BeamRealization>> samples(beams.size());
   std::vector<BeamRealization> realized(beams.size());
@@ -80,7 +83,8 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
   }
   std::vector<TracedErrors> traced(beams.size());
   for (std::size_t b = 0; b < beams.size(); ++b) {
-    traced[b].uncertainty = UncertaintyOf(samples[b], beams[b], kIndex, std::nullopt, {kDepths.begin(), kDepths.end()});
+    traced[b].uncertainty =
+        UncertaintyOf(samples[b], beams[b], kIndex, std::nullopt, {kDepths.begin(), kDepths.end()});
     BeamErrors mean;
     for (const BeamRealization& each : samples[b]) {
       const BeamErrors& e = each.parts[0].errors;
@@ -100,6 +104,77 @@ std::vector<TracedErrors> Trace(const SeaState& sea) {
   return traced;
 }
 
+// One sea for all tests.
+const SeaState& Sea() {
+  static const SeaState sea(
+      {.waves = WindSea{.wind_speed_10m = kWind, .fetch = kFetch, .model = &kElfouhailyModel}});
+  return sea;
+}
+const std::vector<TracedErrors>& Traced() {
+  static const std::vector<TracedErrors> traced = Trace(Sea());
+  return traced;
+}
+
+// The covariance of the share of the sea surface, made of THU, TVU and the two refractions, is that of the traced
+// errors.
+TEST(SeaShare, HasTheCovarianceOfTracedBeams) {
+  constexpr std::size_t kDepth = 2;
+  const double depth = kDepths[kDepth];
+  for (std::size_t t = 1; t < kIncidences.size(); ++t) {  // Near nadir TVU is of second order.
+    for (std::size_t a = 0; a < kAzimuths.size(); ++a) {
+      const TracedErrors& waves = Traced()[t * kAzimuths.size() + a];
+      // On the axes of the sea, x downwind, which is north here; y to its left, which is west; up.
+      Eigen::Matrix3d traced = Eigen::Matrix3d::Zero();
+      for (const BeamErrors& e : waves.draws) {
+        const Eigen::Vector2d h = e.horizontal_offset + depth * e.horizontal_per_depth;
+        const Vector3d error(h.x(), -h.y(), -(e.vertical_offset + depth * e.vertical_per_depth));
+        traced += error * error.transpose() / kRealizations;
+      }
+      const float incidence = static_cast<float>(kIncidences[t]), azimuth = static_cast<float>(-kAzimuths[a]);
+      const std::array<float, 9> numbers = {incidence,
+                                            azimuth,
+                                            400,
+                                            static_cast<float>(depth),
+                                            static_cast<float>(waves.uncertainty.thu[kDepth].value),
+                                            static_cast<float>(waves.uncertainty.tvu[kDepth].value),
+                                            static_cast<float>(waves.uncertainty.refraction_along_wind.value),
+                                            static_cast<float>(waves.uncertainty.refraction_cross_wind.value),
+                                            0};
+      BudgetInputs inputs{.size = 1};
+      const BudgetInput given[] = {
+          BudgetInput::kIncidence,       BudgetInput::kBeamAzimuth,     BudgetInput::kAltitude,
+          BudgetInput::kDepth,           BudgetInput::kSeaThu,          BudgetInput::kSeaTvu,
+          BudgetInput::kRefractionAlong, BudgetInput::kRefractionCross, BudgetInput::kSeaAxis};
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        inputs[given[i]] = std::span<const float>(&numbers[i], 1);
+      std::array<float, 6> c;
+      BudgetOutputs outputs;
+      for (std::size_t i = 0; i < c.size(); ++i) outputs.sea[i] = std::span<float>(&c[i], 1);
+      ComputeBudget(inputs, {.index = kIndex}, outputs);
+      const auto near = [&](double ours, int row, int column) {
+        const double scale = std::sqrt(traced(row, row) * traced(column, column));
+        EXPECT_NEAR(ours / scale, traced(row, column) / scale, 0.03)
+            << incidence << " " << azimuth << " " << row << column;
+      };
+      near(c[0], 0, 0);
+      near(c[1], 1, 1);
+      near(c[2], 2, 2);
+      near(c[3], 0, 1);
+      near(c[4], 0, 2);
+      near(c[5], 1, 2);
+      // TVU follows from the horizontal covariance in the plane of the beam where the first order dominates.
+      const double sine = std::sin(RadiansOfDegrees(incidence)) / kIndex;
+      const Eigen::Vector2d e(std::cos(RadiansOfDegrees(azimuth)), std::sin(RadiansOfDegrees(azimuth)));
+      const Eigen::Matrix2d horizontal = (Eigen::Matrix2d() << c[0], c[3], c[3], c[1]).finished();
+      const double along_beam = std::sqrt(e.dot(horizontal * e));
+      EXPECT_NEAR(sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]), 1, 0.025)
+          << incidence << " " << azimuth;
+      std::printf("incidence %g, azimuth %g: TVU of the horizontal covariance over TVU %.4f\n", incidence,
+                  -azimuth, sine * std::sqrt(1 - sine * sine) * along_beam / std::sqrt(c[2]));
+    }
+  }
+}
+
 // Shares of the points within the reported THU and TVU.
 struct Held {
   double thu = 0, tvu = 0;
@@ -116,17 +191,20 @@ class SimulatedTotals : public ::testing::TestWithParam<SurfaceLocation> {};
 
 TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
   const SurfaceLocation located = GetParam();
-  const SeaState sea({.waves = WindSea{.wind_speed_10m = kWind, .fetch = kFetch, .model = &kElfouhailyModel}});
-  static const std::vector<TracedErrors> traced = Trace(sea);
+  const std::vector<TracedErrors>& traced = Traced();
   const bool unseen = located != SurfaceLocation::kPulse;
-  const double wave_height = std::sqrt(ElevationVariance(sea));
+  const double wave_height = std::sqrt(ElevationVariance(Sea()));
   std::mt19937_64 random(1 + static_cast<unsigned>(located));
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   const bool level = located == SurfaceLocation::kLevel;
   const auto draw = [&](double sigma) { return sigma * normal(random); };
-  const BudgetOptions options = {.errors = kErrors, .located = located, .lever_arm = {0.3, -0.2, 0.5},
-                                 .index = kIndex, .datum = 0.05, .coverage = Coverage::kP95};
+  const BudgetOptions options = {.errors = kErrors,
+                                 .located = located,
+                                 .lever_arm = {0.3, -0.2, 0.5},
+                                 .index = kIndex,
+                                 .datum = 0.05,
+                                 .coverage = Coverage::kP95};
   std::map<double, Held> by_depth, by_incidence;
   Held all;
   constexpr std::size_t kBlock = kPulsesOfLine;
@@ -156,18 +234,18 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
       const TracedErrors& waves = traced[t * kAzimuths.size() + a];
       const double depth = kDepths[d];
       // The sea turns against the compass: azimuth from downwind is counter-clockwise.
-      const AirPulse pulse = {.incidence = kIncidences[t],
-                              .beam_azimuth = downwind - kAzimuths[a],
-                              .altitude = altitude,
-                              .depth = depth,
-                              .roll = 3 * normal(random),
-                              .pitch = 3 * normal(random),
-                              .heading = heading,
-                              .velocity = {70 * std::cos(RadiansOfDegrees(heading)),
-                                           70 * std::sin(RadiansOfDegrees(heading)), 0},
-                              .rates = {normal(random), normal(random), normal(random)},
-                              .lever_arm = Vector3d(options.lever_arm.data()),
-                              .index = kIndex};
+      const AirPulse pulse = {
+          .incidence = kIncidences[t],
+          .beam_azimuth = downwind - kAzimuths[a],
+          .altitude = altitude,
+          .depth = depth,
+          .roll = 3 * normal(random),
+          .pitch = 3 * normal(random),
+          .heading = heading,
+          .velocity = {70 * std::cos(RadiansOfDegrees(heading)), 70 * std::sin(RadiansOfDegrees(heading)), 0},
+          .rates = {normal(random), normal(random), normal(random)},
+          .lever_arm = Vector3d(options.lever_arm.data()),
+          .index = kIndex};
       Unknowns own = constant, scan = Unknowns::Zero();
       own[testing::kBottomRange] = draw(kErrors.bottom_range);
       double height = located == SurfaceLocation::kPulse ? draw(kErrors.surface_height) : surface;
@@ -222,12 +300,13 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
     }
   }
   std::ofstream csv;
-  if (const char* path = std::getenv("ALBTPU_SIMULATED_TOTALS"); path != nullptr) csv.open(path, std::ios::app);
+  if (const char* path = std::getenv("ALBTPU_SIMULATED_TOTALS"); path != nullptr)
+    csv.open(path, std::ios::app);
   const auto check = [&](const char* by, double at, const Held& held) {
     const double thu = 100 * held.thu / held.points, tvu = 100 * held.tvu / held.points;
     const std::string name(kSurfaceLocationNames[static_cast<std::size_t>(located)]);
-    std::printf("%-6s %-10s %4g: %.2f %% within THU, %.2f %% within TVU, %d points\n", name.c_str(), by, at, thu, tvu,
-                held.points);
+    std::printf("%-6s %-10s %4g: %.2f %% within THU, %.2f %% within TVU, %d points\n", name.c_str(), by, at,
+                thu, tvu, held.points);
     if (csv.is_open()) csv << name << "," << by << "," << at << "," << thu << "," << tvu << "\n";
     EXPECT_NEAR(thu, 95, 0.5) << name << " " << by << " " << at;
     EXPECT_NEAR(tvu, 95, 0.5) << name << " " << by << " " << at;
@@ -238,7 +317,8 @@ TEST_P(SimulatedTotals, Hold95PercentOfThePoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Located, SimulatedTotals,
-                         ::testing::Values(SurfaceLocation::kPulse, SurfaceLocation::kLocal, SurfaceLocation::kLevel),
+                         ::testing::Values(SurfaceLocation::kPulse, SurfaceLocation::kLocal,
+                                           SurfaceLocation::kLevel),
                          [](const auto& test) {
                            return std::string(kSurfaceLocationNames[static_cast<std::size_t>(test.param)]);
                          });

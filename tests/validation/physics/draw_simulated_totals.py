@@ -19,7 +19,8 @@ for axis, by, unit in ((axes[0], "depth", "m"), (axes[1], "incidence", "degree")
     axis.axhspan(94.5, 95.5, color="0.92")
     axis.axhline(95, color="0.6", linewidth=0.8)
     for located, marker, colour in (("pulse", "o", "#0072b2"), ("local", "s", "#d55e00"), ("level", "^", "#009e73")):
-        points = [(float(at), float(thu), float(tvu)) for name, kind, at, thu, tvu in rows if (name, kind) == (located, by)]
+        points = [(float(at), float(thu), float(tvu))
+                  for name, kind, at, thu, tvu in rows if (name, kind) == (located, by)]
         axis.plot([p[0] for p in points], [p[1] for p in points], marker, color=colour, label=f"{located}, THU")
         axis.plot([p[0] for p in points], [p[2] for p in points], marker, color=colour, fillstyle="none",
                   label=f"{located}, TVU")
