@@ -48,7 +48,12 @@ enum class BudgetInput : std::uint8_t {
   kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
   kWaveHeight,  // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
 };
-inline constexpr std::size_t kBudgetInputCount = 28;
+inline constexpr std::size_t kBudgetInputCount = 27;
+inline constexpr std::array<std::string_view, kBudgetInputCount> kBudgetInputNames = {
+    "incidence", "beam_azimuth", "altitude", "depth", "roll", "pitch", "heading", "velocity_north", "velocity_east",
+    "velocity_down", "roll_rate", "pitch_rate", "yaw_rate", "position_sigma_north", "position_sigma_east",
+    "position_sigma_down", "roll_sigma", "pitch_sigma", "heading_sigma", "sea_thu", "sea_tvu", "refraction_along",
+    "refraction_cross", "bias_along_beam", "bias_vertical", "sea_axis", "wave_height"};
 
 struct BudgetInputs {
   std::size_t size = 0;

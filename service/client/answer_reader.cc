@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {
@@ -159,7 +160,7 @@ absl::StatusOr<Response> ReadFrom(CodedInputStream& input, const Query& query, s
                                   const AnswerColumns& answers) {
   absl::StatusOr<Response> head = Reader(input, pulse_count, Columns(query, answers)).Read();
   if (!head.ok()) return head;
-  const v1::Coverage coverage = query.coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+  const v1::Coverage coverage = ToWire(query.coverage);
   absl::Status status;
   if (head->coverage() != coverage) {
     status =

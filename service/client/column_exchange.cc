@@ -24,15 +24,6 @@ constexpr std::size_t kMessagesAhead = 4;
 // Time limit from one answer to the next.
 constexpr std::chrono::seconds kDeadline{60};
 
-PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
-  PulseColumns slice = pulses;
-  slice.size = count;
-  for (std::span<const float>& column : slice.axis) {
-    if (column.size() > 1) column = column.subspan(begin, count);
-  }
-  return slice;
-}
-
 AnswerColumns Offset(AnswerColumns answers, std::size_t begin) {
   const auto advance = [begin](auto*& column) {
     if (column != nullptr) column += begin;

@@ -17,10 +17,6 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-v1::Coverage ToWire(Coverage coverage) {
-  return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
-}
-
 // On the wire, axes are numbered from 1, and 0 means none.
 std::optional<AxisId> AxisOf(int number) {
   if (number < 1 || number > static_cast<int>(kAxisCount)) return std::nullopt;
@@ -44,6 +40,18 @@ std::string Text(const v1::AttributeValue& value) {
 }
 
 }  // namespace
+
+v1::Coverage ToWire(Coverage coverage) {
+  switch (coverage) {
+    case Coverage::kTwoSigma:
+      break;
+    case Coverage::kOneSigma:
+      return v1::COVERAGE_ONE_SIGMA;
+    case Coverage::kP95:
+      return v1::COVERAGE_P95;
+  }
+  return v1::COVERAGE_TWO_SIGMA;
+}
 
 void ToWire(const Query& query, const AnswerColumns& requested, v1::QueryColumnsRequest& request) {
   v1::QueryOptions& options = *request.mutable_options();

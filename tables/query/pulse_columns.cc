@@ -25,6 +25,15 @@ absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses)
 
 absl::Status CheckLengths(const PulseColumns& pulses) { return CheckLengths(kSeaSurface, pulses); }
 
+PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count) {
+  PulseColumns slice = pulses;
+  slice.size = count;
+  for (std::span<const float>& column : slice.axis) {
+    if (column.size() > 1) column = column.subspan(begin, count);
+  }
+  return slice;
+}
+
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i) {
   Pulse pulse{.incidence = NumberAt(pulses[AxisId::kIncidence], i),
               .azimuth = {},

@@ -37,6 +37,9 @@ struct PulseColumns {
 absl::Status CheckLengths(const PulseColumns& pulses);
 absl::Status CheckLengths(const TableSchema& schema, const PulseColumns& pulses);
 
+// `count` pulses from `begin` on.
+PulseColumns Slice(const PulseColumns& pulses, std::size_t begin, std::size_t count);
+
 // The pulse at index `i`.
 Pulse PulseAt(const PulseColumns& pulses, std::size_t i);
 

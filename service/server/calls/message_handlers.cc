@@ -9,6 +9,7 @@
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/column_message.h"
 #include "service/server/calls/describe_sea.h"
+#include "service/server/calls/query_budget.h"
 #include "service/server/calls/query_columns.h"
 #include "service/server/calls/query_rows.h"
 #include "service/server/ground/errors.h"
@@ -57,6 +58,16 @@ grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& 
   return HandleParsed<v1::QueryColumnsRequest>(request, [&](const v1::QueryColumnsRequest& columns) {
     ColumnMessage answers;
     const absl::Status status = QueryColumns(sources, columns, answers, tally);
+    if (status.ok()) response = answers.Finish();
+    return status;
+  });
+}
+
+grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request,
+                               grpc::ByteBuffer& response, OutcomeTally& tally) {
+  return HandleParsed<v1::QueryBudgetRequest>(request, [&](const v1::QueryBudgetRequest& pulses) {
+    ColumnMessage answers;
+    const absl::Status status = QueryBudget(sources, pulses, answers, tally);
     if (status.ok()) response = answers.Finish();
     return status;
   });

@@ -20,6 +20,8 @@ grpc::Status HandleQueryPulses(AnswerSources& sources, const grpc::ByteBuffer& r
                                grpc::ByteBuffer& response, OutcomeTally& tally);
 grpc::Status HandleQueryColumns(AnswerSources& sources, const grpc::ByteBuffer& request,
                                 grpc::ByteBuffer& response, OutcomeTally& tally);
+grpc::Status HandleQueryBudget(AnswerSources& sources, const grpc::ByteBuffer& request,
+                               grpc::ByteBuffer& response, OutcomeTally& tally);
 
 grpc::Status HandleCompileSea(AnswerSources& sources, const grpc::ByteBuffer& request,
                               grpc::ByteBuffer& response, OutcomeTally& tally);

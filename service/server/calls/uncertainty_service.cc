@@ -177,6 +177,12 @@ grpc::ServerUnaryReactor* UncertaintyService::QueryColumns(grpc::CallbackServerC
   return Handle(Method::kQueryColumns, HandleQueryColumns, kMaxInlineBytes, *context, *request, *response);
 }
 
+grpc::ServerUnaryReactor* UncertaintyService::QueryBudget(grpc::CallbackServerContext* context,
+                                                          const grpc::ByteBuffer* request,
+                                                          grpc::ByteBuffer* response) {
+  return Handle(Method::kQueryBudget, HandleQueryBudget, kMaxInlineBudgetBytes, *context, *request, *response);
+}
+
 // Never at once: the file of a table takes milliseconds.
 grpc::ServerUnaryReactor* UncertaintyService::CompileSea(grpc::CallbackServerContext* context,
                                                          const grpc::ByteBuffer* request,

@@ -17,10 +17,11 @@ namespace albtpu::server {
 using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_QueryPulses<
     v1::UncertaintyService::WithRawCallbackMethod_QueryColumns<
         v1::UncertaintyService::WithRawCallbackMethod_StreamColumns<
-            v1::UncertaintyService::WithCallbackMethod_ListTables<
-                v1::UncertaintyService::WithCallbackMethod_GetTable<
-                    v1::UncertaintyService::WithRawCallbackMethod_CompileSea<
-                        v1::UncertaintyService::Service>>>>>>;
+            v1::UncertaintyService::WithRawCallbackMethod_QueryBudget<
+                v1::UncertaintyService::WithCallbackMethod_ListTables<
+                    v1::UncertaintyService::WithCallbackMethod_GetTable<
+                        v1::UncertaintyService::WithRawCallbackMethod_CompileSea<
+                            v1::UncertaintyService::Service>>>>>>>;
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
@@ -35,6 +36,8 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
                                          grpc::ByteBuffer* response) override;
   grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* StreamColumns(
       grpc::CallbackServerContext* context) override;
+  grpc::ServerUnaryReactor* QueryBudget(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                        grpc::ByteBuffer* response) override;
   grpc::ServerUnaryReactor* ListTables(grpc::CallbackServerContext* context,
                                        const v1::ListTablesRequest* request,
                                        v1::ListTablesResponse* response) override;

@@ -20,10 +20,17 @@ inline constexpr std::size_t kMaxPulsesWithStandardErrors = 32768;
 static_assert(kMaxPulses * 52 < kMaxMessageBytes);
 static_assert(kMaxPulsesWithStandardErrors * 84 < kMaxMessageBytes);
 
+// Bytes of the columns of an answer to `QueryBudget`: with all its quantities, 179 for each pulse. The rest is for
+// everything else, most of it what was assumed of a sea.
+inline constexpr std::size_t kMaxAnswerColumnBytes = kMaxMessageBytes - (std::size_t{64} << 10);
+
 // Requests up to this length are handled at once, on the thread that received them. They hold about 12 000 pulses in
 // four columns, at most 49 000 in one column, and take half a millisecond; handing them to a worker and back would add
 // a third. Longer requests wait for a worker, so that they never delay short ones.
 inline constexpr std::size_t kMaxInlineBytes = std::size_t{192} << 10;
+
+// The same for `QueryBudget`, whose pulses take about four times as long.
+inline constexpr std::size_t kMaxInlineBudgetBytes = kMaxInlineBytes / 4;
 
 // Calls of all connections that may wait for a worker; further ones fail with RESOURCE_EXHAUSTED. A stream counts while
 // it is open; calls that are handled at once do not count. A call holds up to 12 MiB (a stream: the request being

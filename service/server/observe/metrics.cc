@@ -77,6 +77,7 @@ CallMetrics::CallMetrics(prometheus::Registry& registry)
     out_of_domain_[Index(axis)] = &pulses.Add({{"outcome", "OUT_OF_DOMAIN"}, {"axis", name}});
     invalid_[Index(axis)] = &pulses.Add({{"outcome", "INVALID"}, {"axis", name}});
   }
+  invalid_aircraft_ = &pulses.Add({{"outcome", "INVALID"}, {"axis", "aircraft"}});
 }
 
 void CallMetrics::CountEnd(Method method, grpc::StatusCode code) {
@@ -94,6 +95,7 @@ void CallMetrics::CountAnswer(Method method, const OutcomeTally& tally, std::chr
     if (tally.out_of_domain[i] > 0) out_of_domain_[i]->Increment(static_cast<double>(tally.out_of_domain[i]));
     if (tally.invalid[i] > 0) invalid_[i]->Increment(static_cast<double>(tally.invalid[i]));
   }
+  if (tally.invalid_aircraft > 0) invalid_aircraft_->Increment(static_cast<double>(tally.invalid_aircraft));
 }
 
 prometheus::Counter& CallMetrics::Ended(Method method, std::size_t code) {

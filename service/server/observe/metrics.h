@@ -28,14 +28,16 @@ enum class Method {
   kQueryPulses,
   kQueryColumns,
   kStreamColumns,
+  kQueryBudget,
   kListTables,
   kGetTable,
   kCompileSea,
   kReloadTables
 };
 
-inline constexpr std::array<const char*, 7> kMethodNames = {
-    "QueryPulses", "QueryColumns", "StreamColumns", "ListTables", "GetTable", "CompileSea", "ReloadTables"};
+inline constexpr std::array<const char*, 8> kMethodNames = {
+    "QueryPulses", "QueryColumns", "StreamColumns", "QueryBudget",
+    "ListTables",  "GetTable",     "CompileSea",    "ReloadTables"};
 
 constexpr std::size_t Index(Method method) { return static_cast<std::size_t>(method); }
 constexpr const char* Name(Method method) { return kMethodNames[Index(method)]; }
@@ -57,7 +59,7 @@ class CallMetrics {
 
  private:
   static constexpr std::size_t kCodes = 17;  // Of gRPC, from OK to UNAUTHENTICATED.
-  static constexpr std::size_t kPulseMethods = 3;
+  static constexpr std::size_t kPulseMethods = 4;
 
   using AxisCounters = std::array<prometheus::Counter*, kAxisCount>;
 
@@ -73,6 +75,7 @@ class CallMetrics {
   prometheus::Counter* interpolated_;
   AxisCounters out_of_domain_;
   AxisCounters invalid_;
+  prometheus::Counter* invalid_aircraft_;
 };
 
 // Connections and calls that were refused before they reached a method, and the expiry of the certificate.

@@ -42,6 +42,21 @@ static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1a) == v1::S44_ORDER_1A)
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k1b) == v1::S44_ORDER_1B);
 static_assert(AfterUnspecified<v1::S44Order>(S44Order::k2) == v1::S44_ORDER_2);
 
+static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kPulse) == v1::SURFACE_LOCATION_PULSE);
+static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLocal) == v1::SURFACE_LOCATION_LOCAL);
+static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLevel) == v1::SURFACE_LOCATION_LEVEL);
+
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) == v1::BUDGET_QUANTITY_TOTAL_THU);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuSea) == v1::BUDGET_QUANTITY_TVU_SEA);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBiasVertical) ==
+              v1::BUDGET_QUANTITY_BIAS_VERTICAL);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceTotal) ==
+              v1::BUDGET_QUANTITY_COVARIANCE_TOTAL);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceSurvey) ==
+              v1::BUDGET_QUANTITY_COVARIANCE_SURVEY);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBestS44Order) ==
+              v1::BUDGET_QUANTITY_BEST_S44_ORDER);
+
 absl::Status NotAValue(std::string_view field, int number, std::string_view enum_name) {
   return FieldViolation(
       field, absl::StrCat(std::string(field), " is ", number, ": not a value of ", std::string(enum_name)));
@@ -62,8 +77,18 @@ v1::Scale ToWire(Scale scale) { return scale == Scale::kLog ? v1::SCALE_LOG : v1
 v1::Outcome ToWire(Outcome outcome) { return AfterUnspecified<v1::Outcome>(outcome); }
 
 v1::Coverage ToWire(Coverage coverage) {
-  return coverage == Coverage::kP95 ? v1::COVERAGE_P95 : v1::COVERAGE_TWO_SIGMA;
+  switch (coverage) {
+    case Coverage::kTwoSigma:
+      break;
+    case Coverage::kOneSigma:
+      return v1::COVERAGE_ONE_SIGMA;
+    case Coverage::kP95:
+      return v1::COVERAGE_P95;
+  }
+  return v1::COVERAGE_TWO_SIGMA;
 }
+
+v1::BudgetQuantity ToWire(BudgetQuantity quantity) { return AfterUnspecified<v1::BudgetQuantity>(quantity); }
 
 v1::S44Order ToWire(std::optional<S44Order> order) {
   return order.has_value() ? AfterUnspecified<v1::S44Order>(*order) : v1::S44_ORDER_UNSPECIFIED;
@@ -71,6 +96,7 @@ v1::S44Order ToWire(std::optional<S44Order> order) {
 
 absl::StatusOr<Coverage> FromWire(v1::Coverage coverage) {
   if (!v1::Coverage_IsValid(coverage)) return NotAValue("options.coverage", coverage, "Coverage");
+  if (coverage == v1::COVERAGE_ONE_SIGMA) return Coverage::kOneSigma;
   return coverage == v1::COVERAGE_P95 ? Coverage::kP95 : Coverage::kTwoSigma;
 }
 
@@ -87,6 +113,24 @@ absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
                           "quantities contains QUANTITY_UNSPECIFIED: leave it empty to ask for all");
   }
   return static_cast<Quantity>(quantity - 1);
+}
+
+absl::StatusOr<BudgetQuantity> FromWire(v1::BudgetQuantity quantity) {
+  if (!v1::BudgetQuantity_IsValid(quantity)) return NotAValue("quantities", quantity, "BudgetQuantity");
+  if (quantity == v1::BUDGET_QUANTITY_UNSPECIFIED) {
+    return FieldViolation("quantities",
+                          "quantities contains BUDGET_QUANTITY_UNSPECIFIED: leave it empty to ask for THU and TVU");
+  }
+  return static_cast<BudgetQuantity>(quantity - 1);
+}
+
+absl::StatusOr<SurfaceLocation> FromWire(v1::SurfaceLocation location) {
+  if (!v1::SurfaceLocation_IsValid(location)) return NotAValue("options.located", location, "SurfaceLocation");
+  if (location == v1::SURFACE_LOCATION_UNSPECIFIED) {
+    return FieldViolation("options.located",
+                          "options.located is missing: say how the surface was located (pulse, local or level)");
+  }
+  return static_cast<SurfaceLocation>(location - 1);
 }
 
 }  // namespace albtpu::server

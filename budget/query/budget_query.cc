@@ -1,0 +1,193 @@
+#include "budget/query/budget_query.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <thread>
+
+namespace albtpu {
+namespace {
+
+constexpr std::size_t kGrain = 8192;  // Pulses in a piece of work, which takes at least 300 us.
+constexpr auto kInterpolated = static_cast<std::uint8_t>(static_cast<int>(Outcome::kInterpolated) + 1);
+constexpr auto kInvalid = static_cast<std::uint8_t>(static_cast<int>(Outcome::kInvalid) + 1);
+
+// Memory of one piece of work.
+struct Scratch {
+  std::uint8_t outcomes[kGrain], outcome_axes[kGrain], refused[kGrain];
+  float sea_thu[kGrain], sea_tvu[kGrain], along[kGrain], cross[kGrain];
+  float bias_along_beam[kGrain], bias_vertical[kGrain];
+};
+
+struct Range {
+  float lowest;
+  bool lowest_is_valid;
+};
+
+// The numbers that a column of the aircraft may have, up to kGreatestBudgetNumber. None if it is not the aircraft's.
+std::optional<Range> ValidRange(BudgetInput input) {
+  switch (input) {
+    case BudgetInput::kAltitude:
+      return Range{0, false};
+    case BudgetInput::kPositionSigmaNorth:
+    case BudgetInput::kPositionSigmaEast:
+    case BudgetInput::kPositionSigmaDown:
+    case BudgetInput::kRollSigma:
+    case BudgetInput::kPitchSigma:
+    case BudgetInput::kHeadingSigma:
+    case BudgetInput::kWaveHeight:
+      return Range{0, true};
+    case BudgetInput::kBeamAzimuth:
+    case BudgetInput::kRoll:
+    case BudgetInput::kPitch:
+    case BudgetInput::kHeading:
+    case BudgetInput::kVelocityNorth:
+    case BudgetInput::kVelocityEast:
+    case BudgetInput::kVelocityDown:
+    case BudgetInput::kRollRate:
+    case BudgetInput::kPitchRate:
+    case BudgetInput::kYawRate:
+      return Range{-static_cast<float>(kGreatestBudgetNumber), true};
+    default:
+      return std::nullopt;
+  }
+}
+
+// Marks the pulses whose numbers of the aircraft are not valid.
+void Refuse(const BudgetInputs& aircraft, std::uint8_t* refused) {
+  std::fill_n(refused, aircraft.size, std::uint8_t{0});
+  for (std::size_t input = 0; input < kBudgetInputCount; ++input) {
+    const std::span<const float> column = aircraft.columns[input];
+    const std::optional<Range> range = ValidRange(static_cast<BudgetInput>(input));
+    if (!range.has_value() || column.empty()) continue;
+    // A number above `below` is at least the lowest one.
+    const float below = range->lowest_is_valid
+                            ? std::nextafter(range->lowest, -std::numeric_limits<float>::infinity())
+                            : range->lowest;
+    const auto greatest = static_cast<float>(kGreatestBudgetNumber);
+    const auto is_refused = [=](float x) {
+      return static_cast<std::uint8_t>((static_cast<int>(x > below) & static_cast<int>(x <= greatest)) ^ 1);
+    };
+    if (column.size() == 1) {
+      if (is_refused(column[0])) std::fill_n(refused, aircraft.size, std::uint8_t{1});
+      continue;
+    }
+    for (std::size_t i = 0; i < aircraft.size; ++i) refused[i] |= is_refused(column[i]);
+  }
+}
+
+BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::size_t count) {
+  const auto column = [&](std::size_t index) {
+    float* const start = answers.columns[index];
+    return start == nullptr ? std::span<float>() : std::span(start + begin, count);
+  };
+  const auto number = [&](BudgetQuantity quantity) { return column(FirstColumn(quantity)); };
+  const auto covariance = [&](BudgetQuantity quantity) {
+    CovarianceColumns entries;
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = column(FirstColumn(quantity) + i);
+    return entries;
+  };
+  using enum BudgetQuantity;
+  BudgetOutputs outputs{.thu = number(kTotalThu),
+                        .tvu = number(kTotalTvu),
+                        .thu_air = number(kThuAir),
+                        .tvu_air = number(kTvuAir),
+                        .thu_sea = number(kThuSea),
+                        .tvu_sea = number(kTvuSea),
+                        .air = covariance(kCovarianceAir),
+                        .sea = covariance(kCovarianceSea),
+                        .total = covariance(kCovarianceTotal),
+                        .groups = {covariance(kCovariancePulse), covariance(kCovarianceLine),
+                                   covariance(kCovarianceSurvey)}};
+  if (answers.best_s44_orders != nullptr) outputs.best_orders = {answers.best_s44_orders + begin, count};
+  return outputs;
+}
+
+// Answers up to kGrain pulses from `begin` on.
+void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all, const BudgetOptions& options,
+                 std::size_t begin, std::size_t count, const BudgetAnswers& answers, Scratch& scratch) {
+  BudgetPulses piece = Slice(all, begin, count);
+  std::uint8_t* const outcomes = answers.outcomes != nullptr ? answers.outcomes + begin : scratch.outcomes;
+  std::uint8_t* const axes =
+      answers.outcome_axes != nullptr ? answers.outcome_axes + begin : scratch.outcome_axes;
+  float* const bias_along_beam = answers.columns[FirstColumn(BudgetQuantity::kBiasAlongBeam)];
+  float* const bias_vertical = answers.columns[FirstColumn(BudgetQuantity::kBiasVertical)];
+  const bool asks_order = answers.best_s44_orders != nullptr;
+
+  AnswerColumns sea{.outcomes = outcomes, .outcome_axes = axes};
+  sea.values[Index(Quantity::kThu)] = scratch.sea_thu;
+  sea.values[Index(Quantity::kTvu)] = scratch.sea_tvu;
+  sea.values[Index(Quantity::kRefractionAlongWind)] = scratch.along;
+  sea.values[Index(Quantity::kRefractionCrossWind)] = scratch.cross;
+  if (asks_order || bias_along_beam != nullptr) sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
+  if (asks_order || bias_vertical != nullptr) sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
+  interpolator.Interpolate({.coverage = Coverage::kTwoSigma, .s44_order = {}}, piece.pulses, 0, count, sea);
+  if (bias_along_beam != nullptr) std::copy_n(scratch.bias_along_beam, count, bias_along_beam + begin);
+  if (bias_vertical != nullptr) std::copy_n(scratch.bias_vertical, count, bias_vertical + begin);
+
+  Refuse(piece.aircraft, scratch.refused);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (scratch.refused[i] == 0 || outcomes[i] != kInterpolated) continue;
+    outcomes[i] = kInvalid;
+    axes[i] = 0;
+  }
+
+  BudgetInputs& inputs = piece.aircraft;
+  inputs[BudgetInput::kIncidence] = piece.pulses[AxisId::kIncidence];
+  inputs[BudgetInput::kDepth] = piece.pulses[AxisId::kDepth];
+  inputs[BudgetInput::kSeaThu] = {scratch.sea_thu, count};
+  inputs[BudgetInput::kSeaTvu] = {scratch.sea_tvu, count};
+  inputs[BudgetInput::kRefractionAlong] = {scratch.along, count};
+  inputs[BudgetInput::kRefractionCross] = {scratch.cross, count};
+  if (asks_order) {
+    for (float* const bias : {scratch.bias_along_beam, scratch.bias_vertical}) {
+      std::replace_if(bias, bias + count, [](float b) { return std::isnan(b); }, 0.0f);
+    }
+    inputs[BudgetInput::kBiasAlongBeam] = {scratch.bias_along_beam, count};
+    inputs[BudgetInput::kBiasVertical] = {scratch.bias_vertical, count};
+  }
+  ComputeBudget(inputs, options, OutputsAt(answers, begin, count));
+
+  for (std::size_t i = 0; i < count; ++i) {
+    if (outcomes[i] == kInterpolated) continue;
+    for (float* const column : answers.columns) {
+      if (column != nullptr) column[begin + i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    if (asks_order) answers.best_s44_orders[begin + i] = 0;
+  }
+}
+
+}  // namespace
+
+BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count) {
+  BudgetPulses slice{Slice(pulses.pulses, begin, count), pulses.aircraft};
+  slice.aircraft.size = count;
+  for (std::span<const float>& column : slice.aircraft.columns) {
+    if (column.size() > 1) column = column.subspan(begin, count);
+  }
+  return slice;
+}
+
+void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
+                           const BudgetOptions& options, const BudgetAnswers& answers) {
+  const std::size_t size = pulses.pulses.size;
+  const auto answer = [&](std::size_t first, std::size_t last) {
+    const auto scratch = std::make_unique_for_overwrite<Scratch>();
+    for (std::size_t begin = first; begin < last; begin += kGrain) {
+      AnswerPiece(interpolator, pulses, options, begin, std::min(kGrain, last - begin), answers, *scratch);
+    }
+  };
+  if (size < 2 * kGrain) return answer(0, size);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kGrain), [&](const auto& range) {
+    answer(range.begin(), range.end());
+    // A query for a single pulse waits for one piece of work, not for a time slice of the system.
+    std::this_thread::yield();
+  });
+}
+
+}  // namespace albtpu

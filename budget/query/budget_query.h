@@ -1,0 +1,76 @@
+// The whole budget of many pulses: the share of the sea surface from a table, added to those of the air side and the
+// datum.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "budget/total/budget_columns.h"
+#include "tables/query/column_query.h"
+#include "tables/query/pulse_columns.h"
+
+namespace albtpu {
+
+// The numbers of a budget, in the order of the wire.
+enum class BudgetQuantity : std::uint8_t {
+  kTotalThu,       // m, at the coverage of the options, of all shares.
+  kTotalTvu,       // m
+  kThuAir,         // m, of the air side alone.
+  kTvuAir,         // m
+  kThuSea,         // m, of sea surface and unseen waves.
+  kTvuSea,         // m
+  kBiasAlongBeam,  // m; in no covariance. NaN if the table does not hold it.
+  kBiasVertical,   // m
+  kCovarianceTotal,   // m^2, 1 sigma: six columns in the order of kCovarianceNames.
+  kCovarianceAir,     // As BudgetOutputs::air.
+  kCovarianceSea,     // As BudgetOutputs::sea.
+  kCovariancePulse,   // As BudgetOutputs::groups.
+  kCovarianceLine,    // As BudgetOutputs::groups.
+  kCovarianceSurvey,  // As BudgetOutputs::groups.
+  kBestS44Order,      // BudgetAnswers::best_s44_orders
+};
+inline constexpr std::size_t kBudgetQuantityCount = 15;
+
+// Which columns of single-precision numbers a quantity has: one, the six of a covariance, or none for the best order.
+inline constexpr std::size_t kBudgetColumnCount = 8 + 6 * 6;
+constexpr std::size_t FirstColumn(BudgetQuantity quantity) {
+  const auto q = static_cast<std::size_t>(quantity);
+  return q < 8 ? q : 8 + 6 * (q - 8);
+}
+constexpr std::size_t ColumnCount(BudgetQuantity quantity) {
+  if (quantity == BudgetQuantity::kBestS44Order) return 0;
+  return quantity < BudgetQuantity::kCovarianceTotal ? 1 : 6;
+}
+
+// Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted.
+struct BudgetAnswers {
+  std::uint8_t* outcomes = nullptr;      // As AnswerColumns; 3 also if a number of the aircraft is not valid.
+  std::uint8_t* outcome_axes = nullptr;  // As AnswerColumns; 0 if a number of the aircraft made the outcome.
+  std::array<float*, kBudgetColumnCount> columns = {};  // NaN where there is no number.
+  std::uint8_t* best_s44_orders = nullptr;              // As BudgetOutputs; a bias of NaN counts as 0.
+};
+
+// Pulses whose budget is asked.
+struct BudgetPulses {
+  PulseColumns pulses;  // As asked of the table.
+  // The aircraft at the same pulses, and at will kSeaAxis. Incidence, depth and the share of the sea come from `pulses`
+  // and the table; columns of them are not used.
+  BudgetInputs aircraft = {};
+};
+
+// The pulses from `begin` on.
+BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count);
+
+// The largest magnitude of a number of the aircraft and of BudgetOptions, in any unit: far beyond that of any aircraft,
+// and sums of products of three such numbers have squares that single precision holds (1e38).
+inline constexpr double kGreatestBudgetNumber = 1e6;
+
+// Answers all pulses, for which CheckQuery() must be OK, and depends on each pulse and the instruction set alone. On all cores if
+// there are enough pulses for that to be faster, else on the calling thread. A pulse without an answer of the table has
+// the table's outcome and no number. A pulse is invalid if a number of the aircraft is NaN or beyond
+// kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height negative.
+void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
+                           const BudgetOptions& options, const BudgetAnswers& answers);
+
+}  // namespace albtpu

@@ -1,0 +1,82 @@
+#include "budget/query/query_check.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu {
+namespace {
+
+void CheckSigma(const std::string& field, double sigma, std::vector<OptionError>& errors) {
+  if (sigma >= 0 && sigma <= kGreatestBudgetNumber) return;
+  errors.push_back({field, absl::StrCat(field, " is ", sigma, ": a standard deviation is 0 to ",
+                                        kGreatestBudgetNumber)});
+}
+
+void CheckSigmas(const std::string& field, const std::array<double, 3>& sigmas,
+                 const std::array<std::string_view, 3>& axes, std::vector<OptionError>& errors) {
+  for (std::size_t i = 0; i < 3; ++i) CheckSigma(absl::StrCat(field, ".", std::string(axes[i])), sigmas[i], errors);
+}
+
+constexpr std::array<std::string_view, 3> kForwardRightDown = {"forward", "right", "down"};
+
+absl::Status CheckLength(std::string_view name, std::size_t length, std::size_t count) {
+  if (length <= 1 || length == count) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ",
+                                                 count, " pulses; give one number for each pulse, or one for all"));
+}
+
+}  // namespace
+
+std::vector<OptionError> FindErrors(const BudgetOptions& options) {
+  std::vector<OptionError> found;
+  const AirErrors& errors = options.errors;
+  CheckSigmas("errors.position", errors.position, {"north", "east", "down"}, found);
+  CheckSigmas("errors.attitude", errors.attitude, {"roll", "pitch", "heading"}, found);
+  CheckSigmas("errors.boresight", errors.boresight, kForwardRightDown, found);
+  CheckSigma("errors.lever_arm", errors.lever_arm, found);
+  CheckSigma("errors.scan", errors.scan, found);
+  CheckSigma("errors.time", errors.time, found);
+  CheckSigma("errors.range_offset", errors.range_offset, found);
+  CheckSigma("errors.bottom_range", errors.bottom_range, found);
+  CheckSigma("errors.surface_height", errors.surface_height, found);
+  CheckSigma("errors.index", errors.index, found);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(options.lever_arm[i]) <= kGreatestBudgetNumber) continue;
+    const std::string field = absl::StrCat("lever_arm.", std::string(kForwardRightDown[i]));
+    found.push_back({field, absl::StrCat(field, " is ", options.lever_arm[i], ": expected up to ",
+                                         kGreatestBudgetNumber, " m in magnitude")});
+  }
+  if (!(options.index >= 1 && options.index <= 2)) {
+    found.push_back({"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
+  }
+  CheckSigma("datum", options.datum, found);
+  return found;
+}
+
+absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, const BudgetOptions& options) {
+  const std::vector<OptionError> errors = FindErrors(options);
+  if (!errors.empty()) return absl::InvalidArgumentError(errors.front().problem);
+  if (absl::Status status = CheckLengths(schema, pulses.pulses); !status.ok()) return status;
+  const std::size_t count = pulses.pulses.size;
+  if (pulses.aircraft.size != count) {
+    return absl::InvalidArgumentError(absl::StrCat("there are ", count, " pulses and ", pulses.aircraft.size,
+                                                   " of the aircraft; give the same number"));
+  }
+  if (count == 0) return absl::OkStatus();
+  for (std::size_t i = 0; i < kBudgetInputCount; ++i) {
+    const std::string_view name = kBudgetInputNames[i];
+    if (absl::Status status = CheckLength(name, pulses.aircraft.columns[i].size(), count); !status.ok()) return status;
+  }
+  for (const BudgetInput required : {BudgetInput::kAltitude, BudgetInput::kBeamAzimuth}) {
+    if (!pulses.aircraft[required].empty()) continue;
+    return absl::InvalidArgumentError(
+        absl::StrCat("column '", std::string(kBudgetInputNames[static_cast<std::size_t>(required)]),
+                     "' is empty; give one number for each pulse, or one for all"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu

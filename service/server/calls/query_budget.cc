@@ -1,0 +1,130 @@
+#include "service/server/calls/query_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "service/seas/sea_pulses.h"
+#include "service/server/calls/budget_request.h"
+#include "service/server/calls/query_plan.h"
+#include "service/server/ground/errors.h"
+#include "service/server/ground/limits.h"
+#include "service/server/tables/table_messages.h"
+#include "service/server/tables/wire_enums.h"
+
+namespace albtpu::server {
+namespace {
+
+using QuantitySelection = std::array<bool, kBudgetQuantityCount>;
+
+// The quantities that the request names, or THU and TVU of the total if it names none.
+absl::StatusOr<QuantitySelection> ReadQuantities(const v1::QueryBudgetRequest& request) {
+  QuantitySelection selection{};
+  for (const int number : request.quantities()) {
+    const absl::StatusOr<BudgetQuantity> quantity = FromWire(static_cast<v1::BudgetQuantity>(number));
+    if (!quantity.ok()) return quantity.status();
+    selection[static_cast<std::size_t>(*quantity)] = true;
+  }
+  if (request.quantities_size() == 0) {
+    selection[static_cast<std::size_t>(BudgetQuantity::kTotalThu)] = true;
+    selection[static_cast<std::size_t>(BudgetQuantity::kTotalTvu)] = true;
+  }
+  return selection;
+}
+
+// Refers to the request.
+absl::StatusOr<BudgetPulses> ReadPulses(const v1::QueryBudgetRequest& request, const TableSchema& schema) {
+  const auto axes = ColumnsOf(request.pulses(), schema);
+  const auto aircraft = ColumnsOf(request.aircraft());
+  std::vector<RequestColumn> all(axes.begin(), axes.end());
+  all.insert(all.end(), aircraft.begin(), aircraft.end());
+  const absl::StatusOr<std::size_t> count = CountPulses(all);
+  if (!count.ok()) return count.status();
+  BudgetPulses pulses{.pulses = PulsesOf(axes, *count)};
+  pulses.aircraft.size = *count;
+  for (std::size_t i = 0; i < aircraft.size(); ++i) pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
+  return pulses;
+}
+
+std::size_t AnswerBytes(const QuantitySelection& selection) {
+  std::size_t bytes = 2;  // Outcome and axis.
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
+    const auto quantity = static_cast<BudgetQuantity>(i);
+    if (!selection[i]) continue;
+    bytes += quantity == BudgetQuantity::kBestS44Order ? 1 : ColumnCount(quantity) * sizeof(float);
+  }
+  return bytes;
+}
+
+absl::Status CheckAnswerSize(const QuantitySelection& selection, std::size_t count) {
+  const std::size_t most = kMaxAnswerColumnBytes / AnswerBytes(selection);
+  if (count <= most) return absl::OkStatus();
+  return FieldViolation("pulses",
+                        absl::StrCat("there are ", count, " pulses: with these quantities, a message takes ", most,
+                                     " pulses at most; send several messages, or ask for fewer quantities"));
+}
+
+// Adds the columns that were requested. The number of a field is that of its quantity.
+BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, ColumnMessage& message) {
+  using Fields = v1::QueryBudgetResponse;
+  const auto add_bytes = [&](int field) {
+    return reinterpret_cast<std::uint8_t*>(message.AddColumn(field, count));
+  };
+  BudgetAnswers answers;
+  answers.outcomes = add_bytes(Fields::kOutcomesFieldNumber);
+  answers.outcome_axes = add_bytes(Fields::kOutcomeAxesFieldNumber);
+  const std::size_t mark = message.Mark();
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
+    if (!selection[i]) continue;
+    const auto quantity = static_cast<BudgetQuantity>(i);
+    const int field = ToWire(quantity);
+    if (quantity == BudgetQuantity::kBestS44Order) {
+      answers.best_s44_orders = add_bytes(field);
+      continue;
+    }
+    const std::size_t columns = ColumnCount(quantity);
+    auto* const numbers = reinterpret_cast<float*>(message.AddColumn(field, columns * count * sizeof(float)));
+    for (std::size_t k = 0; k < columns; ++k) answers.columns[FirstColumn(quantity) + k] = numbers + k * count;
+  }
+  message.Nest(Fields::kBudgetFieldNumber, mark);
+  return answers;
+}
+
+}  // namespace
+
+absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request, ColumnMessage& response,
+                         OutcomeTally& tally) {
+  v1::QueryOptions query;
+  query.set_table(request.options().table());
+  const absl::StatusOr<QueryPlan> plan =
+      PlanQuery(query, request.has_sea() ? &request.sea() : nullptr, sources);
+  if (!plan.ok()) return plan.status();
+  const absl::StatusOr<BudgetOptions> options = ReadBudgetOptions(request.options());
+  if (!options.ok()) return options.status();
+  const absl::StatusOr<QuantitySelection> selection = ReadQuantities(request);
+  if (!selection.ok()) return selection.status();
+  const ServedTable& source = *plan->source;
+  absl::StatusOr<BudgetPulses> pulses = ReadPulses(request, source.table.schema());
+  if (!pulses.ok()) return pulses.status();
+  const std::size_t count = pulses->pulses.size;
+  if (absl::Status status = CheckAnswerSize(*selection, count); !status.ok()) return status;
+  v1::QueryBudgetResponse head;
+  *head.mutable_table() = WriteReference(source);
+  head.set_coverage(ToWire(options->coverage));
+  head.set_pulse_count(static_cast<int>(count));
+  head.set_azimuth_absent(pulses->pulses[AxisId::kAzimuth].empty());
+  if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
+  response.Add(head);
+  if (source.sea) pulses->pulses = OnOneSea(pulses->pulses);
+  const auto axis = static_cast<float>(source.sea ? source.sea->x_azimuth : request.options().sea_axis());
+  if (source.sea || request.options().has_sea_axis()) pulses->aircraft[BudgetInput::kSeaAxis] = {&axis, 1};
+  const BudgetAnswers answers = AddColumns(*selection, count, response);
+  QueryBudgetOnAllCores(source.interpolator, *pulses, *options, answers);
+  tally.Add({answers.outcomes, count}, {answers.outcome_axes, count});
+  return absl::OkStatus();
+}
+
+}  // namespace albtpu::server
