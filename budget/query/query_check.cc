@@ -41,6 +41,7 @@ std::vector<OptionError> FindErrors(const BudgetOptions& options) {
   CheckSigma("errors.time", errors.time, found);
   CheckSigma("errors.range_offset", errors.range_offset, found);
   CheckSigma("errors.bottom_range", errors.bottom_range, found);
+  CheckSigma("errors.surface_range", errors.surface_range, found);
   CheckSigma("errors.surface_height", errors.surface_height, found);
   CheckSigma("errors.index", errors.index, found);
   for (std::size_t i = 0; i < 3; ++i) {

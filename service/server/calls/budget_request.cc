@@ -24,6 +24,7 @@ AirErrors Read(const v1::AirErrors& errors) {
           .time = errors.time(),
           .range_offset = errors.range_offset(),
           .bottom_range = errors.bottom_range(),
+          .surface_range = errors.surface_range(),
           .surface_height = errors.surface_height(),
           .index = errors.index()};
 }
