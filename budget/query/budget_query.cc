@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <thread>
 
 namespace albtpu {
@@ -24,51 +23,25 @@ struct Scratch {
   float bias_along_beam[kGrain], bias_vertical[kGrain];
 };
 
-struct Range {
-  float lowest;
-  bool lowest_is_valid;
-};
+bool IsSigma(BudgetInput input) {
+  return input == BudgetInput::kWaveHeight ||
+         (input >= BudgetInput::kPositionSigmaNorth && input <= BudgetInput::kHeadingSigma);
+}
 
-// The numbers that a column of the aircraft may have, up to kGreatestBudgetNumber. None if it is not the aircraft's.
-std::optional<Range> ValidRange(BudgetInput input) {
-  switch (input) {
-    case BudgetInput::kAltitude:
-      return Range{0, false};
-    case BudgetInput::kPositionSigmaNorth:
-    case BudgetInput::kPositionSigmaEast:
-    case BudgetInput::kPositionSigmaDown:
-    case BudgetInput::kRollSigma:
-    case BudgetInput::kPitchSigma:
-    case BudgetInput::kHeadingSigma:
-    case BudgetInput::kWaveHeight:
-      return Range{0, true};
-    case BudgetInput::kBeamAzimuth:
-    case BudgetInput::kRoll:
-    case BudgetInput::kPitch:
-    case BudgetInput::kHeading:
-    case BudgetInput::kVelocityNorth:
-    case BudgetInput::kVelocityEast:
-    case BudgetInput::kVelocityDown:
-    case BudgetInput::kRollRate:
-    case BudgetInput::kPitchRate:
-    case BudgetInput::kYawRate:
-      return Range{-static_cast<float>(kGreatestBudgetNumber), true};
-    default:
-      return std::nullopt;
-  }
+// The numbers that a column of the aircraft may have are above this one, up to kGreatestBudgetNumber.
+float Below(BudgetInput input) {
+  if (input == BudgetInput::kAltitude) return 0;
+  const float least = IsSigma(input) ? 0 : -static_cast<float>(kGreatestBudgetNumber);
+  return std::nextafter(least, -std::numeric_limits<float>::infinity());
 }
 
 // Marks the pulses whose numbers of the aircraft are not valid.
 void Refuse(const BudgetInputs& aircraft, std::uint8_t* refused) {
   std::fill_n(refused, aircraft.size, std::uint8_t{0});
-  for (std::size_t input = 0; input < kBudgetInputCount; ++input) {
-    const std::span<const float> column = aircraft.columns[input];
-    const std::optional<Range> range = ValidRange(static_cast<BudgetInput>(input));
-    if (!range.has_value() || column.empty()) continue;
-    // A number above `below` is at least the lowest one.
-    const float below = range->lowest_is_valid
-                            ? std::nextafter(range->lowest, -std::numeric_limits<float>::infinity())
-                            : range->lowest;
+  for (const BudgetInput input : kAircraftInputs) {
+    const std::span<const float> column = aircraft[input];
+    if (column.empty()) continue;
+    const float below = Below(input);
     const auto greatest = static_cast<float>(kGreatestBudgetNumber);
     const auto is_refused = [=](float x) {
       return static_cast<std::uint8_t>((static_cast<int>(x > below) & static_cast<int>(x <= greatest)) ^ 1);
@@ -138,6 +111,8 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   }
 
   BudgetInputs& inputs = piece.aircraft;
+  const auto sea_axis = static_cast<float>(all.sea_axis.value_or(0));
+  if (all.sea_axis.has_value()) inputs[BudgetInput::kSeaAxis] = {&sea_axis, 1};
   inputs[BudgetInput::kIncidence] = piece.pulses[AxisId::kIncidence];
   inputs[BudgetInput::kDepth] = piece.pulses[AxisId::kDepth];
   inputs[BudgetInput::kSeaThu] = {scratch.sea_thu, count};
@@ -165,7 +140,7 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
 }  // namespace
 
 BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count) {
-  BudgetPulses slice{Slice(pulses.pulses, begin, count), pulses.aircraft};
+  BudgetPulses slice{Slice(pulses.pulses, begin, count), pulses.aircraft, pulses.sea_axis};
   slice.aircraft.size = count;
   for (std::span<const float>& column : slice.aircraft.columns) {
     if (column.size() > 1) column = column.subspan(begin, count);

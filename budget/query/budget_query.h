@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "budget/total/budget_columns.h"
 #include "tables/query/column_query.h"
@@ -54,10 +55,23 @@ struct BudgetAnswers {
 // Pulses whose budget is asked.
 struct BudgetPulses {
   PulseColumns pulses;  // As asked of the table.
-  // The aircraft at the same pulses, and at will kSeaAxis. Incidence, depth and the share of the sea come from `pulses`
-  // and the table; columns of them are not used.
+  // The columns kAircraftInputs at the same pulses; others are not used.
   BudgetInputs aircraft = {};
+  // degree, clockwise from true north: the downwind direction, or the x axis of the table's sea. Absent: not known.
+  std::optional<double> sea_axis = {};
 };
+
+// The inputs that are the aircraft's, in the order of the wire. Altitude and beam azimuth are required.
+inline constexpr std::array<BudgetInput, 18> kAircraftInputs = {
+    BudgetInput::kAltitude,          BudgetInput::kBeamAzimuth,       BudgetInput::kRoll,
+    BudgetInput::kPitch,             BudgetInput::kHeading,           BudgetInput::kVelocityNorth,
+    BudgetInput::kVelocityEast,      BudgetInput::kVelocityDown,      BudgetInput::kRollRate,
+    BudgetInput::kPitchRate,         BudgetInput::kYawRate,           BudgetInput::kPositionSigmaNorth,
+    BudgetInput::kPositionSigmaEast, BudgetInput::kPositionSigmaDown, BudgetInput::kRollSigma,
+    BudgetInput::kPitchSigma,        BudgetInput::kHeadingSigma,      BudgetInput::kWaveHeight};
+constexpr bool IsRequired(BudgetInput input) {
+  return input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth;
+}
 
 // The pulses from `begin` on.
 BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count);

@@ -22,12 +22,6 @@ void CheckSigmas(const std::string& field, const std::array<double, 3>& sigmas,
 
 constexpr std::array<std::string_view, 3> kForwardRightDown = {"forward", "right", "down"};
 
-absl::Status CheckLength(std::string_view name, std::size_t length, std::size_t count) {
-  if (length <= 1 || length == count) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ",
-                                                 count, " pulses; give one number for each pulse, or one for all"));
-}
-
 }  // namespace
 
 std::vector<OptionError> FindErrors(const BudgetOptions& options) {
@@ -67,15 +61,18 @@ absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, c
                                                    " of the aircraft; give the same number"));
   }
   if (count == 0) return absl::OkStatus();
-  for (std::size_t i = 0; i < kBudgetInputCount; ++i) {
-    const std::string_view name = kBudgetInputNames[i];
-    if (absl::Status status = CheckLength(name, pulses.aircraft.columns[i].size(), count); !status.ok()) return status;
-  }
-  for (const BudgetInput required : {BudgetInput::kAltitude, BudgetInput::kBeamAzimuth}) {
-    if (!pulses.aircraft[required].empty()) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat("column '", std::string(kBudgetInputNames[static_cast<std::size_t>(required)]),
-                     "' is empty; give one number for each pulse, or one for all"));
+  for (const BudgetInput input : kAircraftInputs) {
+    const std::string_view name = kBudgetInputNames[static_cast<std::size_t>(input)];
+    const std::size_t length = pulses.aircraft[input].size();
+    if (length == 0 && IsRequired(input)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("column '", std::string(name), "' is empty; give one number for each pulse, or one for all"));
+    }
+    if (length > 1 && length != count) {
+      return absl::InvalidArgumentError(absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ",
+                                                     count,
+                                                     " pulses; give one number for each pulse, or one for all"));
+    }
   }
   return absl::OkStatus();
 }

@@ -19,7 +19,7 @@ struct OptionError {
 std::vector<OptionError> FindErrors(const BudgetOptions& options);
 
 // InvalidArgument: an error in `options`, or a column of a length that is neither one nor the number of pulses, or that
-// is empty although required (altitude, beam azimuth, and those of a table of kind `schema`).
+// is empty although required, of the aircraft or for a table of kind `schema`.
 absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, const BudgetOptions& options);
 
 }  // namespace albtpu

@@ -130,13 +130,9 @@ class Call {
     const auto answer = ReadStreamedAnswer(response_, task_.query, count, Offset(task_.answers, answered_));
     response_.Clear();
     if (!answer.ok()) return answer.status();
-    if (answer->table().digest() != task_.digest) {
-      return absl::AbortedError(absl::StrCat(
-          task_.sea == nullptr ? absl::StrCat("table ", task_.table) : "the table of the sea",
-          " changed from digest ", task_.digest, " to ", answer->table().digest(),
-          task_.sea == nullptr ? " during the query; run again"
-                               : " during the query (another server computed it); ask a single server"));
-    }
+    const absl::Status status =
+        CheckDigest(task_.table, task_.sea != nullptr, task_.digest, answer->table().digest());
+    if (!status.ok()) return status;
     answered_ += count;
     return absl::OkStatus();
   }
@@ -163,6 +159,15 @@ class Call {
 };
 
 }  // namespace
+
+absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest,
+                         const std::string& answered) {
+  if (answered == digest) return absl::OkStatus();
+  return absl::AbortedError(absl::StrCat(
+      of_sea ? "the table of the sea" : absl::StrCat("table ", table), " changed from digest ", digest, " to ", answered,
+      of_sea ? " during the query (another server computed it); ask a single server"
+             : " during the query; run again"));
+}
 
 absl::Status QueryByStream(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {
   Call call(stub, task, begin);

@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "budget/query/query_check.h"
 #include "service/seas/sea_pulses.h"
 
 namespace albtpu::client {
@@ -46,6 +47,19 @@ absl::Status LocalSource::Answer(const Query& query, const PulseColumns& pulses,
   if (absl::Status status = CheckLengths(summary_.sea ? kOneSea : kSeaSurface, used); !status.ok())
     return status;
   InterpolateOnAllCores(interpolator_, query, used, answers);
+  return absl::OkStatus();
+}
+
+absl::Status LocalSource::AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
+                                       const BudgetAnswers& answers) {
+  BudgetPulses used = pulses;
+  if (summary_.sea) {
+    used.pulses = OnOneSea(pulses.pulses);
+    used.sea_axis = summary_.sea->x_azimuth;
+  }
+  if (absl::Status status = CheckQuery(summary_.sea ? kOneSea : kSeaSurface, used, options); !status.ok())
+    return status;
+  QueryBudgetOnAllCores(interpolator_, used, options, answers);
   return absl::OkStatus();
 }
 

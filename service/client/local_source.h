@@ -15,6 +15,8 @@ class LocalSource : public UncertaintySource {
 
   const TableSummary& table() const override { return summary_; }
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
+  absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
+                            const BudgetAnswers& answers) override;
 
  private:
   TableSummary summary_;

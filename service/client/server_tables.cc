@@ -10,6 +10,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "budget/query/query_check.h"
+#include "service/client/budget_exchange.h"
 #include "service/client/column_exchange.h"
 #include "service/client/server_error.h"
 #include "service/client/wire.h"
@@ -66,8 +68,14 @@ class ServerSource final : public UncertaintySource {
 
   const TableSummary& table() const override { return table_; }
   absl::Status Answer(const Query& query, const PulseColumns& pulses, const AnswerColumns& answers) override;
+  absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
+                            const BudgetAnswers& answers) override;
 
  private:
+  // Calls `exchange(answered)`, which answers pulses from `answered` on, until all are answered; with retries.
+  template <typename Exchange>
+  absl::Status AnswerAll(std::size_t size, const Exchange& exchange);
+
   const ServerConnection server_;
   grpc::GenericStub stub_;
   const TableSummary table_;
@@ -80,18 +88,34 @@ absl::Status ServerSource::Answer(const Query& query, const PulseColumns& all_pu
   if (absl::Status status = CheckLengths(table_.sea ? kOneSea : kSeaSurface, pulses); !status.ok())
     return status;
   const ColumnTask task{table_.name, table_.digest, sea_.get(), query, pulses, answers};
+  return AnswerAll(pulses.size, [&](std::size_t& answered) { return QueryByStream(stub_, task, answered); });
+}
+
+absl::Status ServerSource::AnswerBudget(const BudgetOptions& options, const BudgetPulses& all_pulses,
+                                        const BudgetAnswers& answers) {
+  BudgetPulses pulses = all_pulses;
+  if (table_.sea) pulses.pulses = OnOneSea(all_pulses.pulses);
+  if (absl::Status status = CheckQuery(table_.sea ? kOneSea : kSeaSurface, pulses, options); !status.ok())
+    return status;
+  const BudgetTask task{table_.name, table_.digest, sea_.get(), options, pulses, answers};
+  return AnswerAll(pulses.pulses.size,
+                   [&](std::size_t& answered) { return QueryByCalls(stub_, task, answered); });
+}
+
+template <typename Exchange>
+absl::Status ServerSource::AnswerAll(std::size_t size, const Exchange& exchange) {
   const Patience& patience = server_.patience;
   std::size_t answered = 0;
   int retries = 0;
-  while (answered < pulses.size) {
+  while (answered < size) {
     const std::size_t before = answered;
-    const absl::Status status = QueryByStream(stub_, task, answered);
+    const absl::Status status = exchange(answered);
     if (status.ok()) break;
     if (answered > before) retries = 0;
     if (!IsTransient(status)) return WithServerAddress(status, server_.address);
     if (retries == patience.retries) {
       const std::string message = absl::StrCat(status.message(), " (retried ", retries, " times after ",
-                                               answered, " of ", pulses.size, " pulses)");
+                                               answered, " of ", size, " pulses)");
       return WithServerAddress(WithMessage(status, message), server_.address);
     }
     Pause(*server_.channel, patience.first_pause * (1 << retries++));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "budget/query/budget_query.h"
 #include "service/seas/sea_summary.h"
 #include "tables/query/column_query.h"
 #include "tables/query/pulse_columns.h"
@@ -45,6 +46,11 @@ class UncertaintySource {
   // reached (Unavailable), or the content of its table has changed (Aborted).
   virtual absl::Status Answer(const Query& query, const PulseColumns& pulses,
                               const AnswerColumns& answers) = 0;
+
+  // The same for the whole budget. With a table of one sea, the axis of the sea is that of the table. InvalidArgument
+  // also if a number of `options` is out of its range.
+  virtual absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
+                                    const BudgetAnswers& answers) = 0;
 };
 
 }  // namespace albtpu::client

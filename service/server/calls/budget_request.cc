@@ -31,14 +31,6 @@ AirErrors Read(const v1::AirErrors& errors) {
 
 }  // namespace
 
-const std::array<BudgetInput, kAircraftColumnCount> kAircraftInputs = {
-    BudgetInput::kAltitude,           BudgetInput::kBeamAzimuth,       BudgetInput::kRoll,
-    BudgetInput::kPitch,              BudgetInput::kHeading,           BudgetInput::kVelocityNorth,
-    BudgetInput::kVelocityEast,       BudgetInput::kVelocityDown,      BudgetInput::kRollRate,
-    BudgetInput::kPitchRate,          BudgetInput::kYawRate,           BudgetInput::kPositionSigmaNorth,
-    BudgetInput::kPositionSigmaEast,  BudgetInput::kPositionSigmaDown, BudgetInput::kRollSigma,
-    BudgetInput::kPitchSigma,         BudgetInput::kHeadingSigma,      BudgetInput::kWaveHeight};
-
 absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options) {
   const absl::StatusOr<Coverage> coverage = FromWire(options.coverage());
   if (!coverage.ok()) return coverage.status();
@@ -62,8 +54,8 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
   return read;
 }
 
-std::array<RequestColumn, kAircraftColumnCount> ColumnsOf(const v1::AircraftColumns& aircraft) {
-  const std::array<const std::string*, kAircraftColumnCount> bytes = {&aircraft.altitude(),
+std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftColumns& aircraft) {
+  const std::array<const std::string*, kAircraftInputs.size()> bytes = {&aircraft.altitude(),
                                                                       &aircraft.beam_azimuth(),
                                                                       &aircraft.roll(),
                                                                       &aircraft.pitch(),
@@ -81,11 +73,11 @@ std::array<RequestColumn, kAircraftColumnCount> ColumnsOf(const v1::AircraftColu
                                                                       &aircraft.pitch_sigma(),
                                                                       &aircraft.heading_sigma(),
                                                                       &aircraft.wave_height()};
-  std::array<RequestColumn, kAircraftColumnCount> columns;
+  std::array<RequestColumn, kAircraftInputs.size()> columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const BudgetInput input = kAircraftInputs[i];
     columns[i] = {"aircraft", kBudgetInputNames[static_cast<std::size_t>(input)], bytes[i],
-                  input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth};
+                  IsRequired(input)};
   }
   return columns;
 }

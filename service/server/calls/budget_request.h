@@ -14,8 +14,6 @@ namespace albtpu::server {
 absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options);
 
 // The columns of the aircraft, in the order of kAircraftInputs. The result refers to `aircraft`.
-inline constexpr std::size_t kAircraftColumnCount = 18;
-extern const std::array<BudgetInput, kAircraftColumnCount> kAircraftInputs;
-std::array<RequestColumn, kAircraftColumnCount> ColumnsOf(const v1::AircraftColumns& aircraft);
+std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftColumns& aircraft);
 
 }  // namespace albtpu::server

@@ -119,8 +119,11 @@ absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& r
   if (source.sea) *head.mutable_sea() = WriteSea(*source.sea);
   response.Add(head);
   if (source.sea) pulses->pulses = OnOneSea(pulses->pulses);
-  const auto axis = static_cast<float>(source.sea ? source.sea->x_azimuth : request.options().sea_axis());
-  if (source.sea || request.options().has_sea_axis()) pulses->aircraft[BudgetInput::kSeaAxis] = {&axis, 1};
+  if (source.sea) {
+    pulses->sea_axis = source.sea->x_azimuth;
+  } else if (request.options().has_sea_axis()) {
+    pulses->sea_axis = request.options().sea_axis();
+  }
   const BudgetAnswers answers = AddColumns(*selection, count, response);
   QueryBudgetOnAllCores(source.interpolator, *pulses, *options, answers);
   tally.Add({answers.outcomes, count}, {answers.outcome_axes, count});

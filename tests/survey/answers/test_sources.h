@@ -50,6 +50,11 @@ class DisturbedSource : public client::UncertaintySource {
     std::call_once(once_, disturb_);
     return status_.ok() ? source_.Answer(query, pulses, answers) : status_;
   }
+  absl::Status AnswerBudget(const BudgetOptions& options, const BudgetPulses& pulses,
+                            const BudgetAnswers& answers) override {
+    std::call_once(once_, disturb_);
+    return status_.ok() ? source_.AnswerBudget(options, pulses, answers) : status_;
+  }
 
  private:
   client::UncertaintySource& source_;
