@@ -24,7 +24,7 @@ from serving import PATIENCE, Server, connect, make_stubs
 
 SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
 make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
-             for name in ("pulse", "sea", "table", "uncertainty", "uncertainty_service")))
+             for name in ("budget", "pulse", "sea", "table", "uncertainty", "uncertainty_service")))
 from albtpu.v1 import uncertainty_service_pb2_grpc  # noqa: E402
 from albtpu.v1 import uncertainty_service_pb2 as pb  # noqa: E402
 

@@ -22,7 +22,7 @@ from serving import PATIENCE, READY, Server, connect, make_stubs
 
 SERVE, SYNTHETIC_TABLE, PROTO_FOLDER = sys.argv[1:4]
 STUBS = make_stubs(*((PROTO_FOLDER, f"albtpu/v1/{name}.proto")
-                     for name in ("pulse", "sea", "table", "uncertainty", "uncertainty_service")),
+                     for name in ("budget", "pulse", "sea", "table", "uncertainty", "uncertainty_service")),
                    (PROTO_FOLDER, "grpc/health/v1/health.proto"),
                    (os.path.dirname(os.path.abspath(__file__)), "reflection.proto"))
 # The Python package of gRPC has the same name as the package of the health protocol, and hides it.

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
                      TableNotFoundError, UnreachableError)
-from .schema import AXES, QUANTITIES
+from .schema import AXES, BUDGET_QUANTITIES, QUANTITIES
 from .sea import Sea
 from .source import UncertaintySource
 from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .table_file import TableFile, open_table
 
 __version__ = "0.1.0"
-__all__ = ["AXES", "ArgumentError", "Axis", "Error", "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
+__all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Error", "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
            "ServiceError", "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "geometry", "open_table"]

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ArgumentError
 from .names import check_name
-from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS
+from .schema import AIRCRAFT, AXES, COVERAGES, QUANTITIES, S44_ORDERS
 from .sea import Sea
 
 
@@ -100,7 +100,8 @@ def _read_column(axis: str, values: ArrayLike | None) -> NDArray[Any]:
     except ValueError as error:
         raise ArgumentError(f"{axis} is not an array: {error}") from error
     if array.dtype.kind not in "iuf":
-        raise ArgumentError(f"{axis} is of type {array.dtype}: it should be numbers, in {AXES[axis].units}")
+        units = AXES[axis].units if axis in AXES else AIRCRAFT[axis]
+        raise ArgumentError(f"{axis} is of type {array.dtype}: it should be numbers, in {units}")
     if isinstance(array, np.ma.MaskedArray):  # A pulse with a masked coordinate is INVALID.
         return np.where(np.ma.getmaskarray(array), np.nan, np.ma.getdata(array))
     return np.asarray(array)

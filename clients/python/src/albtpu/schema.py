@@ -54,6 +54,20 @@ STANDARD_ERROR = "_standard_error"  # Suffix of the name of a quantity's standar
 # Indexed by their numbers on the wire.
 OUTCOMES = ("UNSPECIFIED", "INTERPOLATED", "OUT_OF_DOMAIN", "INVALID")
 INTERPOLATED, OUT_OF_DOMAIN, INVALID = 1, 2, 3
-COVERAGES = {"2sigma": 1, "p95": 2}
+COVERAGES = {"2sigma": 1, "p95": 2, "1sigma": 3}
 # IHO S-44 edition 6.1.0, strictest first; 0 means none.
 S44_ORDERS = ("", "exclusive", "special", "1a", "1b", "2")
+
+# The columns of the aircraft in a query of the whole budget, with their units, in the order of the wire.
+AIRCRAFT: dict[str, str] = {
+    "altitude": "m", "beam_azimuth": "degree", "roll": "degree", "pitch": "degree", "heading": "degree",
+    "velocity_north": "m s-1", "velocity_east": "m s-1", "velocity_down": "m s-1",
+    "roll_rate": "degree s-1", "pitch_rate": "degree s-1", "yaw_rate": "degree s-1",
+    "position_sigma_north": "m", "position_sigma_east": "m", "position_sigma_down": "m",
+    "roll_sigma": "degree", "pitch_sigma": "degree", "heading_sigma": "degree", "wave_height": "m"}
+# How the surface was located, and the quantities of the budget. On the wire, each is its position here, counted from 1.
+LOCATIONS = ("pulse", "local", "level")
+COVARIANCES = ("covariance_total", "covariance_air", "covariance_sea", "covariance_pulse", "covariance_line",
+               "covariance_survey")
+BUDGET_QUANTITIES = ("total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea", "bias_along_beam",
+                     "bias_vertical", *COVARIANCES, "best_s44_orders")

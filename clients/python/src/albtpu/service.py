@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import grpc
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .budget import Budget, read_budget_query
+from .budget_calls import BudgetCalls
 from .channel import File, open_channel
 from .errors import ArgumentError
-from .progress import Progress
+from .names import check_name, refuse_unknown_keywords
+from .progress import Progress, show_progress
 from .query import Query, check_table
 from .retries import Retries, service_error
-from .schema import ONE_SEA, SEA_SURFACE
+from .schema import AIRCRAFT, ONE_SEA, SEA_SURFACE
 from .sea import Sea
 from .source import UncertaintySource
 from .stream import ColumnStream
@@ -81,6 +85,59 @@ class Service(UncertaintySource):
         from .table_file import TableFile
         request = wire.CompileSeaRequest(sea=sea.message(), with_file=True)
         return TableFile("sea", self._call(self._stub.CompileSea, request).file)
+
+    @refuse_unknown_keywords
+    def query_budget(self, *, incidence: ArrayLike, footprint: ArrayLike, depth: ArrayLike, altitude: ArrayLike,
+                     beam_azimuth: ArrayLike, located: str, wind_speed: ArrayLike | None = None,
+                     fetch: ArrayLike | None = None, azimuth: ArrayLike | None = None, sea: Sea | None = None,
+                     aircraft: Mapping[str, ArrayLike] | None = None, errors: Mapping[str, Any] | None = None,
+                     lever_arm: Sequence[float] = (0.0, 0.0, 0.0), refractive_index: float = 1.34,
+                     datum: float = 0.0, sea_axis: float | None = None, table: str | None = None,
+                     coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
+                     progress: bool = False) -> Budget:
+        """The whole uncertainty of each pulse: of the air side, the sea surface and the vertical datum.
+
+        wind_speed, fetch, incidence, azimuth, footprint, depth, sea, table, progress: as in `query`.
+        altitude:     m, of the sensor above the water.
+        beam_azimuth: degrees clockwise from true north, where the beam travels to.
+        located:      how the processing located the surface: "pulse" by the pulse's own return, "local" by a model of
+                      the survey's own returns, "level" by a water level.
+        aircraft:     further columns by name: roll, pitch, heading in degrees; velocity_north, velocity_east,
+                      velocity_down in m/s; roll_rate, pitch_rate, yaw_rate in degrees per s; the standard deviations
+                      position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
+                      heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
+                      of the elevation that the location of the surface does not see.
+        errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
+                      and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,
+                      range_offset, bottom_range and surface_height in m, index. Omitted ones are 0.
+        lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
+        refractive_index: of the water.
+        datum:        m, standard deviation of the height of the vertical datum.
+        sea_axis:     degrees clockwise from true north, where the wind blows to. Omitted: not known. Not used with the
+                      table of a sea, which has its own axis.
+        coverage:     "2sigma", "1sigma" or "p95".
+        quantities:   names from albtpu.BUDGET_QUANTITIES.
+
+        Raises ArgumentError for invalid arguments, and ServiceError.
+
+        >>> budget = service.query_budget(
+        ...     wind_speed=5, incidence=20, footprint=0.5, depth=[4, 8], altitude=400, beam_azimuth=90, located="local",
+        ...     errors=dict(position=(0.03, 0.03, 0.05), scan=0.001))   # doctest: +SKIP
+        >>> budget.total_thu, budget.outcome                            # doctest: +SKIP
+        """
+        columns = {**dict.fromkeys(AIRCRAFT), **(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth}
+        for name in columns:
+            check_name("aircraft", name, AIRCRAFT)
+        asked = read_budget_query(
+            dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth, footprint=footprint,
+                 depth=depth), columns, located=located, errors=errors, lever_arm=lever_arm,
+            refractive_index=refractive_index, datum=datum, sea_axis=sea_axis, quantities=quantities,
+            coverage=coverage, table=table, sea=sea)
+        if asked.query.size == 0:
+            raise ArgumentError("there are no pulses: give at least one")
+        with show_progress(asked.query.size if progress else 0) as shown:
+            calls = BudgetCalls(self._target, self._stub, asked, shown, self._timeout)
+            return calls.run(Retries(self._channel, self._patience))
 
     def close(self) -> None:
         self._open_stub = None

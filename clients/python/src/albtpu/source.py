@@ -47,7 +47,7 @@ class UncertaintySource(ABC):
                      azimuth counts from the x axis of the sea (albtpu.geometry.azimuth_on_sea), with a period of
                      180 degrees; omitted, each value is the largest in magnitude over all azimuths.
         table:       the table of a service, NAME or NAME/VERSION. Omitted: its default table.
-        coverage:    "2sigma", or "p95" for 95 %; THU is then the radius that contains 95 %.
+        coverage:    "2sigma", "1sigma", or "p95" for 95 %; THU is then the radius that contains 95 %.
         quantities:  names from albtpu.QUANTITIES. Omitted: all of them.
         standard_errors: also return the standard error of each quantity: of the Monte Carlo, or with a sea, what is
                      not known of the sea.

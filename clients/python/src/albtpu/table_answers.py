@@ -58,6 +58,8 @@ class TableAnswers:
     def _factor(self, name: str, numbers: PulseNumbers) -> Doubles | float:
         if self._query.coverage == "2sigma" or name in BIASES:
             return 1.0
+        if self._query.coverage == "1sigma":
+            return 0.5
         return numbers.radius_over_thu if name == "thu" else FACTOR_95
 
     def _fill_s44(self, columns: AnswerColumns, block: slice, numbers: PulseNumbers, without_number: NDArray[np.bool_],

@@ -46,6 +46,11 @@ class UncertaintyServiceStub(object):
                 request_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsRequest.SerializeToString,
                 response_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsResponse.FromString,
                 )
+        self.QueryBudget = channel.unary_unary(
+                '/albtpu.v1.UncertaintyService/QueryBudget',
+                request_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetRequest.SerializeToString,
+                response_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetResponse.FromString,
+                )
         self.ListTables = channel.unary_unary(
                 '/albtpu.v1.UncertaintyService/ListTables',
                 request_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.ListTablesRequest.SerializeToString,
@@ -133,6 +138,22 @@ class UncertaintyServiceServicer(object):
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
+    def QueryBudget(self, request, context):
+        """The whole uncertainty budget of pulses: the share of the sea surface, from a table as in `QueryColumns`, with those
+        of the air side and the vertical datum, in columns. Every request carries all that is known of sensor and
+        trajectory.
+
+        Errors:
+        * INVALID_ARGUMENT: no pulses; more than 65 536 pulses, or so many that the response would exceed 4 MiB; a required
+        column that is empty; a column whose length in bytes is not a multiple of 4; columns of different lengths; a
+        number that is not a value of its enum; no `BudgetOptions.located`; a field of `BudgetOptions` or `AirErrors`
+        that is out of its range or not finite.
+        * NOT_FOUND, FAILED_PRECONDITION, and the errors of a sea: as for `QueryPulses`.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
     def ListTables(self, request, context):
         """All tables of the server. The response is never paged, because there are only a few tables.
         """
@@ -176,6 +197,11 @@ def add_UncertaintyServiceServicer_to_server(servicer, server):
                     servicer.StreamColumns,
                     request_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsRequest.FromString,
                     response_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsResponse.SerializeToString,
+            ),
+            'QueryBudget': grpc.unary_unary_rpc_method_handler(
+                    servicer.QueryBudget,
+                    request_deserializer=albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetRequest.FromString,
+                    response_serializer=albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetResponse.SerializeToString,
             ),
             'ListTables': grpc.unary_unary_rpc_method_handler(
                     servicer.ListTables,
@@ -267,6 +293,23 @@ class UncertaintyService(object):
         return grpc.experimental.stream_stream(request_iterator, target, '/albtpu.v1.UncertaintyService/StreamColumns',
             albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsRequest.SerializeToString,
             albtpu_dot_v1_dot_uncertainty__service__pb2.StreamColumnsResponse.FromString,
+            options, channel_credentials,
+            insecure, call_credentials, compression, wait_for_ready, timeout, metadata)
+
+    @staticmethod
+    def QueryBudget(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_unary(request, target, '/albtpu.v1.UncertaintyService/QueryBudget',
+            albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetRequest.SerializeToString,
+            albtpu_dot_v1_dot_uncertainty__service__pb2.QueryBudgetResponse.FromString,
             options, channel_credentials,
             insecure, call_credentials, compression, wait_for_ready, timeout, metadata)
 

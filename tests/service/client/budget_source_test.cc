@@ -1,0 +1,116 @@
+// The whole budget: the client queries the real server, in the same process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "service/client/local_source.h"
+#include "service/client/sea_sources.h"
+#include "service/client/server_source.h"
+#include "tests/budget/query/budget_memory.h"
+#include "tests/service/client/running_server.h"
+#include "tests/service/known_seas.h"
+
+namespace albtpu::client {
+namespace {
+
+using albtpu::testing::BudgetMemory;
+using albtpu::testing::BudgetPulseMemory;
+using albtpu::testing::SyntheticTable;
+using albtpu::testing::UsualOptions;
+using ::testing::HasSubstr;
+
+// Whether both have the same bits. NaN is the same NaN everywhere.
+void ExpectSame(const BudgetMemory& a, const BudgetMemory& b) {
+  EXPECT_TRUE(a.outcomes == b.outcomes && a.outcome_axes == b.outcome_axes);
+  EXPECT_TRUE(a.best_s44_orders == b.best_s44_orders);
+  for (std::size_t i = 0; i < kBudgetColumnCount; ++i) {
+    EXPECT_EQ(std::memcmp(a.numbers[i].data(), b.numbers[i].data(), a.numbers[i].size() * sizeof(float)), 0) << i;
+  }
+}
+
+TEST(BudgetSource, GivesTheSameBitsOnAServerAndInThisProcess) {
+  const RunningServer server;
+  const auto remote = OpenServer(server.address(), "").value();
+  LocalSource local("", SyntheticTable());
+  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(100000);  // More than four messages.
+  pulses[BudgetInput::kAltitude][777] = -1;
+  pulses.axes[Index(AxisId::kDepth)][99999] = 30;
+  for (const Coverage coverage : {Coverage::kTwoSigma, Coverage::kOneSigma, Coverage::kP95}) {
+    BudgetOptions options = UsualOptions();
+    options.coverage = coverage;
+    BudgetMemory from_server(pulses.size), from_table(pulses.size);
+    const absl::Status status = remote->AnswerBudget(options, pulses.columns(), from_server.columns());
+    ASSERT_TRUE(status.ok()) << status;
+    ASSERT_TRUE(local.AnswerBudget(options, pulses.columns(), from_table.columns()).ok());
+    ExpectSame(from_server, from_table);
+    EXPECT_EQ(from_table.outcomes[777], 3);
+    EXPECT_EQ(from_table.outcomes[99999], 2);
+  }
+}
+
+TEST(BudgetSource, AsksOnlyForTheColumnsThatAreWanted) {
+  const RunningServer server;
+  const auto source = OpenServer(server.address(), "").value();
+  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
+  BudgetMemory all(pulses.size), some(pulses.size);
+  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), all.columns()).ok());
+  BudgetAnswers wanted;
+  const std::size_t nd = FirstColumn(BudgetQuantity::kCovarianceTotal) + 4;
+  wanted.columns[nd] = some.numbers[nd].data();
+  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), wanted).ok());
+  EXPECT_EQ(some.numbers[nd], all.numbers[nd]);
+}
+
+TEST(BudgetSource, AnswersPulsesThatAreAllAlike) {
+  const RunningServer server;
+  const auto source = OpenServer(server.address(), "").value();
+  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1);
+  pulses.size = 70000;
+  BudgetMemory answers(pulses.size);
+  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), answers.columns()).ok());
+  const std::vector<float>& thu = answers.numbers[FirstColumn(BudgetQuantity::kTotalThu)];
+  EXPECT_GT(thu[0], 0);
+  EXPECT_EQ(thu, std::vector<float>(pulses.size, thu[0]));
+}
+
+TEST(BudgetSource, OfASeaTakesTheAxisOfTheSea) {
+  const RunningServer server;
+  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
+  pulses.axes[Index(AxisId::kWindSpeed)].clear();
+  const auto remote = ServerSeas(server.address()).value()->Open(albtpu::testing::MeasuredWaves()).value();
+  const auto local = LocalSeas()->Open(albtpu::testing::MeasuredWaves()).value();
+  BudgetMemory from_server(pulses.size), from_table(pulses.size);
+  ASSERT_TRUE(remote->AnswerBudget(UsualOptions(), pulses.columns(), from_server.columns()).ok());
+  ASSERT_TRUE(local->AnswerBudget(UsualOptions(), pulses.columns(), from_table.columns()).ok());
+  ExpectSame(from_server, from_table);
+}
+
+TEST(BudgetSource, RefusesTheSameOptionsOnAServerAndInThisProcess) {
+  const RunningServer server;
+  const auto remote = OpenServer(server.address(), "").value();
+  LocalSource local("", SyntheticTable());
+  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(10);
+  BudgetMemory answers(pulses.size);
+  BudgetOptions options = UsualOptions();
+  options.index = 3;
+  for (UncertaintySource* const source : {remote.get(), static_cast<UncertaintySource*>(&local)}) {
+    const absl::Status status = source->AnswerBudget(options, pulses.columns(), answers.columns());
+    EXPECT_TRUE(absl::IsInvalidArgument(status));
+    EXPECT_THAT(status.message(), HasSubstr("refractive_index is 3"));
+  }
+}
+
+TEST(BudgetSource, ReportsAServerThatStops) {
+  RunningServer server;
+  const auto source = OpenServer(server.address(), "", {.retries = 0}).value();
+  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(200000);
+  BudgetMemory answers(pulses.size);
+  server.Stop();
+  const absl::Status status = source->AnswerBudget(UsualOptions(), pulses.columns(), answers.columns());
+  EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+  EXPECT_THAT(status.message(), HasSubstr("0 of 200000 pulses"));
+}
+
+}  // namespace
+}  // namespace albtpu::client
