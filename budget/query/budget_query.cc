@@ -66,24 +66,25 @@ BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::si
     return entries;
   };
   using enum BudgetQuantity;
-  BudgetOutputs outputs{.thu = number(kTotalThu),
-                        .tvu = number(kTotalTvu),
-                        .thu_air = number(kThuAir),
-                        .tvu_air = number(kTvuAir),
-                        .thu_sea = number(kThuSea),
-                        .tvu_sea = number(kTvuSea),
-                        .air = covariance(kCovarianceAir),
-                        .sea = covariance(kCovarianceSea),
-                        .total = covariance(kCovarianceTotal),
-                        .groups = {covariance(kCovariancePulse), covariance(kCovarianceLine),
-                                   covariance(kCovarianceSurvey)}};
+  BudgetOutputs outputs{
+      .thu = number(kTotalThu),
+      .tvu = number(kTotalTvu),
+      .thu_air = number(kThuAir),
+      .tvu_air = number(kTvuAir),
+      .thu_sea = number(kThuSea),
+      .tvu_sea = number(kTvuSea),
+      .air = covariance(kCovarianceAir),
+      .sea = covariance(kCovarianceSea),
+      .total = covariance(kCovarianceTotal),
+      .groups = {covariance(kCovariancePulse), covariance(kCovarianceLine), covariance(kCovarianceSurvey)}};
   if (answers.best_s44_orders != nullptr) outputs.best_orders = {answers.best_s44_orders + begin, count};
   return outputs;
 }
 
 // Answers up to kGrain pulses from `begin` on.
-void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all, const BudgetOptions& options,
-                 std::size_t begin, std::size_t count, const BudgetAnswers& answers, Scratch& scratch) {
+void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all,
+                 const BudgetOptions& options, std::size_t begin, std::size_t count,
+                 const BudgetAnswers& answers, Scratch& scratch) {
   BudgetPulses piece = Slice(all, begin, count);
   std::uint8_t* const outcomes = answers.outcomes != nullptr ? answers.outcomes + begin : scratch.outcomes;
   std::uint8_t* const axes =
@@ -97,8 +98,10 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   sea.values[Index(Quantity::kTvu)] = scratch.sea_tvu;
   sea.values[Index(Quantity::kRefractionAlongWind)] = scratch.along;
   sea.values[Index(Quantity::kRefractionCrossWind)] = scratch.cross;
-  if (asks_order || bias_along_beam != nullptr) sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
-  if (asks_order || bias_vertical != nullptr) sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
+  if (asks_order || bias_along_beam != nullptr)
+    sea.values[Index(Quantity::kBiasAlongBeam)] = scratch.bias_along_beam;
+  if (asks_order || bias_vertical != nullptr)
+    sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
   interpolator.Interpolate({.coverage = Coverage::kTwoSigma, .s44_order = {}}, piece.pulses, 0, count, sea);
   if (bias_along_beam != nullptr) std::copy_n(scratch.bias_along_beam, count, bias_along_beam + begin);
   if (bias_vertical != nullptr) std::copy_n(scratch.bias_vertical, count, bias_vertical + begin);
@@ -121,7 +124,8 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   inputs[BudgetInput::kRefractionCross] = {scratch.cross, count};
   if (asks_order) {
     for (float* const bias : {scratch.bias_along_beam, scratch.bias_vertical}) {
-      std::replace_if(bias, bias + count, [](float b) { return std::isnan(b); }, 0.0f);
+      std::replace_if(
+          bias, bias + count, [](float b) { return std::isnan(b); }, 0.0f);
     }
     inputs[BudgetInput::kBiasAlongBeam] = {scratch.bias_along_beam, count};
     inputs[BudgetInput::kBiasVertical] = {scratch.bias_vertical, count};

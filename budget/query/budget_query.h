@@ -15,14 +15,14 @@ namespace albtpu {
 
 // The numbers of a budget, in the order of the wire.
 enum class BudgetQuantity : std::uint8_t {
-  kTotalThu,       // m, at the coverage of the options, of all shares.
-  kTotalTvu,       // m
-  kThuAir,         // m, of the air side alone.
-  kTvuAir,         // m
-  kThuSea,         // m, of sea surface and unseen waves.
-  kTvuSea,         // m
-  kBiasAlongBeam,  // m; in no covariance. NaN if the table does not hold it.
-  kBiasVertical,   // m
+  kTotalThu,          // m, at the coverage of the options, of all shares.
+  kTotalTvu,          // m
+  kThuAir,            // m, of the air side alone.
+  kTvuAir,            // m
+  kThuSea,            // m, of sea surface and unseen waves.
+  kTvuSea,            // m
+  kBiasAlongBeam,     // m; in no covariance. NaN if the table does not hold it.
+  kBiasVertical,      // m
   kCovarianceTotal,   // m^2, 1 sigma: six columns in the order of kCovarianceNames.
   kCovarianceAir,     // As BudgetOutputs::air.
   kCovarianceSea,     // As BudgetOutputs::sea.
@@ -62,13 +62,24 @@ struct BudgetPulses {
 };
 
 // The inputs that are the aircraft's, in the order of the wire. Altitude and beam azimuth are required.
-inline constexpr std::array<BudgetInput, 18> kAircraftInputs = {
-    BudgetInput::kAltitude,          BudgetInput::kBeamAzimuth,       BudgetInput::kRoll,
-    BudgetInput::kPitch,             BudgetInput::kHeading,           BudgetInput::kVelocityNorth,
-    BudgetInput::kVelocityEast,      BudgetInput::kVelocityDown,      BudgetInput::kRollRate,
-    BudgetInput::kPitchRate,         BudgetInput::kYawRate,           BudgetInput::kPositionSigmaNorth,
-    BudgetInput::kPositionSigmaEast, BudgetInput::kPositionSigmaDown, BudgetInput::kRollSigma,
-    BudgetInput::kPitchSigma,        BudgetInput::kHeadingSigma,      BudgetInput::kWaveHeight};
+inline constexpr std::array<BudgetInput, 18> kAircraftInputs = {BudgetInput::kAltitude,
+                                                                BudgetInput::kBeamAzimuth,
+                                                                BudgetInput::kRoll,
+                                                                BudgetInput::kPitch,
+                                                                BudgetInput::kHeading,
+                                                                BudgetInput::kVelocityNorth,
+                                                                BudgetInput::kVelocityEast,
+                                                                BudgetInput::kVelocityDown,
+                                                                BudgetInput::kRollRate,
+                                                                BudgetInput::kPitchRate,
+                                                                BudgetInput::kYawRate,
+                                                                BudgetInput::kPositionSigmaNorth,
+                                                                BudgetInput::kPositionSigmaEast,
+                                                                BudgetInput::kPositionSigmaDown,
+                                                                BudgetInput::kRollSigma,
+                                                                BudgetInput::kPitchSigma,
+                                                                BudgetInput::kHeadingSigma,
+                                                                BudgetInput::kWaveHeight};
 constexpr bool IsRequired(BudgetInput input) {
   return input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth;
 }
@@ -80,10 +91,12 @@ BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t co
 // and sums of products of three such numbers have squares that single precision holds (1e38).
 inline constexpr double kGreatestBudgetNumber = 1e6;
 
-// Answers all pulses, for which CheckQuery() must be OK, and depends on each pulse and the instruction set alone. On all cores if
-// there are enough pulses for that to be faster, else on the calling thread. A pulse without an answer of the table has
-// the table's outcome and no number. A pulse is invalid if a number of the aircraft is NaN or beyond
-// kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height negative.
+// Answers all pulses, for which CheckQuery() must be OK. The answer for a pulse depends on this pulse and the instruction
+// set alone. Runs on all cores if there are enough pulses for that to be faster, else on the calling thread.
+//
+// A pulse without an answer of the table has the table's outcome and no number. A pulse is invalid if a number of the
+// aircraft is NaN or beyond kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height
+// negative.
 void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
                            const BudgetOptions& options, const BudgetAnswers& answers);
 

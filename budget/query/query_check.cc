@@ -11,13 +11,14 @@ namespace {
 
 void CheckSigma(const std::string& field, double sigma, std::vector<OptionError>& errors) {
   if (sigma >= 0 && sigma <= kGreatestBudgetNumber) return;
-  errors.push_back({field, absl::StrCat(field, " is ", sigma, ": a standard deviation is 0 to ",
-                                        kGreatestBudgetNumber)});
+  errors.push_back(
+      {field, absl::StrCat(field, " is ", sigma, ": a standard deviation is 0 to ", kGreatestBudgetNumber)});
 }
 
 void CheckSigmas(const std::string& field, const std::array<double, 3>& sigmas,
                  const std::array<std::string_view, 3>& axes, std::vector<OptionError>& errors) {
-  for (std::size_t i = 0; i < 3; ++i) CheckSigma(absl::StrCat(field, ".", std::string(axes[i])), sigmas[i], errors);
+  for (std::size_t i = 0; i < 3; ++i)
+    CheckSigma(absl::StrCat(field, ".", std::string(axes[i])), sigmas[i], errors);
 }
 
 constexpr std::array<std::string_view, 3> kForwardRightDown = {"forward", "right", "down"};
@@ -45,7 +46,8 @@ std::vector<OptionError> FindErrors(const BudgetOptions& options) {
                                          kGreatestBudgetNumber, " m in magnitude")});
   }
   if (!(options.index >= 1 && options.index <= 2)) {
-    found.push_back({"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
+    found.push_back(
+        {"refractive_index", absl::StrCat("refractive_index is ", options.index, ": expected 1 to 2")});
   }
   CheckSigma("datum", options.datum, found);
   return found;
@@ -65,13 +67,13 @@ absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, c
     const std::string_view name = kBudgetInputNames[static_cast<std::size_t>(input)];
     const std::size_t length = pulses.aircraft[input].size();
     if (length == 0 && IsRequired(input)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("column '", std::string(name), "' is empty; give one number for each pulse, or one for all"));
+      return absl::InvalidArgumentError(absl::StrCat(
+          "column '", std::string(name), "' is empty; give one number for each pulse, or one for all"));
     }
     if (length > 1 && length != count) {
-      return absl::InvalidArgumentError(absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ",
-                                                     count,
-                                                     " pulses; give one number for each pulse, or one for all"));
+      return absl::InvalidArgumentError(
+          absl::StrCat("column '", std::string(name), "' has ", length, " numbers for ", count,
+                       " pulses; give one number for each pulse, or one for all"));
     }
   }
   return absl::OkStatus();

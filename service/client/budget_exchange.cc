@@ -97,7 +97,7 @@ class Calls {
 
   grpc::GenericStub& stub_;
   const BudgetTask& task_;
-  const std::size_t most_;  // Pulses of a call.
+  const std::size_t most_;       // Pulses of a call.
   std::size_t sent_, answered_;  // Pulses.
   absl::Status failure_;
   grpc::CompletionQueue events_;

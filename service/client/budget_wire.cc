@@ -18,8 +18,8 @@ namespace {
 
 namespace v1 = albtpu::v1;
 
-// Bytes of columns in a message, which may have 4 MiB (uncertainty_service.proto). The rest is for everything else, most
-// of it a sea.
+// Bytes of columns in a message, which may have 4 MiB (uncertainty_service.proto). The rest is for everything else,
+// most of it a sea.
 constexpr std::size_t kMostColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
 
 v1::NorthEastDown NorthEastDown(const std::array<double, 3>& numbers) {
@@ -82,20 +82,21 @@ absl::Status WrongLength(std::string_view name, std::size_t bytes, std::size_t c
 }
 
 // Copies one byte for each pulse, of which none may be outside `least` to `most`.
-absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least, int most,
-                       std::uint8_t* destination) {
+absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least,
+                       int most, std::uint8_t* destination) {
   if (destination == nullptr) return absl::OkStatus();
   if (bytes.size() != count) return WrongLength(name, bytes.size(), count);
   std::memcpy(destination, bytes.data(), count);
-  const auto* const unknown = std::find_if_not(destination, destination + count,
-                                               [=](std::uint8_t number) { return number >= least && number <= most; });
+  const auto* const unknown = std::find_if_not(destination, destination + count, [=](std::uint8_t number) {
+    return number >= least && number <= most;
+  });
   if (unknown == destination + count) return absl::OkStatus();
   return absl::InternalError(absl::StrCat("answered ", *unknown, " among the ", std::string(name),
                                           ", a number that this program does not know"));
 }
 
-absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin, std::size_t count,
-                        const BudgetAnswers& answers) {
+absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin,
+                        std::size_t count, const BudgetAnswers& answers) {
   const std::string& bytes = ColumnOf(budget, quantity);
   const std::size_t columns = ColumnCount(quantity), size = count * sizeof(float);
   if (bytes.size() != columns * size) return WrongLength("the budget", bytes.size(), count);
@@ -126,21 +127,25 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
 }
 
 void AddPulses(const BudgetPulses& pulses, ColumnMessage& request) {
-  static_assert(int{v1::QueryBudgetRequest::kPulsesFieldNumber} == int{v1::QueryColumnsRequest::kPulsesFieldNumber});
+  static_assert(int{v1::QueryBudgetRequest::kPulsesFieldNumber} ==
+                int{v1::QueryColumnsRequest::kPulsesFieldNumber});
   AddPulses(pulses.pulses, request);
   const std::size_t mark = request.Mark();
   for (std::size_t i = 0; i < kAircraftInputs.size(); ++i) {
     const std::span<const float> column = pulses.aircraft[kAircraftInputs[i]];
     if (column.empty()) continue;
-    std::memcpy(request.AddColumn(static_cast<int>(i) + 1, column.size_bytes()), column.data(), column.size_bytes());
+    std::memcpy(request.AddColumn(static_cast<int>(i) + 1, column.size_bytes()), column.data(),
+                column.size_bytes());
   }
   request.Nest(v1::QueryBudgetRequest::kAircraftFieldNumber, mark);
 }
 
 std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
   std::size_t asked = sizeof(float);  // The depth may be repeated.
-  for (const std::span<const float> column : pulses.pulses.axis) asked += column.size() > 1 ? sizeof(float) : 0;
-  for (const BudgetInput input : kAircraftInputs) asked += pulses.aircraft[input].size() > 1 ? sizeof(float) : 0;
+  for (const std::span<const float> column : pulses.pulses.axis)
+    asked += column.size() > 1 ? sizeof(float) : 0;
+  for (const BudgetInput input : kAircraftInputs)
+    asked += pulses.aircraft[input].size() > 1 ? sizeof(float) : 0;
   std::size_t answered = 3;  // Outcome, axis and order.
   for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
     const auto quantity = static_cast<BudgetQuantity>(i);
@@ -149,15 +154,16 @@ std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) 
   return std::min(kMostPulses, kMostColumnBytes / std::max(asked, answered));
 }
 
-absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options, std::size_t begin,
-                                       std::size_t count, const BudgetAnswers& answers) {
+absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options,
+                                       std::size_t begin, std::size_t count, const BudgetAnswers& answers) {
   v1::QueryBudgetResponse response;
   grpc::ProtoBufferReader reader(&bytes);
   if (!reader.status().ok() || !response.ParseFromZeroCopyStream(&reader))
     return absl::InternalError("answered bytes that are not a valid message");
   const v1::Coverage coverage = ToWire(options.coverage);
   if (response.coverage() != coverage) {
-    return absl::InternalError(absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
+    return absl::InternalError(
+        absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
   }
   const auto at = [begin](std::uint8_t* column) { return column == nullptr ? nullptr : column + begin; };
   absl::Status status =

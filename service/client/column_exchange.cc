@@ -163,10 +163,11 @@ class Call {
 absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest,
                          const std::string& answered) {
   if (answered == digest) return absl::OkStatus();
-  return absl::AbortedError(absl::StrCat(
-      of_sea ? "the table of the sea" : absl::StrCat("table ", table), " changed from digest ", digest, " to ", answered,
-      of_sea ? " during the query (another server computed it); ask a single server"
-             : " during the query; run again"));
+  return absl::AbortedError(
+      absl::StrCat(of_sea ? "the table of the sea" : absl::StrCat("table ", table), " changed from digest ",
+                   digest, " to ", answered,
+                   of_sea ? " during the query (another server computed it); ask a single server"
+                          : " during the query; run again"));
 }
 
 absl::Status QueryByStream(grpc::GenericStub& stub, const ColumnTask& task, std::size_t& begin) {

@@ -16,7 +16,8 @@ namespace albtpu::client {
 // The largest number of pulses in a message (uncertainty_service.proto).
 inline constexpr std::size_t kMostPulses = 65536;
 
-// OK if `answered`, the digest of an answer, is that of the table of this name, or of the sea if `of_sea`. Else ABORTED.
+// OK if `answered`, the digest of an answer, is that of the table of this name, or of the sea if `of_sea`; else
+// ABORTED.
 absl::Status CheckDigest(const std::string& table, bool of_sea, const std::string& digest,
                          const std::string& answered);
 

@@ -9,6 +9,7 @@
 #include "service/server/calls/message_handlers.h"
 #include "service/server/ground/limits.h"
 #include "service/server/observe/records.h"
+#include "service/server/tables/wire_enums.h"
 #include "tables/file/table_io.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/twin.h"
@@ -104,9 +105,9 @@ void CheckAnswer(const Tables& tables, const v1::QueryColumnsRequest& request,
   answers.remaining_tvu = ColumnOf<float>(response.s44().remaining_tvu(), count);
   const absl::StatusOr<const TableCatalog::Entry*> entry = tables.catalog().Find(request.options().table());
   ALBTPU_MUST(entry.ok() && response.table().digest() == (*entry)->table.digest());
-  const Query query{
-      .coverage = response.coverage() == v1::COVERAGE_P95 ? Coverage::kP95 : Coverage::kTwoSigma,
-      .s44_order = {}};
+  const absl::StatusOr<Coverage> coverage = FromWire(response.coverage());
+  ALBTPU_MUST(coverage.ok());
+  const Query query{.coverage = *coverage, .s44_order = {}};
   tables.TwinOf(*entry).MustAgree(query, pulses, answers);
 }
 

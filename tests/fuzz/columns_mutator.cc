@@ -78,7 +78,7 @@ void MutateOptions(std::mt19937& random, v1::QueryColumnsRequest& request) {
     case 0:
       return options.set_table(kTables[random() % std::size(kTables)]);
     case 1:
-      return options.set_coverage(static_cast<v1::Coverage>(random() % 4));
+      return options.set_coverage(static_cast<v1::Coverage>(random() % 5));
     case 2:
       return options.set_standard_errors(random() % 2 == 0);
     case 3:

@@ -146,6 +146,33 @@ std::vector<std::string> ColumnSeeds() {
   return seeds;
 }
 
+std::vector<std::string> BudgetSeeds() {
+  v1::QueryBudgetRequest request;
+  *request.mutable_pulses() = Request().pulses();
+  request.mutable_options()->set_located(v1::SURFACE_LOCATION_LOCAL);
+  request.mutable_options()->mutable_errors()->set_scan(0.001);
+  request.mutable_options()->mutable_errors()->mutable_position()->set_down(0.05);
+  request.mutable_aircraft()->set_altitude(Column({400}));
+  request.mutable_aircraft()->set_beam_azimuth(Column({0, 120, 240}));
+  std::vector<v1::QueryBudgetRequest> requests(3, request);
+  v1::BudgetOptions& options = *requests[1].mutable_options();
+  options.set_table("published");
+  options.set_coverage(v1::COVERAGE_P95);
+  options.set_sea_axis(70);
+  options.set_datum(0.08);
+  options.mutable_lever_arm()->set_forward(0.3);
+  for (int i = v1::BudgetQuantity_MIN + 1; i <= v1::BudgetQuantity_MAX; ++i)
+    requests[1].add_quantities(static_cast<v1::BudgetQuantity>(i));
+  v1::AircraftColumns& aircraft = *requests[2].mutable_aircraft();
+  aircraft.set_roll(Column({-3, 0, 1e7f}));
+  aircraft.set_heading_sigma(Column({0.01f, -1, 0}));
+  aircraft.set_velocity_north(Column({70}));
+  aircraft.set_wave_height(Column({0.25f}));
+  std::vector<std::string> seeds;
+  for (const v1::QueryBudgetRequest& seed : requests) seeds.push_back(seed.SerializeAsString());
+  return seeds;
+}
+
 std::vector<std::string> TableSeeds() {
   std::vector<std::string> seeds;
   for (const UncertaintyTable& table :
@@ -251,7 +278,8 @@ int main(int argc, char** argv) {
     std::cerr << "albtpu_fuzz_seeds: no folder; give the folder to write to\n";
     return 2;
   }
-  std::map<std::string, std::vector<std::string>> seeds = {{"campaign", CampaignSeeds()},
+  std::map<std::string, std::vector<std::string>> seeds = {{"budget", BudgetSeeds()},
+                                                           {"campaign", CampaignSeeds()},
                                                            {"columns", ColumnSeeds()},
                                                            {"csv", CsvSeeds()},
                                                            {"csv_file", CsvSeeds()},

@@ -56,23 +56,23 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
 
 std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftColumns& aircraft) {
   const std::array<const std::string*, kAircraftInputs.size()> bytes = {&aircraft.altitude(),
-                                                                      &aircraft.beam_azimuth(),
-                                                                      &aircraft.roll(),
-                                                                      &aircraft.pitch(),
-                                                                      &aircraft.heading(),
-                                                                      &aircraft.velocity_north(),
-                                                                      &aircraft.velocity_east(),
-                                                                      &aircraft.velocity_down(),
-                                                                      &aircraft.roll_rate(),
-                                                                      &aircraft.pitch_rate(),
-                                                                      &aircraft.yaw_rate(),
-                                                                      &aircraft.position_sigma_north(),
-                                                                      &aircraft.position_sigma_east(),
-                                                                      &aircraft.position_sigma_down(),
-                                                                      &aircraft.roll_sigma(),
-                                                                      &aircraft.pitch_sigma(),
-                                                                      &aircraft.heading_sigma(),
-                                                                      &aircraft.wave_height()};
+                                                                        &aircraft.beam_azimuth(),
+                                                                        &aircraft.roll(),
+                                                                        &aircraft.pitch(),
+                                                                        &aircraft.heading(),
+                                                                        &aircraft.velocity_north(),
+                                                                        &aircraft.velocity_east(),
+                                                                        &aircraft.velocity_down(),
+                                                                        &aircraft.roll_rate(),
+                                                                        &aircraft.pitch_rate(),
+                                                                        &aircraft.yaw_rate(),
+                                                                        &aircraft.position_sigma_north(),
+                                                                        &aircraft.position_sigma_east(),
+                                                                        &aircraft.position_sigma_down(),
+                                                                        &aircraft.roll_sigma(),
+                                                                        &aircraft.pitch_sigma(),
+                                                                        &aircraft.heading_sigma(),
+                                                                        &aircraft.wave_height()};
   std::array<RequestColumn, kAircraftInputs.size()> columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const BudgetInput input = kAircraftInputs[i];

@@ -45,7 +45,8 @@ absl::StatusOr<BudgetPulses> ReadPulses(const v1::QueryBudgetRequest& request, c
   if (!count.ok()) return count.status();
   BudgetPulses pulses{.pulses = PulsesOf(axes, *count)};
   pulses.aircraft.size = *count;
-  for (std::size_t i = 0; i < aircraft.size(); ++i) pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
+  for (std::size_t i = 0; i < aircraft.size(); ++i)
+    pulses.aircraft[kAircraftInputs[i]] = aircraft[i].numbers();
   return pulses;
 }
 
@@ -62,9 +63,9 @@ std::size_t AnswerBytes(const QuantitySelection& selection) {
 absl::Status CheckAnswerSize(const QuantitySelection& selection, std::size_t count) {
   const std::size_t most = kMaxAnswerColumnBytes / AnswerBytes(selection);
   if (count <= most) return absl::OkStatus();
-  return FieldViolation("pulses",
-                        absl::StrCat("there are ", count, " pulses: with these quantities, a message takes ", most,
-                                     " pulses at most; send several messages, or ask for fewer quantities"));
+  return FieldViolation(
+      "pulses", absl::StrCat("there are ", count, " pulses: with these quantities, a message takes ", most,
+                             " pulses at most; send several messages, or ask for fewer quantities"));
 }
 
 // Adds the columns that were requested. The number of a field is that of its quantity.
@@ -87,7 +88,8 @@ BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, 
     }
     const std::size_t columns = ColumnCount(quantity);
     auto* const numbers = reinterpret_cast<float*>(message.AddColumn(field, columns * count * sizeof(float)));
-    for (std::size_t k = 0; k < columns; ++k) answers.columns[FirstColumn(quantity) + k] = numbers + k * count;
+    for (std::size_t k = 0; k < columns; ++k)
+      answers.columns[FirstColumn(quantity) + k] = numbers + k * count;
   }
   message.Nest(Fields::kBudgetFieldNumber, mark);
   return answers;
@@ -95,8 +97,8 @@ BudgetAnswers AddColumns(const QuantitySelection& selection, std::size_t count, 
 
 }  // namespace
 
-absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request, ColumnMessage& response,
-                         OutcomeTally& tally) {
+absl::Status QueryBudget(AnswerSources& sources, const v1::QueryBudgetRequest& request,
+                         ColumnMessage& response, OutcomeTally& tally) {
   v1::QueryOptions query;
   query.set_table(request.options().table());
   const absl::StatusOr<QueryPlan> plan =

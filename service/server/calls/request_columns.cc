@@ -51,10 +51,9 @@ std::string ColumnError(const RequestColumn& column, const RequestColumn& longes
 
 absl::StatusOr<std::size_t> CountPulses(std::span<const RequestColumn> columns) {
   if (absl::Status status = CheckBytes(columns); !status.ok()) return status;
-  const RequestColumn& longest =
-      *std::max_element(columns.begin(), columns.end(), [](const RequestColumn& a, const RequestColumn& b) {
-        return a.bytes->size() < b.bytes->size();
-      });
+  const RequestColumn& longest = *std::max_element(
+      columns.begin(), columns.end(),
+      [](const RequestColumn& a, const RequestColumn& b) { return a.bytes->size() < b.bytes->size(); });
   if (longest.bytes->empty()) return FieldViolation("pulses", "there are no pulses: send at least one");
   FieldViolations violations;
   for (const RequestColumn& column : columns) {
@@ -66,9 +65,9 @@ absl::StatusOr<std::size_t> CountPulses(std::span<const RequestColumn> columns) 
 }
 
 std::array<RequestColumn, kAxisCount> ColumnsOf(const v1::PulseColumns& columns, const TableSchema& schema) {
-  const std::array<const std::string*, kAxisCount> bytes = {
-      &columns.wind_speed(), &columns.fetch(),     &columns.incidence(),
-      &columns.azimuth(),    &columns.footprint(), &columns.depth()};
+  const std::array<const std::string*, kAxisCount> bytes = {&columns.wind_speed(), &columns.fetch(),
+                                                            &columns.incidence(),  &columns.azimuth(),
+                                                            &columns.footprint(),  &columns.depth()};
   std::array<RequestColumn, kAxisCount> result;
   for (const AxisId axis : kAxes) {
     const std::size_t i = Index(axis);

@@ -27,7 +27,10 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
   // `tables` and `recorders` must outlive the service.
   UncertaintyService(const LiveTables& tables, const Recorders& recorders)
-      : tables_(tables), recorders_(recorders), unread_(recorders.metrics), seas_(recorders.seas, recorders.log) {}
+      : tables_(tables),
+        recorders_(recorders),
+        unread_(recorders.metrics),
+        seas_(recorders.seas, recorders.log) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
                                         grpc::ByteBuffer* response) override;

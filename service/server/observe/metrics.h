@@ -35,9 +35,9 @@ enum class Method {
   kReloadTables
 };
 
-inline constexpr std::array<const char*, 8> kMethodNames = {
-    "QueryPulses", "QueryColumns", "StreamColumns", "QueryBudget",
-    "ListTables",  "GetTable",     "CompileSea",    "ReloadTables"};
+inline constexpr std::array<const char*, 8> kMethodNames = {"QueryPulses", "QueryColumns", "StreamColumns",
+                                                            "QueryBudget", "ListTables",   "GetTable",
+                                                            "CompileSea",  "ReloadTables"};
 
 constexpr std::size_t Index(Method method) { return static_cast<std::size_t>(method); }
 constexpr const char* Name(Method method) { return kMethodNames[Index(method)]; }

@@ -46,7 +46,8 @@ static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kPulse) == 
 static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLocal) == v1::SURFACE_LOCATION_LOCAL);
 static_assert(AfterUnspecified<v1::SurfaceLocation>(SurfaceLocation::kLevel) == v1::SURFACE_LOCATION_LEVEL);
 
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) == v1::BUDGET_QUANTITY_TOTAL_THU);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTotalThu) ==
+              v1::BUDGET_QUANTITY_TOTAL_THU);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuSea) == v1::BUDGET_QUANTITY_TVU_SEA);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBiasVertical) ==
               v1::BUDGET_QUANTITY_BIAS_VERTICAL);
@@ -118,17 +119,20 @@ absl::StatusOr<Quantity> FromWire(v1::Quantity quantity) {
 absl::StatusOr<BudgetQuantity> FromWire(v1::BudgetQuantity quantity) {
   if (!v1::BudgetQuantity_IsValid(quantity)) return NotAValue("quantities", quantity, "BudgetQuantity");
   if (quantity == v1::BUDGET_QUANTITY_UNSPECIFIED) {
-    return FieldViolation("quantities",
-                          "quantities contains BUDGET_QUANTITY_UNSPECIFIED: leave it empty to ask for THU and TVU");
+    return FieldViolation(
+        "quantities",
+        "quantities contains BUDGET_QUANTITY_UNSPECIFIED: leave it empty to ask for THU and TVU");
   }
   return static_cast<BudgetQuantity>(quantity - 1);
 }
 
 absl::StatusOr<SurfaceLocation> FromWire(v1::SurfaceLocation location) {
-  if (!v1::SurfaceLocation_IsValid(location)) return NotAValue("options.located", location, "SurfaceLocation");
+  if (!v1::SurfaceLocation_IsValid(location))
+    return NotAValue("options.located", location, "SurfaceLocation");
   if (location == v1::SURFACE_LOCATION_UNSPECIFIED) {
-    return FieldViolation("options.located",
-                          "options.located is missing: say how the surface was located (pulse, local or level)");
+    return FieldViolation(
+        "options.located",
+        "options.located is missing: say how the surface was located (pulse, local or level)");
   }
   return static_cast<SurfaceLocation>(location - 1);
 }

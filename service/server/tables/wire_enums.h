@@ -27,10 +27,10 @@ v1::BudgetQuantity ToWire(BudgetQuantity quantity);
 v1::S44Order ToWire(std::optional<S44Order> order);  // Unspecified if none.
 
 // A number that is not a value of the enum is an InvalidArgument error that names the field.
-absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);              // Unspecified is 2 sigma.
-absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order);  // Unspecified is none.
-absl::StatusOr<Quantity> FromWire(v1::Quantity quantity);              // Unspecified is an error.
-absl::StatusOr<BudgetQuantity> FromWire(v1::BudgetQuantity quantity);     // Unspecified is an error.
+absl::StatusOr<Coverage> FromWire(v1::Coverage coverage);                // Unspecified is 2 sigma.
+absl::StatusOr<std::optional<S44Order>> FromWire(v1::S44Order order);    // Unspecified is none.
+absl::StatusOr<Quantity> FromWire(v1::Quantity quantity);                // Unspecified is an error.
+absl::StatusOr<BudgetQuantity> FromWire(v1::BudgetQuantity quantity);    // Unspecified is an error.
 absl::StatusOr<SurfaceLocation> FromWire(v1::SurfaceLocation location);  // Unspecified is an error.
 
 }  // namespace albtpu::server

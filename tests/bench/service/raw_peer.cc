@@ -1,16 +1,15 @@
 #include "tests/bench/service/raw_peer.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <thread>
+
+#include "tests/bench/service/raw_socket.h"
 
 namespace albtpu::bench {
 namespace {
@@ -26,30 +25,6 @@ void Check(bool good, const char* what) {
   if (good) return;
   std::cerr << "service_bench: " << what << ": " << std::strerror(errno) << "\n";
   std::exit(1);
-}
-
-// False when the other side has closed the connection.
-bool WriteAll(int socket, const char* bytes, std::size_t count) {
-  while (count > 0) {
-    const ssize_t sent = send(socket, bytes, count, MSG_NOSIGNAL);
-    if (sent <= 0) return false;
-    bytes += sent;
-    count -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-void SendAtOnce(int socket) {
-  const int on = 1;
-  Check(setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on) == 0, "TCP_NODELAY");
-}
-
-sockaddr_in Loopback(std::uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
 }
 
 const float* FloatsAt(const char* bytes) { return reinterpret_cast<const float*>(bytes); }
@@ -99,29 +74,13 @@ void Serve(int socket, const ColumnInterpolator& interpolator) {
 }  // namespace
 
 void ServeRaw(const ColumnInterpolator& interpolator) {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address = Loopback(0);
-  socklen_t length = sizeof address;
-  Check(bind(listener, reinterpret_cast<sockaddr*>(&address), length) == 0, "bind");
-  Check(listen(listener, SOMAXCONN) == 0, "listen");
-  Check(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &length) == 0, "getsockname");
-  std::cout << ntohs(address.sin_port) << std::endl;
-  for (;;) {
-    const int socket = accept(listener, nullptr, nullptr);
-    Check(socket >= 0, "accept");
-    SendAtOnce(socket);
-    std::thread([socket, &interpolator] { Serve(socket, interpolator); }).detach();
-  }
+  ServeConnections([&interpolator](int socket) { Serve(socket, interpolator); });
 }
 
 RawConnection::RawConnection(const std::string& port)
-    : socket_(socket(AF_INET, SOCK_STREAM, 0)),
+    : socket_(ConnectTo(port)),
       outgoing_(RequestBytes(kMostRawPulses)),
-      incoming_(2 * AnswerBytes(kMostRawPulses)) {
-  const sockaddr_in address = Loopback(static_cast<std::uint16_t>(std::stoi(port)));
-  Check(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0, "connect");
-  SendAtOnce(socket_);
-}
+      incoming_(2 * AnswerBytes(kMostRawPulses)) {}
 
 RawConnection::~RawConnection() { close(socket_); }
 

@@ -27,7 +27,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 class BudgetQueries : public ::testing::Test {
  protected:
-  BudgetMemory Ask(const BudgetPulseMemory& pulses, const BudgetOptions& options = testing::UsualOptions()) const {
+  BudgetMemory Ask(const BudgetPulseMemory& pulses,
+                   const BudgetOptions& options = testing::UsualOptions()) const {
     const BudgetPulses columns = pulses.columns();
     EXPECT_TRUE(CheckQuery(kSeaSurface, columns, options).ok()) << CheckQuery(kSeaSurface, columns, options);
     BudgetMemory answers(columns.pulses.size);
@@ -38,7 +39,9 @@ class BudgetQueries : public ::testing::Test {
   const ColumnInterpolator interpolator_{testing::SyntheticTable()};
 };
 
-std::vector<int> Outcomes(const BudgetMemory& answers) { return {answers.outcomes.begin(), answers.outcomes.end()}; }
+std::vector<int> Outcomes(const BudgetMemory& answers) {
+  return {answers.outcomes.begin(), answers.outcomes.end()};
+}
 
 TEST_F(BudgetQueries, AddTheShareOfTheTableToThoseOfTheAircraft) {
   const BudgetPulseMemory pulses = testing::RandomBudgetPulses(1000);
@@ -79,7 +82,8 @@ TEST_F(BudgetQueries, HaveTheSameBitsOnAllCoresAndOneByOne) {
     BudgetMemory alone(1);
     QueryBudgetOnAllCores(interpolator_, Slice(columns, i, 1), testing::UsualOptions(), alone.columns());
     for (std::size_t c = 0; c < kBudgetColumnCount; ++c) {
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(together.numbers[c][i]), std::bit_cast<std::uint32_t>(alone.numbers[c][0]));
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(together.numbers[c][i]),
+                std::bit_cast<std::uint32_t>(alone.numbers[c][0]));
     }
     EXPECT_EQ(together.best_s44_orders[i], alone.best_s44_orders[0]);
   }
@@ -103,15 +107,15 @@ TEST_F(BudgetQueries, RefuseThePulseWhoseAircraftHasAnInvalidNumber) {
 }
 
 TEST_F(BudgetQueries, RefuseANegativeSigmaAndAnAltitudeOfZero) {
-  for (const auto& [input, number, outcome] : std::vector<std::tuple<BudgetInput, float, int>>{
-           {BudgetInput::kPositionSigmaDown, -0.01f, 3},
-           {BudgetInput::kHeadingSigma, -1e-40f, 3},
-           {BudgetInput::kHeadingSigma, 0.0f, 1},
-           {BudgetInput::kWaveHeight, -1.0f, 3},
-           {BudgetInput::kWaveHeight, -0.0f, 1},
-           {BudgetInput::kAltitude, 0.0f, 3},
-           {BudgetInput::kAltitude, -400.0f, 3},
-           {BudgetInput::kRoll, -20.0f, 1}}) {
+  for (const auto& [input, number, outcome] :
+       std::vector<std::tuple<BudgetInput, float, int>>{{BudgetInput::kPositionSigmaDown, -0.01f, 3},
+                                                        {BudgetInput::kHeadingSigma, -1e-40f, 3},
+                                                        {BudgetInput::kHeadingSigma, 0.0f, 1},
+                                                        {BudgetInput::kWaveHeight, -1.0f, 3},
+                                                        {BudgetInput::kWaveHeight, -0.0f, 1},
+                                                        {BudgetInput::kAltitude, 0.0f, 3},
+                                                        {BudgetInput::kAltitude, -400.0f, 3},
+                                                        {BudgetInput::kRoll, -20.0f, 1}}) {
     BudgetPulseMemory pulses = testing::RandomBudgetPulses(3);
     pulses[input] = {number};  // For all.
     EXPECT_EQ(Outcomes(Ask(pulses)), std::vector<int>(3, outcome)) << number;
@@ -126,7 +130,8 @@ TEST_F(BudgetQueries, KeepTheOutcomeOfTheTableWhereItHasNoAnswer) {
   EXPECT_EQ(Outcomes(answers), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(answers.outcome_axes[1], static_cast<int>(Index(AxisId::kDepth)) + 1);
   EXPECT_EQ(answers.outcome_axes[2], static_cast<int>(Index(AxisId::kDepth)) + 1);
-  for (const std::vector<float>& column : answers.numbers) EXPECT_TRUE(std::isnan(column[1]) && std::isnan(column[2]));
+  for (const std::vector<float>& column : answers.numbers)
+    EXPECT_TRUE(std::isnan(column[1]) && std::isnan(column[2]));
 }
 
 TEST_F(BudgetQueries, CompareWithS44WithoutABiasThatTheTableLacks) {
@@ -145,9 +150,16 @@ TEST_F(BudgetQueries, AreFiniteAtTheGreatestNumbers) {
   const auto greatest = static_cast<float>(kGreatestBudgetNumber);
   for (const BudgetInput input : kAircraftInputs) pulses[input] = {greatest};
   BudgetOptions options = testing::UsualOptions();
-  options.errors = {.position = {1e6, 1e6, 1e6}, .attitude = {1e6, 1e6, 1e6}, .boresight = {1e6, 1e6, 1e6},
-                    .lever_arm = 1e6, .scan = 1e6, .time = 1e6, .range_offset = 1e6, .bottom_range = 1e6,
-                    .surface_height = 1e6, .index = 1e6};
+  options.errors = {.position = {1e6, 1e6, 1e6},
+                    .attitude = {1e6, 1e6, 1e6},
+                    .boresight = {1e6, 1e6, 1e6},
+                    .lever_arm = 1e6,
+                    .scan = 1e6,
+                    .time = 1e6,
+                    .range_offset = 1e6,
+                    .bottom_range = 1e6,
+                    .surface_height = 1e6,
+                    .index = 1e6};
   options.lever_arm = {1e6, -1e6, 1e6};
   options.datum = 1e6;
   const BudgetMemory answers = Ask(pulses, options);
@@ -167,7 +179,8 @@ TEST_F(BudgetQueries, AreRefusedWithOptionsOutOfRange) {
   EXPECT_THAT(message([](auto& o) { o.errors.scan = NAN; }), HasSubstr("errors.scan is nan"));
   EXPECT_THAT(message([](auto& o) { o.errors.index = INFINITY; }), HasSubstr("errors.index is inf"));
   EXPECT_THAT(message([](auto& o) { o.lever_arm[1] = NAN; }), HasSubstr("lever_arm.right is nan"));
-  EXPECT_THAT(message([](auto& o) { o.index = 0.99; }), HasSubstr("refractive_index is 0.99: expected 1 to 2"));
+  EXPECT_THAT(message([](auto& o) { o.index = 0.99; }),
+              HasSubstr("refractive_index is 0.99: expected 1 to 2"));
   EXPECT_THAT(message([](auto& o) { o.index = NAN; }), HasSubstr("refractive_index is nan"));
   EXPECT_THAT(message([](auto& o) { o.datum = -0.1; }), HasSubstr("datum is -0.1"));
   EXPECT_EQ(message([](auto& o) { o.index = 2; }), "");

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from .table_file import TableFile, open_table
 
 __version__ = "0.1.0"
-__all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Error", "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
+__all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Error",
+           "QUANTITIES", "Quantity", "Sea", "SeaSummary", "Service",
            "ServiceError", "Table", "TableChangedError", "TableFile", "TableFileError", "TableNotFoundError",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "geometry", "open_table"]

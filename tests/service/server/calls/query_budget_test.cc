@@ -52,7 +52,8 @@ class QueryBudget : public ServedTables {
   }
 
   // The request fails because of this field.
-  void ExpectRefused(const v1::QueryBudgetRequest& request, const std::string& field, const std::string& message) {
+  void ExpectRefused(const v1::QueryBudgetRequest& request, const std::string& field,
+                     const std::string& message) {
     v1::QueryBudgetResponse response;
     const grpc::Status status = Call(&v1::UncertaintyService::Stub::QueryBudget, request, response);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << field;
@@ -77,7 +78,8 @@ void ExpectSame(const v1::QueryBudgetResponse& response, const BudgetMemory& exp
             std::string(expected.best_s44_orders.begin(), expected.best_s44_orders.end()));
   const auto same = [&](const std::string& column, BudgetQuantity quantity) {
     std::string bytes;
-    for (std::size_t i = 0; i < ColumnCount(quantity); ++i) bytes += Column(expected.numbers[FirstColumn(quantity) + i]);
+    for (std::size_t i = 0; i < ColumnCount(quantity); ++i)
+      bytes += Column(expected.numbers[FirstColumn(quantity) + i]);
     EXPECT_TRUE(column == bytes) << static_cast<int>(quantity);
   };
   using enum BudgetQuantity;
@@ -199,7 +201,8 @@ TEST_F(QueryBudget, RefusesOptionsOutOfRangeByTheirPath) {
   refuse([](Options& o) { o.set_coverage(static_cast<v1::Coverage>(4)); }, "options.coverage");
   refuse([](Options& o) { o.mutable_errors()->set_scan(-1); }, "options.errors.scan");
   refuse([](Options& o) { o.mutable_errors()->set_time(INFINITY); }, "options.errors.time");
-  refuse([](Options& o) { o.mutable_errors()->mutable_attitude()->set_heading(NAN); }, "options.errors.attitude.heading");
+  refuse([](Options& o) { o.mutable_errors()->mutable_attitude()->set_heading(NAN); },
+         "options.errors.attitude.heading");
   refuse([](Options& o) { o.mutable_lever_arm()->set_down(NAN); }, "options.lever_arm.down");
   refuse([](Options& o) { o.set_refractive_index(2.1); }, "options.refractive_index");
   refuse([](Options& o) { o.set_refractive_index(0); }, "options.refractive_index");
