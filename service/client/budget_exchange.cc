@@ -1,17 +1,31 @@
 #include "service/client/budget_exchange.h"
 
+#include <grpcpp/support/proto_buffer_reader.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstring>
 #include <deque>
 #include <memory>
+#include <string_view>
+#include <utility>
 
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/client/budget_wire.h"
 #include "service/client/column_exchange.h"
 #include "service/client/server_error.h"
+#include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {
+
+namespace v1 = albtpu::v1;
+
+// Bytes of columns in a message, which may have 4 MiB (uncertainty_service.proto). The rest is for everything else,
+// most of it a sea.
+constexpr std::size_t kMostColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
 
 constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/QueryBudget";
 
@@ -20,6 +34,90 @@ constexpr std::size_t kCallsAtATime = 4;
 
 // Time limit of one call.
 constexpr std::chrono::seconds kDeadline{60};
+
+// The number of pulses that a message of these columns takes, request and answer.
+std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
+  std::size_t asked = sizeof(float);  // The depth may be repeated.
+  for (const std::span<const float> column : pulses.pulses.axis)
+    asked += column.size() > 1 ? sizeof(float) : 0;
+  for (const BudgetInput input : kAircraftInputs)
+    asked += pulses.aircraft[input].size() > 1 ? sizeof(float) : 0;
+  std::size_t answered = 3;  // Outcome, axis and order.
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
+    const auto quantity = static_cast<BudgetQuantity>(i);
+    if (Wants(wanted, quantity)) answered += ColumnCount(quantity) * sizeof(float);
+  }
+  return std::min(kMostPulses, kMostColumnBytes / std::max(asked, answered));
+}
+
+// The column of a quantity: field i + 1 is quantity i.
+const std::string& ColumnOf(const v1::BudgetColumns& budget, BudgetQuantity quantity) {
+  const int field = static_cast<int>(quantity) + 1;
+  static const std::string* const kScratch = new std::string();
+  return budget.GetReflection()->GetStringReference(
+      budget, v1::BudgetColumns::descriptor()->FindFieldByNumber(field), const_cast<std::string*>(kScratch));
+}
+
+absl::Status WrongLength(std::string_view name, std::size_t bytes, std::size_t count) {
+  return absl::InternalError(
+      absl::StrCat("answered ", bytes, " bytes of ", std::string(name), " for ", count, " pulses"));
+}
+
+// Copies one byte for each pulse, of which none may be outside `least` to `most`.
+absl::Status CopyBytes(std::string_view name, const std::string& bytes, std::size_t count, int least,
+                       int most, std::uint8_t* destination) {
+  if (destination == nullptr) return absl::OkStatus();
+  if (bytes.size() != count) return WrongLength(name, bytes.size(), count);
+  std::memcpy(destination, bytes.data(), count);
+  const auto* const unknown = std::find_if_not(destination, destination + count, [=](std::uint8_t number) {
+    return number >= least && number <= most;
+  });
+  if (unknown == destination + count) return absl::OkStatus();
+  return absl::InternalError(absl::StrCat("answered ", *unknown, " among the ", std::string(name),
+                                          ", a number that this program does not know"));
+}
+
+absl::Status CopyFloats(const v1::BudgetColumns& budget, BudgetQuantity quantity, std::size_t begin,
+                        std::size_t count, const BudgetAnswers& answers) {
+  const std::string& bytes = ColumnOf(budget, quantity);
+  const std::size_t columns = ColumnCount(quantity), size = count * sizeof(float);
+  if (bytes.size() != columns * size) return WrongLength("the budget", bytes.size(), count);
+  for (std::size_t i = 0; i < columns; ++i) {
+    float* const column = answers.columns[FirstColumn(quantity) + i];
+    if (column != nullptr) std::memcpy(column + begin, bytes.data() + i * size, size);
+  }
+  return absl::OkStatus();
+}
+
+// Reads a QueryBudgetResponse about `count` pulses. Fills the columns of `answers` from `begin` on, and returns the
+// digest of the table. Internal when the answer violates the protocol: its coverage is not that of `options`, a column
+// has the wrong length, or a number is not a known outcome, axis or order.
+absl::StatusOr<std::string> ReadBudget(grpc::ByteBuffer& bytes, const BudgetOptions& options,
+                                       std::size_t begin, std::size_t count, const BudgetAnswers& answers) {
+  v1::QueryBudgetResponse response;
+  grpc::ProtoBufferReader reader(&bytes);
+  if (!reader.status().ok() || !response.ParseFromZeroCopyStream(&reader))
+    return absl::InternalError("answered bytes that are not a valid message");
+  const v1::Coverage coverage = ToWire(options.coverage);
+  if (response.coverage() != coverage) {
+    return absl::InternalError(
+        absl::StrCat("answered coverage ", response.coverage(), "; expected ", coverage));
+  }
+  const auto at = [begin](std::uint8_t* column) { return column == nullptr ? nullptr : column + begin; };
+  absl::Status status =
+      CopyBytes("outcomes", response.outcomes(), count, 1, v1::Outcome_MAX, at(answers.outcomes));
+  status.Update(
+      CopyBytes("outcome axes", response.outcome_axes(), count, 0, v1::Axis_MAX, at(answers.outcome_axes)));
+  status.Update(CopyBytes("best orders", response.budget().best_s44_orders(), count, 0, v1::S44Order_MAX,
+                          at(answers.best_s44_orders)));
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
+    const auto quantity = static_cast<BudgetQuantity>(i);
+    if (quantity == BudgetQuantity::kBestS44Order || !Wants(answers, quantity)) continue;
+    status.Update(CopyFloats(response.budget(), quantity, begin, count, answers));
+  }
+  if (!status.ok()) return status;
+  return response.table().digest();
+}
 
 struct Call {
   Call(std::size_t first, std::size_t pulses) : begin(first), count(pulses) {}
@@ -101,7 +199,7 @@ class Calls {
   std::size_t sent_, answered_;  // Pulses.
   absl::Status failure_;
   grpc::CompletionQueue events_;
-  albtpu::v1::QueryBudgetRequest request_without_pulses_;
+  v1::QueryBudgetRequest request_without_pulses_;
   std::deque<std::unique_ptr<Call>> calls_;  // In the order of their pulses.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -37,6 +38,45 @@ std::string Text(const v1::AttributeValue& value) {
       break;
   }
   return "";
+}
+
+v1::NorthEastDown NorthEastDown(const std::array<double, 3>& numbers) {
+  v1::NorthEastDown message;
+  message.set_north(numbers[0]);
+  message.set_east(numbers[1]);
+  message.set_down(numbers[2]);
+  return message;
+}
+
+v1::RollPitchHeading RollPitchHeading(const std::array<double, 3>& numbers) {
+  v1::RollPitchHeading message;
+  message.set_roll(numbers[0]);
+  message.set_pitch(numbers[1]);
+  message.set_heading(numbers[2]);
+  return message;
+}
+
+v1::ForwardRightDown ForwardRightDown(const std::array<double, 3>& numbers) {
+  v1::ForwardRightDown message;
+  message.set_forward(numbers[0]);
+  message.set_right(numbers[1]);
+  message.set_down(numbers[2]);
+  return message;
+}
+
+v1::AirErrors ToWire(const AirErrors& errors) {
+  v1::AirErrors message;
+  *message.mutable_position() = NorthEastDown(errors.position);
+  *message.mutable_attitude() = RollPitchHeading(errors.attitude);
+  *message.mutable_boresight() = ForwardRightDown(errors.boresight);
+  message.set_lever_arm(errors.lever_arm);
+  message.set_scan(errors.scan);
+  message.set_time(errors.time);
+  message.set_range_offset(errors.range_offset);
+  message.set_bottom_range(errors.bottom_range);
+  message.set_surface_height(errors.surface_height);
+  message.set_index(errors.index);
+  return message;
 }
 
 }  // namespace
@@ -85,6 +125,44 @@ void AddPulses(const PulseColumns& pulses, ColumnMessage& request) {
     }
   }
   request.Nest(v1::QueryColumnsRequest::kPulsesFieldNumber, mark);
+}
+
+bool Wants(const BudgetAnswers& wanted, BudgetQuantity quantity) {
+  if (quantity == BudgetQuantity::kBestS44Order) return wanted.best_s44_orders != nullptr;
+  const auto first = wanted.columns.begin() + static_cast<std::ptrdiff_t>(FirstColumn(quantity));
+  return std::any_of(first, first + static_cast<std::ptrdiff_t>(ColumnCount(quantity)),
+                     [](const float* column) { return column != nullptr; });
+}
+
+void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const BudgetAnswers& wanted,
+            v1::QueryBudgetRequest& request) {
+  v1::BudgetOptions& message = *request.mutable_options();
+  message.set_coverage(ToWire(options.coverage));
+  *message.mutable_errors() = ToWire(options.errors);
+  message.set_located(static_cast<v1::SurfaceLocation>(static_cast<int>(options.located) + 1));
+  *message.mutable_lever_arm() = ForwardRightDown(options.lever_arm);
+  message.set_refractive_index(options.index);
+  message.set_datum(options.datum);
+  if (pulses.sea_axis.has_value()) message.set_sea_axis(*pulses.sea_axis);
+  for (std::size_t i = 0; i < kBudgetQuantityCount; ++i) {
+    if (Wants(wanted, static_cast<BudgetQuantity>(i))) {
+      request.add_quantities(static_cast<v1::BudgetQuantity>(i + 1));
+    }
+  }
+}
+
+void AddPulses(const BudgetPulses& pulses, ColumnMessage& request) {
+  static_assert(int{v1::QueryBudgetRequest::kPulsesFieldNumber} ==
+                int{v1::QueryColumnsRequest::kPulsesFieldNumber});
+  AddPulses(pulses.pulses, request);
+  const std::size_t mark = request.Mark();
+  for (std::size_t i = 0; i < kAircraftInputs.size(); ++i) {
+    const std::span<const float> column = pulses.aircraft[kAircraftInputs[i]];
+    if (column.empty()) continue;
+    std::memcpy(request.AddColumn(static_cast<int>(i) + 1, column.size_bytes()), column.data(),
+                column.size_bytes());
+  }
+  request.Nest(v1::QueryBudgetRequest::kAircraftFieldNumber, mark);
 }
 
 TableSummary FromWire(const v1::Table& table) {

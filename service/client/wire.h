@@ -2,6 +2,7 @@
 #pragma once
 
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "budget/query/budget_query.h"
 #include "service/client/uncertainty_source.h"
 #include "service/column_message.h"
 
@@ -15,6 +16,14 @@ void ToWire(const Query& query, const AnswerColumns& requested, albtpu::v1::Quer
 // Adds the field `pulses` of a QueryColumnsRequest. The longest column of a message determines its number of pulses, so
 // if every column has one number for all pulses, the depth is written once for each pulse.
 void AddPulses(const PulseColumns& pulses, ColumnMessage& request);
+
+// Whether a column of this quantity is not null.
+bool Wants(const BudgetAnswers& wanted, BudgetQuantity quantity);
+
+// The same for the whole budget: options and quantities, and the fields `pulses` and `aircraft`.
+void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const BudgetAnswers& wanted,
+            albtpu::v1::QueryBudgetRequest& request);
+void AddPulses(const BudgetPulses& pulses, ColumnMessage& request);
 
 TableSummary FromWire(const albtpu::v1::Table& table);
 

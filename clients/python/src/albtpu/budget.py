@@ -45,14 +45,12 @@ class BudgetQuery:
         return int(min(32768, 4_000_000 // max(asked, answered)))
 
 
-def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[str, ArrayLike | None], *,
+def read_budget_query(pulses: Mapping[str, ArrayLike | None], aircraft: Mapping[str, ArrayLike], *,
                       located: str, errors: Mapping[str, Any] | None, lever_arm: Sequence[float],
                       refractive_index: float, datum: float, sea_axis: float | None,
                       quantities: Iterable[str], coverage: str, table: str | None, sea: Sea | None) -> BudgetQuery:
     """Checks the arguments of a query of the budget. Raises ArgumentError."""
-    given = {name: values for name, values in aircraft.items()
-             if values is not None or name in ("altitude", "beam_azimuth")}
-    query = read_query({**pulses, **given}, quantities=None, coverage=coverage, standard_errors=False,
+    query = read_query({**pulses, **aircraft}, quantities=None, coverage=coverage, standard_errors=False,
                        s44_order=None, best_s44_order=False, table=table, sea=sea, on_one_sea=sea is not None)
     check_name("located", located, LOCATIONS)
     wanted = {quantities} if isinstance(quantities, str) else set(quantities)

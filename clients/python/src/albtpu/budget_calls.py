@@ -37,7 +37,7 @@ class BudgetCalls:
         self._summary: SeaSummary | None = None
         self._sea = asked.query.sea.message() if asked.query.sea else None
         self._options = dict(asked.options, coverage=COVERAGES[asked.query.coverage])
-        self._numbers = [BUDGET_QUANTITIES.index(name) + 1 for name in asked.quantities]
+        self._numbers: list[Any] = [BUDGET_QUANTITIES.index(name) + 1 for name in asked.quantities]
         self._outcomes, self._axes = (np.empty(self._size, np.uint8) for _ in range(2))
         self._columns = {name: _column(name, self._size) for name in asked.quantities}
 

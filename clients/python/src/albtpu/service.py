@@ -125,7 +125,7 @@ class Service(UncertaintySource):
         ...     errors=dict(position=(0.03, 0.03, 0.05), scan=0.001))   # doctest: +SKIP
         >>> budget.total_thu, budget.outcome                            # doctest: +SKIP
         """
-        columns = {**dict.fromkeys(AIRCRAFT), **(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth}
+        columns = {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth}
         for name in columns:
             check_name("aircraft", name, AIRCRAFT)
         asked = read_budget_query(

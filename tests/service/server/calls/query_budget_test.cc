@@ -9,8 +9,8 @@
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "sea/table/sea_table.h"
-#include "service/client/budget_wire.h"
 #include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/server/ground/limits.h"
 #include "tests/budget/query/budget_memory.h"
 #include "tests/service/known_seas.h"
@@ -151,7 +151,7 @@ TEST_F(QueryBudget, TakesOneNumberForAllPulsesFromEitherMessage) {
   for (auto& column : pulses.inputs) column.resize(std::min<std::size_t>(column.size(), 1));
   pulses[BudgetInput::kRoll] = {-2, -1, 0, 1};  // Alone says how many there are.
   v1::QueryBudgetRequest request = Request(pulses);
-  ASSERT_THAT(request.pulses().depth(), SizeIs(4));
+  request.mutable_pulses()->set_depth(Column(pulses.axes[Index(AxisId::kDepth)]));
   const v1::QueryBudgetResponse response = Ask(request);
   EXPECT_EQ(response.pulse_count(), 4);
   ExpectSame(response, InProcess(survey_, pulses.columns()));
