@@ -9,8 +9,7 @@ import grpc
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .budget import Budget, read_budget_query
-from .budget_calls import BudgetCalls
+from .budget import Budget, BudgetCalls, read_budget_query
 from .channel import File, open_channel
 from .errors import ArgumentError
 from .names import check_name, refuse_unknown_keywords
