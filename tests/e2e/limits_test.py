@@ -95,10 +95,13 @@ class Errors(SecurityTest):
         request = pb.QueryColumnsRequest(
             pulses=dict(wind_speed=bytes(4), depth=bytes(12), incidence=bytes(8)))
         streamed = pb.StreamColumnsRequest(query=request)
+        budget = pb.QueryBudgetRequest(options=dict(located=1), pulses=request.pulses,
+                                       aircraft=dict(altitude=bytes(4), beam_azimuth=bytes(4)))
         with grpc.insecure_channel(self.serve().address, [("grpc.enable_http_proxy", 0)]) as channel:
             stub = UncertaintyServiceStub(channel)
             for call, path in (
                     (lambda: stub.QueryColumns(request, timeout=PATIENCE), "pulses."),
+                    (lambda: stub.QueryBudget(budget, timeout=PATIENCE), "pulses."),
                     (lambda: next(stub.StreamColumns(iter([streamed]), timeout=PATIENCE)), "query.pulses.")):
                 with self.assertRaises(grpc.RpcError) as failure:
                     call()

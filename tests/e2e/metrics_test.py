@@ -88,7 +88,7 @@ class Metrics(unittest.TestCase):
                                      ("INVALID", "depth", 1), ("OUT_OF_DOMAIN", "wind_speed", 0)):
             self.assertEqual(self.value("albtpu_pulses_total", outcome=outcome, axis=axis), count)
         for method, code, count in (("QueryColumns", "OK", 11), ("QueryColumns", "NOT_FOUND", 1),
-                                    ("StreamColumns", "OK", 1), ("QueryPulses", "OK", 0)):
+                                    ("StreamColumns", "OK", 1), ("QueryPulses", "OK", 0), ("QueryBudget", "OK", 0)):
             self.assertEqual(self.value("albtpu_calls_total", method=method, code=code), count)
         for method, count, pulses in (("QueryColumns", 11, 34), ("StreamColumns", 3, 60000)):
             self.assertEqual(self.value("albtpu_answer_pulses_count", method=method), count)

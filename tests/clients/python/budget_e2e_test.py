@@ -90,7 +90,7 @@ class Budget(unittest.TestCase):
         np.testing.assert_array_equal(2 * file.query(**sea, coverage="1sigma").tvu, file.query(**sea).tvu)
 
     def test_keeps_the_shape_and_gives_a_bad_pulse_its_own_outcome(self):
-        budget = self.service.query_budget(**pulses(1, depth=np.array([[4, 30, 4], [4, np.nan, 4]]),
+        budget = self.service.query_budget(**pulses(1, depth=np.array([[4, 1000, 4], [4, np.nan, 4]]),
                                                     altitude=np.array([400, 400, -1])))
         self.assertEqual(budget.outcome.tolist(), [["INTERPOLATED", "OUT_OF_DOMAIN:depth", "INVALID"],
                                                    ["INTERPOLATED", "INVALID", "INVALID"]])
