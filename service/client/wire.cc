@@ -74,6 +74,7 @@ v1::AirErrors ToWire(const AirErrors& errors) {
   message.set_time(errors.time);
   message.set_range_offset(errors.range_offset);
   message.set_bottom_range(errors.bottom_range);
+  message.set_surface_range(errors.surface_range);
   message.set_surface_height(errors.surface_height);
   message.set_index(errors.index);
   return message;

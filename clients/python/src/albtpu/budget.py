@@ -28,7 +28,7 @@ _AT_A_TIME = 4  # Calls that are not yet answered.
 _ERRORS: dict[str, tuple[str, ...]] = {
     "position": ("north", "east", "down"), "attitude": ("roll", "pitch", "heading"),
     "boresight": ("forward", "right", "down"), "lever_arm": (), "scan": (), "time": (), "range_offset": (),
-    "bottom_range": (), "surface_height": (), "index": ()}
+    "bottom_range": (), "surface_range": (), "surface_height": (), "index": ()}
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ class Service(UncertaintySource):
                       of the elevation that the location of the surface does not see.
         errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
                       and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,
-                      range_offset, bottom_range and surface_height in m, index. Omitted ones are 0.
+                      range_offset, bottom_range, surface_range and surface_height in m, index. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
         refractive_index: of the water.
         datum:        m, standard deviation of the height of the vertical datum.

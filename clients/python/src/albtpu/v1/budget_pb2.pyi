@@ -27,7 +27,7 @@ SURFACE_LOCATION_PULSE: SurfaceLocation
 SURFACE_LOCATION_UNSPECIFIED: SurfaceLocation
 
 class AirErrors(_message.Message):
-    __slots__ = ["attitude", "boresight", "bottom_range", "index", "lever_arm", "position", "range_offset", "scan", "surface_height", "time"]
+    __slots__ = ["attitude", "boresight", "bottom_range", "index", "lever_arm", "position", "range_offset", "scan", "surface_height", "surface_range", "time"]
     ATTITUDE_FIELD_NUMBER: _ClassVar[int]
     BORESIGHT_FIELD_NUMBER: _ClassVar[int]
     BOTTOM_RANGE_FIELD_NUMBER: _ClassVar[int]
@@ -37,6 +37,7 @@ class AirErrors(_message.Message):
     RANGE_OFFSET_FIELD_NUMBER: _ClassVar[int]
     SCAN_FIELD_NUMBER: _ClassVar[int]
     SURFACE_HEIGHT_FIELD_NUMBER: _ClassVar[int]
+    SURFACE_RANGE_FIELD_NUMBER: _ClassVar[int]
     TIME_FIELD_NUMBER: _ClassVar[int]
     attitude: RollPitchHeading
     boresight: ForwardRightDown
@@ -47,8 +48,9 @@ class AirErrors(_message.Message):
     range_offset: float
     scan: float
     surface_height: float
+    surface_range: float
     time: float
-    def __init__(self, position: _Optional[_Union[NorthEastDown, _Mapping]] = ..., attitude: _Optional[_Union[RollPitchHeading, _Mapping]] = ..., boresight: _Optional[_Union[ForwardRightDown, _Mapping]] = ..., lever_arm: _Optional[float] = ..., scan: _Optional[float] = ..., time: _Optional[float] = ..., range_offset: _Optional[float] = ..., bottom_range: _Optional[float] = ..., surface_height: _Optional[float] = ..., index: _Optional[float] = ...) -> None: ...
+    def __init__(self, position: _Optional[_Union[NorthEastDown, _Mapping]] = ..., attitude: _Optional[_Union[RollPitchHeading, _Mapping]] = ..., boresight: _Optional[_Union[ForwardRightDown, _Mapping]] = ..., lever_arm: _Optional[float] = ..., scan: _Optional[float] = ..., time: _Optional[float] = ..., range_offset: _Optional[float] = ..., bottom_range: _Optional[float] = ..., surface_height: _Optional[float] = ..., index: _Optional[float] = ..., surface_range: _Optional[float] = ...) -> None: ...
 
 class AircraftColumns(_message.Message):
     __slots__ = ["altitude", "beam_azimuth", "heading", "heading_sigma", "pitch", "pitch_rate", "pitch_sigma", "position_sigma_down", "position_sigma_east", "position_sigma_north", "roll", "roll_rate", "roll_sigma", "velocity_down", "velocity_east", "velocity_north", "wave_height", "yaw_rate"]
