@@ -56,6 +56,10 @@ std::vector<OptionError> FindErrors(const BudgetOptions& options) {
 absl::Status CheckQuery(const TableSchema& schema, const BudgetPulses& pulses, const BudgetOptions& options) {
   const std::vector<OptionError> errors = FindErrors(options);
   if (!errors.empty()) return absl::InvalidArgumentError(errors.front().problem);
+  if (pulses.sea_axis.has_value() && !(std::abs(*pulses.sea_axis) <= kGreatestBudgetNumber)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("sea_axis is ", *pulses.sea_axis, ": expected degrees, or leave it out"));
+  }
   if (absl::Status status = CheckLengths(schema, pulses.pulses); !status.ok()) return status;
   const std::size_t count = pulses.pulses.size;
   if (pulses.aircraft.size != count) {

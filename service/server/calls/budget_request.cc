@@ -46,7 +46,7 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
   for (const OptionError& error : FindErrors(read)) {
     violations.Add(absl::StrCat("options.", error.field), absl::StrCat("options.", error.problem));
   }
-  if (!std::isfinite(options.sea_axis())) {
+  if (!(std::abs(options.sea_axis()) <= kGreatestBudgetNumber)) {
     violations.Add("options.sea_axis", absl::StrCat("options.sea_axis is ", options.sea_axis(),
                                                     ": expected degrees, or leave it out"));
   }

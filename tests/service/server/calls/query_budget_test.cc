@@ -208,6 +208,7 @@ TEST_F(QueryBudget, RefusesOptionsOutOfRangeByTheirPath) {
   refuse([](Options& o) { o.set_refractive_index(0); }, "options.refractive_index");
   refuse([](Options& o) { o.set_datum(-1); }, "options.datum");
   refuse([](Options& o) { o.set_sea_axis(NAN); }, "options.sea_axis");
+  refuse([](Options& o) { o.set_sea_axis(1e300); }, "options.sea_axis");
 }
 
 TEST_F(QueryBudget, RefusesColumnsThatCannotBeRead) {
