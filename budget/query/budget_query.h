@@ -91,8 +91,8 @@ BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t co
 // and sums of products of three such numbers have squares that single precision holds (1e38).
 inline constexpr double kGreatestBudgetNumber = 1e6;
 
-// Answers all pulses, for which CheckQuery() must be OK. The answer for a pulse depends on this pulse and the instruction
-// set alone. Runs on all cores if there are enough pulses for that to be faster, else on the calling thread.
+// Answers all pulses, for which CheckQuery() must be OK. The answer for a pulse depends on this pulse and the
+// instruction set alone. Runs on all cores if there are enough pulses for that to be faster, else on this thread.
 //
 // A pulse without an answer of the table has the table's outcome and no number. A pulse is invalid if a number of the
 // aircraft is NaN or beyond kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height
