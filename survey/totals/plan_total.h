@@ -13,12 +13,11 @@ namespace albtpu::client {
 // What is known beside the survey file.
 struct TotalContext {
   Coverage coverage = Coverage::kTwoSigma;
-  std::optional<double> index;                     // Told by a flag; overrides the survey file.
-  std::optional<std::array<double, 3>> lever_arm;  // The same.
-  bool has_surface_returns = false;                // Classes of returns from the surface are told.
-  bool has_level = false;                          // A water level is told.
-  std::string
-      trajectory_errors;  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
+  std::optional<double> index = {};                     // Told by a flag; overrides the survey file.
+  std::optional<std::array<double, 3>> lever_arm = {};  // The same.
+  bool has_surface_returns = false;                     // Classes of returns from the surface are told.
+  bool has_level = false;                               // A water level is told.
+  std::string trajectory_errors = {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
   // All parts of a total must be decided, so that its name is true: the datum, and that the water column is left out.
   bool decided = true;
 };

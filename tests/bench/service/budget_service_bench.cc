@@ -3,8 +3,8 @@
 // budget_service_bench budget TABLE.h5 HOST:PORT [SECONDS]
 //
 // Asks for the whole budget of a flight line, all shares and all columns of attitude, velocity and rates, THU and TVU
-// in return: of albtpu-serve by QueryBudget, or of the same sums behind a plain TCP connection. Checks the answers bit by
-// bit, and prints pulses per second.
+// in return: of albtpu-serve by QueryBudget, or of the same sums behind a plain TCP connection. Checks the answers bit
+// by bit, and prints pulses per second.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -41,7 +41,8 @@ std::string ProblemOf(const std::string& text, const TotalContext& context = {.h
 
 TEST(PlanTotal, TakesWhatTheUserSaysBeforeTheSensorAndTheSensorBeforeWhatIsAssumed) {
   const absl::StatusOr<TotalPlan> plan =
-      PlanTotal(Survey(Decided() + "[sigma]\nbottom_range = 0.03\nposition = [0.01, 0.02, 0.03]\n"), {.has_level = true});
+      PlanTotal(Survey(Decided() + "[sigma]\nbottom_range = 0.03\nposition = [0.01, 0.02, 0.03]\n"),
+                {.has_level = true});
   ASSERT_TRUE(plan.ok()) << plan.status();
   const AirErrors& errors = plan->options.errors;
   EXPECT_NEAR(errors.bottom_range, 0.03, kAny);
@@ -63,8 +64,9 @@ TEST(PlanTotal, NamesAllThatIsAssumed) {
   std::set<std::string> assumed;
   for (const StatedNumber& number : plan->numbers)
     if (number.assumed) assumed.insert(number.name);
-  EXPECT_EQ(assumed, (std::set<std::string>{"position", "attitude", "boresight", "lever_arm", "time", "range_offset",
-                                            "surface_height", "index", "refractive_index", "lever_arm_vector"}));
+  EXPECT_EQ(assumed,
+            (std::set<std::string>{"position", "attitude", "boresight", "lever_arm", "time", "range_offset",
+                                   "surface_height", "index", "refractive_index", "lever_arm_vector"}));
   EXPECT_EQ(Assumptions(*plan).size(), assumed.size());
 }
 
@@ -89,9 +91,11 @@ TEST(PlanTotal, LocatesTheSurfaceAsToldElseByWhatThereIs) {
   };
   EXPECT_EQ(located("", {.has_surface_returns = true, .has_level = true}), SurfaceLocation::kLocal);
   EXPECT_EQ(located("", {.has_level = true}), SurfaceLocation::kLevel);
-  EXPECT_EQ(located("[surface]\nlocated = \"pulse\"\n", {.has_surface_returns = true}), SurfaceLocation::kPulse);
+  EXPECT_EQ(located("[surface]\nlocated = \"pulse\"\n", {.has_surface_returns = true}),
+            SurfaceLocation::kPulse);
   EXPECT_THAT(ProblemOf(Decided(), {}), HasSubstr("nothing says how the surface was located"));
-  EXPECT_THAT(ProblemOf(Decided() + "[surface]\nlocated = \"pulse\"\n"), HasSubstr("needs returns from the surface"));
+  EXPECT_THAT(ProblemOf(Decided() + "[surface]\nlocated = \"pulse\"\n"),
+              HasSubstr("needs returns from the surface"));
 }
 
 TEST(PlanTotal, ErrsByTheRangeOfTheOwnReturn) {
@@ -115,8 +119,9 @@ TEST(PlanTotal, NeverAssumesWhatOnlyTheSensorKnows) {
   const std::string problem = ProblemOf(Decided("usgs-eaarl-b"));
   EXPECT_THAT(problem, HasSubstr("scan (degree)"));
   EXPECT_THAT(problem, HasSubstr("[sigma]"));
-  EXPECT_THAT(ProblemOf("[sensor]\nname = \"nothing.toml\"\n[datum]\nsigma = 0\n[water]\ncolumn = \"none\"\n"),
-              HasSubstr("nothing.toml"));
+  EXPECT_THAT(
+      ProblemOf("[sensor]\nname = \"nothing.toml\"\n[datum]\nsigma = 0\n[water]\ncolumn = \"none\"\n"),
+      HasSubstr("nothing.toml"));
 }
 
 TEST(WaveHeightOfWind, GrowsWithWindAndFetch) {

@@ -105,7 +105,8 @@ std::vector<float> Unbalanced(const UncertaintyTable::Axes& axes, Quantity quant
 // quarters of a per cent of the variance. The biases are in proportion to variances.
 constexpr double kPatchAndRays = 0.0045;  // sqrt(0.25^2 + 0.375^2) %
 
-// What the theory leaves out where waves are steep: at 15 m/s, over all the sea and under 5 m, 0.15 % of the refraction.
+// What the theory leaves out where waves are steep: at 15 m/s, over all the sea and under 5 m, 0.15 % of the
+// refraction.
 constexpr double kSteep = 0.0015;
 
 // The rms difference of biases along the beam is 1.6 times the standard errors that the tables state of them.

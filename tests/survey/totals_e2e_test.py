@@ -1,0 +1,143 @@
+"""Totals from outside: one pulse against known covariances, LAS and LAZ with a survey file, and what is refused."""
+
+import json
+import math
+import os
+import pathlib
+
+import numpy as np
+
+import programs
+from las_file import LasFile
+from programs import query
+from simulated_survey import SimulatedSurvey
+
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "survey/sensors/shipped"
+
+# Computed apart from this code, by automatic differentiation: NN EE DD NE ND ED, 1e-6 m^2.
+KNOWN = {"pulse": (2011.89, 1837.13, 3551.88, 17.96, -6.91, 86.27),
+         "level": (2011.89, 1954.50, 2303.08, 19.06, -5.32, -263.03)}
+SIGMA = """
+[sigma]
+position = [0.03, 0.03, 0.05]
+attitude = [0.0025, 0.0025, 0.005]
+boresight = [0.001, 0.001, 0.004]
+lever_arm = 0.02
+scan = 0.001
+time = 1e-5
+range_offset = 0.01
+bottom_range = 0.025
+surface_height = 0.05
+index = 0.001
+"""
+DECIDED = "[datum]\nsigma = 0.08\n[water]\nindex = 1.34\ncolumn = 'none'\n"
+SENSOR = "[sensor]\nname = 'riegl-vq-880-g'\nlever_arm = [0.3, -0.2, 0.5]\n"
+WIND = "[sea]\nwind_speed = 6.5\nwind_from = 100\n"
+
+
+class TotalsTest(programs.Test):
+    def setUp(self):
+        super().setUp()
+        os.environ["ALBTPU_SENSORS"] = str(SHIPPED)
+
+    def survey(self, text, name="survey.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def pulse(self, text, *flags):
+        turn = math.radians(30)
+        velocity = f"{70 * math.cos(turn) - 2 * math.sin(turn)},{70 * math.sin(turn) + 2 * math.cos(turn)},0"
+        rates = ",".join(str(math.degrees(rate)) for rate in (0.01, 0.02, 0.03))
+        return query("pulse", "--survey", self.survey(text), "--table", self.table, "--incidence", 20,
+                     "--beam-azimuth", 90, "--altitude", 400, "--depth", 10, "--attitude", "3,4,30", "--velocity",
+                     velocity, "--rates", rates, "--json", *flags)
+
+    def test_pulse_has_the_known_covariance_of_the_air_side(self):
+        for located, known in KNOWN.items():
+            answer = self.pulse(SENSOR + DECIDED + WIND + SIGMA + f"[surface]\nlocated = '{located}'\n")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            total = json.loads(answer.stdout)
+            for entry, value in zip(("NN", "EE", "DD", "NE", "ND", "ED"), known):
+                self.assertAlmostEqual(1e6 * total["covariance_air"][entry], value, delta=0.0051, msg=located + entry)
+                parts = total["covariance_air"][entry] + total["covariance_sea"][entry]
+                datum = 0.08 ** 2 if entry == "DD" else 0
+                self.assertAlmostEqual(total["covariance_total"][entry], parts + datum, delta=1e-7)
+                groups = sum(group[entry] for group in total["groups"].values())
+                self.assertAlmostEqual(total["covariance_total"][entry], groups, delta=1e-7)
+            covariance = total["covariance_total"]
+            self.assertAlmostEqual(total["thu"], 2 * math.sqrt(covariance["NN"] + covariance["EE"]), delta=1e-6)
+            self.assertAlmostEqual(total["tvu"], 2 * math.sqrt(covariance["DD"]), delta=1e-6)
+            self.assertAlmostEqual(total["semi_major"] ** 2 + total["semi_minor"] ** 2,
+                                   covariance["NN"] + covariance["EE"], delta=1e-7)
+            self.assertEqual(total["assumed"], ["divergence 1 mrad (assumed: the default of the sensor)"])
+
+    def test_pulse_is_stated_at_each_coverage(self):
+        text = SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'pulse'\n"
+        two, one, p95 = (json.loads(self.pulse(text, "--coverage", coverage).stdout)
+                         for coverage in ("2sigma", "1sigma", "p95"))
+        self.assertAlmostEqual(two["thu"], 2 * one["thu"], delta=1e-6)
+        self.assertAlmostEqual(p95["tvu"], 1.959964 * one["tvu"], delta=1e-6)
+        self.assertLess(p95["thu"], two["thu"])
+
+    def test_las_has_the_total_its_shares_and_its_covariance(self):
+        flight = SimulatedSurvey(self.folder / "flight").folder
+        text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\nerrors = ['{flight}/smrmsg.out']\n"
+                "[surface]\nclasses = [41]\n" + WIND + DECIDED +
+                "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\ns44_order = '1a'\n")
+        out = self.folder / "out.las"
+        arguments = ("las", "--survey", self.survey(text), "--table", self.table, flight / "flight.las")
+        query(*arguments, out, check=0)
+        las = LasFile(out)
+        names = las.extra_dimensions()
+        self.assertEqual(list(names)[:2], ["total_thu", "total_tvu"])
+        number = {name: las.field(where[0], "<f4").astype(float) for name, where in names.items()}
+        answered = number["total_thu"] >= 0
+        self.assertGreater(answered.sum(), 1000)
+        self.assertTrue((number["thu_water"] == -1).all())
+        of = {name: values[answered] for name, values in number.items()}
+        np.testing.assert_allclose(2 * np.sqrt(of["VarianceX"] + of["VarianceY"]), of["total_thu"], rtol=1e-5)
+        np.testing.assert_allclose(2 * np.sqrt(of["VarianceZ"]), of["total_tvu"], rtol=1e-5)
+        np.testing.assert_allclose(np.hypot(of["thu_air"], of["thu_sea"]), of["total_thu"], rtol=1e-5)
+        np.testing.assert_allclose(np.sqrt(of["tvu_air"]**2 + of["tvu_sea"]**2 + (2 * 0.08)**2), of["total_tvu"],
+                                   rtol=1e-5)
+        self.assertTrue((of["CovarianceXY"]**2 <= of["VarianceX"] * of["VarianceY"]).all())
+        summary = json.loads((self.folder / "out.las.json").read_text())
+        total = summary["answers"]["total"]
+        self.assertEqual(total["pulses"], answered.sum())
+        self.assertEqual(total["coverage"], "2sigma")
+        self.assertTrue(any("boresight" in line for line in total["assumed"]))
+        self.assertFalse(any("position" in line for line in total["assumed"]))
+        self.assertEqual(sum(line["pulses"] for line in total["lines"].values()), answered.sum())
+        # The same from LAS to LAZ and back, and through a server.
+        laz, again = self.folder / "out.laz", self.folder / "again.las"
+        query(*arguments, laz, check=0)
+        with programs.server(self.folder) as address:
+            query(*arguments[:3], *arguments[5:], again, "--server", address, check=0)
+        self.assertEqual(again.read_bytes(), out.read_bytes())
+
+    def test_refuses_what_is_no_total(self):
+        las = self.folder / "line.las"
+        programs.make_flight(las)
+        out = self.folder / "out.las"
+
+        def refused(text, *parts, flags=()):
+            result = query("las", las, out, "--survey", self.survey(text), "--table", self.table, "--water-level", -23,
+                           "--incidence", 20, "--altitude", 400, "--divergence", 1, "--wind-speed", 5, *flags)
+            self.assert_fails(result, 2, *parts)
+            self.assertFalse(out.exists())
+
+        refused(SENSOR, "the vertical datum is not decided", "[datum] sigma")
+        refused(SENSOR + "[datum]\nsigma = 0\n", "the water column is not decided", "column = \"none\"")
+        refused("[sensor]\nname = 'usgs-eaarl-b'\n" + DECIDED, "no source gives scan (degree)")
+        refused("[sigma]\nscan = 0.1\n", "[sigma] has no effect without a sensor")
+        refused("", "--datum-sigma has no effect without --sensor", flags=("--datum-sigma", 0.1))
+        refused(SENSOR + DECIDED + "[surface]\nlocated = 'pulse'\n", "needs returns from the surface")
+        result = query("las", las, out, "--sensor", "riegl-vq-88-g", "--datum-sigma", 0, "--water-column", "none",
+                       "--table", self.table, "--water-level", -23, "--incidence", 20, "--altitude", 400,
+                       "--divergence", 1, "--wind-speed", 5)
+        self.assert_fails(result, 1, "did you mean riegl-vq-880-g?")
+
+
+if __name__ == "__main__":
+    programs.main()
