@@ -1,6 +1,8 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +12,13 @@
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/sea_options.h"
+#include "survey/commands/total_options.h"
 #include "survey/csv/csv_annotation.h"
 #include "survey/exit_status.h"
 #include "survey/files/annotation_run.h"
 #include "survey/files/file_jobs.h"
 #include "survey/number_text.h"
+#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::client {
 namespace {
@@ -26,6 +30,8 @@ struct CsvOptions {
   SourceOptions source;
   AnswerStyle style;
   FixedInputs fixed;
+  TotalOptions total;
+  bool details = false;
 };
 
 // For a summary; null where a column of the file has it, or nothing does.
@@ -48,32 +54,90 @@ std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
   return std::nullopt;
 }
 
-absl::Status RunCsv(const CsvOptions& options) {
-  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
+// Null where no sensor is named.
+absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options, const SurveyDescription& survey,
+                                                FixedInputs& fixed) {
+  if (absl::Status status = CheckTotalFlags(options.total, survey); !status.ok()) return status;
+  if (!WantsTotal(survey)) {
+    if (options.details) return UsageError("csv: --details has no effect without --sensor; leave it out");
+    return std::nullopt;
+  }
+  const ToldSurface surface = survey.surface.value_or(ToldSurface());
+  absl::StatusOr<TotalPlan> plan =
+      PlanTotal(survey, {.coverage = options.style.coverage,
+                         .index = {},
+                         .lever_arm = {},
+                         .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
+                         .has_level = surface.level.has_value() || surface.level_file.has_value()});
+  if (!plan.ok()) return plan.status();
+  if (const std::optional<float>& wind_from = fixed[PulseInput::kWindFrom]; wind_from.has_value())
+    plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
+  if (!fixed[PulseInput::kFootprint].has_value() && !fixed[PulseInput::kDivergence].has_value() &&
+      fixed[PulseInput::kAltitude].has_value()) {
+    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+    if (!sensor.ok()) return sensor.status();
+    if (sensor->divergence.has_value()) {
+      fixed[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
+      plan->numbers.push_back({"divergence", absl::StrCat(sensor->divergence->value, " mrad"),
+                               "assumed: the default of the sensor", true});
+    }
+  }
+  const bool details =
+      options.details || (survey.output.has_value() && survey.output->details.value_or(false));
+  return CsvTotal{.plan = *std::move(plan), .details = details, .wind_spectrum = {}};
+}
+
+absl::Status RunCsv(const CsvOptions& flags) {
+  absl::StatusOr<SurveyDescription> survey = SurveyOf(flags.sea);
   if (!survey.ok()) return survey.status();
+  *survey = Together(flags.total, *std::move(survey));
+  CsvOptions options = flags;
+  TakeStyle(*survey, options.style);
   const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
   if (!sea.ok()) return sea.status();
   FixedInputs fixed = options.fixed;
   if (absl::Status status = TakeWind(*sea, fixed); !status.ok()) return status;
+  absl::StatusOr<std::optional<CsvTotal>> total = TotalOf(options, *survey, fixed);
+  if (!total.ok()) return total.status();
+  AnswerStyle style = options.style;
+  if (total->has_value())
+    style.coverage = Coverage::kTwoSigma;  // Of the sea's share, which a total takes so.
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", {".csv"}, options.files);
   if (!jobs.ok()) return jobs.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("csv"); !status.ok()) return status;
   const AnswerSource source = answerer->source();
+  if (total->has_value() && !sea->has_waves()) {
+    const auto spectrum = source.table().attributes.find("spectrum");
+    (*total)->wind_spectrum = spectrum != source.table().attributes.end() ? spectrum->second : "not stated";
+  }
   if (options.style.standard_errors) Note(answerer->ErrorNote());
   const std::string notes = answerer->SeaText();
   std::vector<std::filesystem::path> files;
   if (sea->file.has_value()) files.emplace_back(*sea->file);
   const auto annotate = [&](const Job& job, FileProgress& progress) -> absl::StatusOr<AnnotatedFile> {
-    absl::StatusOr<AnnotatedCsv> csv =
-        AnnotateCsv(job.input, job.output, options.existing, fixed, options.style, source, progress);
+    absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.existing, fixed, style,
+                                                   source, progress, total->has_value() ? &**total : nullptr);
     if (!csv.ok()) return csv.status();
-    return AnnotatedFile{
-        std::move(csv->file),
-        Findings{
-            .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
-        absl::StrCat(" ", csv->summary.outcomes().Text(WithoutAzimuth(source.table())), notes)};
+    const std::string outcomes = csv->summary.outcomes().Text(WithoutAzimuth(source.table()));
+    if (!total->has_value()) {
+      return AnnotatedFile{
+          std::move(csv->file),
+          Findings{
+              .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
+          absl::StrCat(" ", outcomes, notes)};
+    }
+    const TotalPlan& plan = (*total)->plan;
+    std::string text = absl::StrCat(
+        " ", outcomes,
+        csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));
+    for (const std::string& assumed : Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
+    return AnnotatedFile{std::move(csv->file),
+                         Findings{.input_bytes = csv->input_bytes,
+                                  .input = answerer->SeaJson(),
+                                  .answers = WithTotal(csv->summary.Json(), plan, csv->totals)},
+                         text + notes};
   };
   RunVerdict verdict(
       {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)},
@@ -82,10 +146,15 @@ absl::Status RunCsv(const CsvOptions& options) {
     const std::string problem = verdict.Add(job.output.string(), answers);
     if (!problem.empty() && jobs->size() > 1) Note(problem);
   };
+  nlohmann::ordered_json parameters = Parameters(options, *sea);
+  if (total->has_value()) {
+    parameters["details"] = (*total)->details;
+    parameters["total"] = Parameters((*total)->plan);
+  }
   const absl::Status status = AnnotateFiles(*jobs,
                                             {.command = "csv",
                                              .records = "pulses",
-                                             .parameters = Parameters(options, *sea),
+                                             .parameters = parameters,
                                              .files = files,
                                              .resume = options.files.resume,
                                              .existing = options.existing,
@@ -105,11 +174,18 @@ void AddCsvCommand(CLI::App& program, Run& run) {
                                              "columns are wind_speed, fetch, incidence, "
                                              "azimuth, footprint, depth, in any order, among others; "
                                              "beam_azimuth and wind_from may stand for azimuth, altitude "
-                                             "and divergence for footprint");
+                                             "and divergence for footprint; with a total also roll, "
+                                             "pitch, heading, velocity_north and the like");
   AddFileOptions(*command, ".csv", options->files, options->existing);
   for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->fixed.coordinates);
   AddBeamInputs(*command, options->fixed);
   AddSeaOptions(*command, options->sea);
+  AddTotalOptions(*command, options->total);
+  command
+      ->add_flag(
+          "--details", options->details,
+          "With a total also append the shares of air side and sea, and the covariance (north, east, down)")
+      ->group(group::kOutput);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);
   EndHelp(*command,

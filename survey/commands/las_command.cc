@@ -43,17 +43,7 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
 nlohmann::ordered_json AnswersJson(const LasAnnotation& annotation, const AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
-  for (const char* const of_sea : {"s44_best_order", "depth_bands"}) {
-    if (!json.contains(of_sea)) continue;
-    json["sea_surface"][of_sea] = std::move(json[of_sea]);
-    json.erase(of_sea);
-  }
-  json["total"] = annotated.totals.Json();
-  json["total"]["coverage"] = CoverageName(annotation.style.coverage);
-  json["total"]["assumed"] = Assumptions(*annotation.total);
-  for (const auto& [line, summary] : annotated.totals_by_line)
-    json["total"]["lines"][absl::StrCat(line)] = summary.Json();
-  return json;
+  return WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
 }
 
 std::string AnswersText(const LasAnnotation& annotation, const AnnotatedLas& annotated,

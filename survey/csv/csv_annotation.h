@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "survey/answers/batch.h"
@@ -9,21 +11,29 @@
 #include "survey/csv/csv_pulses.h"
 #include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
+#include "survey/totals/total_summary.h"
 
 namespace albtpu::client {
 
 struct AnnotatedCsv {
   std::uint64_t input_bytes = 0;
   UncertaintySummary summary;
-  OutputFile file;  // Complete; Commit() gives it its name.
+  TotalSummary totals;  // Empty without a total.
+  OutputFile file;      // Complete; Commit() gives it its name.
+};
+
+// How totals are made of the pulses of a file.
+struct CsvTotal {
+  TotalPlan plan;
+  bool details = false;       // Append shares and covariance, too.
+  std::string wind_spectrum;  // Of the table of winds, for the height of the waves; empty over any sea.
 };
 
 // Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns
 // are ignored. Every record is copied byte for byte, including line ending, quotes and byte order mark, and followed by
-// the columns of `AnswerCells`; a last line without a line ending gets that of the header. Blank lines are copied. An
-// empty cell in `fetch` means a fully developed sea, in `azimuth`,
-// `beam_azimuth` or `wind_from` no azimuth. Reading, querying and writing overlap;
-// memory does not grow with the file.
+// the columns of `AnswerCells`, or with `total` those of TotalCells; a last line without a line ending gets that of the
+// header. Blank lines are copied. An empty cell in `fetch` means a fully developed sea, in `azimuth`, `beam_azimuth` or
+// `wind_from` no azimuth. Reading, querying and writing overlap; memory does not grow with the file.
 //
 // Fails and writes nothing when a column is missing and has no fixed number, occurs twice, also has a fixed number
 // (IsUsageError), gives a coordinate that is given in another way, too (CheckWays), or has the name of a column to be
@@ -32,6 +42,11 @@ struct AnnotatedCsv {
 absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const std::filesystem::path& output, Existing existing,
                                          const FixedInputs& fixed, AnswerStyle style,
-                                         const AnswerSource& source, FileProgress& progress);
+                                         const AnswerSource& source, FileProgress& progress,
+                                         const CsvTotal* total = nullptr);
+
+// total_thu, total_tvu, with details shares and the covariance of the total (axes north, east, down), then the biases
+// and `outcome`; with an order of S-44 also `s44_order_met`.
+std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& style);
 
 }  // namespace albtpu::client

@@ -169,19 +169,21 @@ void CsvPulses::Clear(CsvPulseBatches& batches) const {
   }
 }
 
-absl::StatusOr<std::optional<float>> CsvPulses::Number(const CsvRecord& record, const Column& column) const {
-  const std::string_view raw = record.RawCell(column.index);
+absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const CsvRecord& record,
+                                              std::size_t index, std::string_view column,
+                                              std::string_view units, bool may_be_empty) {
+  const std::string_view raw = record.RawCell(index);
   const bool quoted = !raw.empty() && raw.front() == '"';
-  const std::string unquoted = quoted ? record.Cell(column.index) : "";
+  const std::string unquoted = quoted ? record.Cell(index) : "";
   const absl::string_view cell = absl::StripAsciiWhitespace(
       quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
-  if (cell.empty() && MayBeEmpty(column.input)) return std::nullopt;
+  if (cell.empty() && may_be_empty) return std::nullopt;
   const std::optional<float> value = ParseFloat(std::string_view(cell.data(), cell.size()));
   if (value.has_value()) return value;
   return absl::InvalidArgumentError(absl::StrCat(
-      name_, " line ", record.line, ", column '", std::string(Name(column.input)),
+      file, " line ", record.line, ", column '", std::string(column),
       "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
-      "; write a number in ", std::string(Units(column.input)), ", such as 12.5"));
+      "; write a number in ", std::string(units), ", such as 12.5"));
 }
 
 absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches& batches) const {
@@ -193,7 +195,8 @@ absl::StatusOr<bool> CsvPulses::Append(const CsvRecord& record, CsvPulseBatches&
   bool has_azimuth = may_have_azimuth_;
   PulseNumbers numbers = fixed_;
   for (const Column& column : columns_) {
-    const absl::StatusOr<std::optional<float>> number = Number(record, column);
+    const absl::StatusOr<std::optional<float>> number = NumberOf(
+        name_, record, column.index, Name(column.input), Units(column.input), MayBeEmpty(column.input));
     if (!number.ok()) return number.status();
     // An absent fetch; of the other inputs that may be empty, each makes the azimuth absent.
     numbers[Index(column.input)] = number->value_or(std::numeric_limits<float>::infinity());

@@ -21,6 +21,11 @@ struct CsvPulseBatches {
   PulseBatch with_azimuth, without_azimuth;
 };
 
+// The number in a cell of `record`; none if it is empty and may be. Messages name file, line and column.
+absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const CsvRecord& record,
+                                              std::size_t index, std::string_view column,
+                                              std::string_view units, bool may_be_empty);
+
 class CsvPulses {
  public:
   // `name` is the file, for messages; `appended` are the columns that the output gets in addition.
@@ -43,7 +48,6 @@ class CsvPulses {
   CsvPulses() = default;
 
   void FindCoordinates(const FixedInputs& fixed, const InputOrigins& origins);
-  absl::StatusOr<std::optional<float>> Number(const CsvRecord& record, const Column& column) const;
 
   std::string name_;
   std::size_t column_count_ = 0;

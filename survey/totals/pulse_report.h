@@ -7,7 +7,6 @@
 
 #include "absl/status/statusor.h"
 #include "survey/answers/batch.h"
-#include "survey/csv/pulse_inputs.h"
 #include "survey/totals/total_plan.h"
 
 namespace albtpu::client {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -186,6 +187,20 @@ std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
   }
   if (count() > 0) line("all", All());
   return text;
+}
+
+ordered_json WithTotal(ordered_json answers, const TotalPlan& plan, const TotalSummary& totals,
+                       const std::map<int, TotalSummary>& lines) {
+  for (const char* const of_sea : {"s44_best_order", "depth_bands"}) {
+    if (!answers.contains(of_sea)) continue;
+    answers["sea_surface"][of_sea] = std::move(answers[of_sea]);
+    answers.erase(of_sea);
+  }
+  ordered_json& total = answers["total"] = totals.Json();
+  total["coverage"] = CoverageName(plan.options.coverage);
+  total["assumed"] = Assumptions(plan);
+  for (const auto& [line, summary] : lines) total["lines"][absl::StrCat(line)] = summary.Json();
+  return answers;
 }
 
 }  // namespace albtpu::client

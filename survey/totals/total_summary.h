@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -81,5 +82,10 @@ class TotalSummary {
 
   std::array<Band, kBandEnds.size() + 1> bands_;
 };
+
+// `answers`, which are those of the sea alone (UncertaintySummary), with the total beside them. What the sea has by
+// depth moves to `sea_surface`. `total` has TotalSummary::Json(), `coverage`, `assumed` and, of each line, the same.
+nlohmann::ordered_json WithTotal(nlohmann::ordered_json answers, const TotalPlan& plan,
+                                 const TotalSummary& totals, const std::map<int, TotalSummary>& lines = {});
 
 }  // namespace albtpu::client

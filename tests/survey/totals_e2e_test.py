@@ -116,6 +116,55 @@ class TotalsTest(programs.Test):
             query(*arguments[:3], *arguments[5:], again, "--server", address, check=0)
         self.assertEqual(again.read_bytes(), out.read_bytes())
 
+    def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n"):
+        path, out = self.folder / "pulses.csv", self.folder / "totals.csv"
+        path.write_text(rows)
+        result = query("csv", path, out, "--survey", self.survey(text), "--table", self.table, "--overwrite", *flags)
+        return result, [line.split(",") for line in out.read_text().splitlines()] if out.exists() else None
+
+    def test_csv_has_the_bits_of_one_pulse(self):
+        header = "incidence,beam_azimuth,depth,altitude,roll,pitch,heading\n"
+        pulses = [(20, 90, 10, 400, 3, 4, 30), (18.5, 210.25, 4.5, 380, -1, 2, 31), (5, 0, 12, 410, 0, 0, 29)]
+        rows = header + "".join(",".join(map(str, pulse)) + "\n" for pulse in pulses)
+        result, lines = self.csv(rows, "--details", "--divergence", 1, "--s44-order", "1b")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(lines[0][7:], ["total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea",
+                                        *(f"covariance_{entry}" for entry in ("NN", "EE", "DD", "NE", "ND", "ED")),
+                                        "bias_along_beam", "bias_vertical", "outcome", "s44_order_met"])
+        survey = self.survey(SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n")
+        for pulse, line in zip(pulses, lines[1:]):
+            answer = json.loads(query(
+                "pulse", "--survey", survey, "--table", self.table, "--json", "--divergence", 1,
+                "--incidence", pulse[0], "--beam-azimuth", pulse[1], "--depth", pulse[2], "--altitude", pulse[3],
+                "--attitude", f"{pulse[4]},{pulse[5]},{pulse[6]}", check=0).stdout)
+            row = dict(zip(lines[0], line))
+            for cell, name in (("total_thu", "thu"), ("total_tvu", "tvu"), ("thu_air", "thu_air"),
+                               ("tvu_sea", "tvu_sea"), ("bias_vertical", "bias_vertical")):
+                self.assertEqual(np.float32(row[cell]), np.float32(answer[name]), cell)
+            for entry, value in answer["covariance_total"].items():
+                self.assertEqual(np.float32(row[f"covariance_{entry}"]), np.float32(value), entry)
+            self.assertEqual(row["outcome"], "INTERPOLATED")
+            self.assertEqual(row["s44_order_met"], answer["s44_order_met"])
+        summary = json.loads((self.folder / "totals.csv.json").read_text())
+        self.assertEqual(summary["answers"]["total"]["pulses"], 3)
+
+    def test_csv_without_a_direction_states_lengths_alone(self):
+        result, lines = self.csv("incidence,beam_azimuth,depth\n20,,10\n20,90,10\n", "--altitude", 400, "--details")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        first, second = (dict(zip(lines[0], line)) for line in lines[1:])
+        self.assertEqual([first["covariance_NN"], first["covariance_NE"]], ["", ""])
+        self.assertGreater(float(first["total_thu"]), 0)
+        # A beam straight ahead stands for it: roll and pitch are equally uncertain, so that heights hardly change.
+        np.testing.assert_allclose(float(first["tvu_air"]), float(second["tvu_air"]), rtol=1e-4)
+        self.assertNotEqual(second["covariance_NE"], "")
+
+    def test_csv_needs_an_altitude(self):
+        text = SENSOR + DECIDED + SIGMA + "[sea]\nwind_speed = 6.5\n[surface]\nlocated = 'level'\n"
+        result, _ = self.csv("incidence,footprint,depth\n20,0.5,10\n", text=text)
+        self.assert_fails(result, 1, "no column 'altitude'", "--altitude")
+        result, _ = self.csv("incidence,footprint,depth,altitude\n20,0.5,10,high\n", text=text)
+        self.assert_fails(result, 1, "line 2, column 'altitude': 'high' is not a number")
+
     def test_refuses_what_is_no_total(self):
         las = self.folder / "line.las"
         programs.make_flight(las)
