@@ -18,11 +18,14 @@ void BoxMuller(std::uint32_t u, std::uint32_t v, double* normals) {
   normals[1] = radius * std::sin(angle);
 }
 
+r123::Philox4x32::key_type KeyOf(std::uint64_t seed) {
+  return {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
+}
+
 }  // namespace
 
 void NormalStream::Fill(std::span<double> normals) {
-  const r123::Philox4x32::key_type key = {
-      {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
+  const r123::Philox4x32::key_type key = KeyOf(seed_);
   for (std::size_t i = 0; i < normals.size(); i += 4) {
     const r123::Philox4x32::ctr_type counter = {{block_++, realization_, cell_, part_}};
     const r123::Philox4x32::ctr_type words = r123::Philox4x32()(counter, key);
@@ -31,6 +34,13 @@ void NormalStream::Fill(std::span<double> normals) {
     BoxMuller(words[2], words[3], &four[2]);
     std::copy_n(four.begin(), std::min<std::size_t>(4, normals.size() - i), normals.begin() + i);
   }
+}
+
+void UniformStream::Draw() {
+  const r123::Philox4x32::ctr_type words =
+      r123::Philox4x32()({{block_++, realization_, cell_, part_}}, KeyOf(seed_));
+  std::copy(words.begin(), words.end(), words_.begin());
+  used_ = 0;
 }
 
 }  // namespace albtpu

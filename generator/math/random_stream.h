@@ -1,14 +1,15 @@
-// Standard normal numbers that are a function of (seed, cell, realization, part) alone: the same on any thread and
-// in any order.
+// Random numbers that are a function of (seed, cell, realization, part) alone: the same on any thread and in any order.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace albtpu {
 
-// The counter-based generator Philox4x32-10 (Salmon et al. (2011), doi:10.1145/2063384.2063405) with the transform of
-// Box and Muller.
+// Standard normal numbers: the counter-based generator Philox4x32-10 (Salmon et al. (2011),
+// doi:10.1145/2063384.2063405) with the transform of Box and Muller.
 class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization, std::uint32_t part = 0)
@@ -30,6 +31,27 @@ class NormalStream {
   std::uint64_t seed_;
   std::uint32_t cell_, realization_, part_;
   std::uint32_t block_ = 0;  // of four numbers
+};
+
+// Uniform numbers in (0, 1), multiples of 2^-32 and a half, by the same generator.
+class UniformStream {
+ public:
+  UniformStream(std::uint64_t seed, std::uint32_t cell, std::uint32_t realization, std::uint32_t part = 0)
+      : seed_(seed), cell_(cell), realization_(realization), part_(part) {}
+
+  double Next() {
+    if (used_ == words_.size()) Draw();
+    return (words_[used_++] + 0.5) * 0x1p-32;
+  }
+
+ private:
+  void Draw();
+
+  std::uint64_t seed_;
+  std::uint32_t cell_, realization_, part_;
+  std::uint32_t block_ = 0;
+  std::array<std::uint32_t, 4> words_;
+  std::size_t used_ = words_.size();
 };
 
 }  // namespace albtpu

@@ -1,0 +1,192 @@
+#include "generator/water/bottom_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace albtpu {
+namespace {
+
+const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::numbers::ln2));
+constexpr double kStepsOfPulse = 40;  // Echoes of finer steps are summed into such.
+constexpr double kReach = 6;          // in standard deviations of the pulse
+constexpr double kGate = 0.1;         // of the maximum
+
+// A waveform and its first two derivatives.
+struct Wave {
+  double value = 0, slope = 0, curvature = 0;
+};
+
+// Moments of a waveform between two times.
+struct Area {
+  double total = 0, moment = 0;
+};
+
+// Samples under a Gaussian pulse.
+class Waveform {
+ public:
+  Waveform(double first, double step, const std::vector<double>& samples, double sigma)
+      : first_(first), step_(step), samples_(samples), sigma_(sigma) {}
+
+  Wave At(double time) const {
+    Wave wave;
+    const auto [begin, end] = Near(time, time);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double u = (time - TimeOf(i)) / sigma_;
+      const double value = samples_[i] * std::exp(-0.5 * u * u);
+      wave.value += value;
+      wave.slope -= u * value;
+      wave.curvature += (u * u - 1) * value;
+    }
+    const double scale = 1 / (sigma_ * std::sqrt(2 * std::numbers::pi));
+    return {wave.value * scale, wave.slope * scale / sigma_, wave.curvature * scale / (sigma_ * sigma_)};
+  }
+
+  Area Between(double from, double to) const {
+    Area area;
+    const auto [begin, end] = Near(from, to);
+    const double root = sigma_ * std::numbers::sqrt2;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double a = (from - TimeOf(i)) / root, b = (to - TimeOf(i)) / root;
+      const double share = (std::erf(b) - std::erf(a)) / 2;
+      const double lean = (std::exp(-a * a) - std::exp(-b * b)) * sigma_ / std::sqrt(2 * std::numbers::pi);
+      area.total += samples_[i] * share;
+      area.moment += samples_[i] * (share * TimeOf(i) + lean);
+    }
+    return area;
+  }
+
+  double sigma() const { return sigma_; }
+  double first() const { return first_; }
+  double last() const { return TimeOf(samples_.size() - 1); }
+
+ private:
+  double TimeOf(std::size_t i) const { return first_ + static_cast<double>(i) * step_; }
+  std::pair<std::size_t, std::size_t> Near(double from, double to) const {
+    const auto place = [&](double time) {
+      return static_cast<std::size_t>(
+          std::clamp((time - first_) / step_, 0.0, static_cast<double>(samples_.size() - 1)));
+    };
+    return {place(from - kReach * sigma_), place(to + kReach * sigma_) + 1};
+  }
+
+  double first_, step_;
+  const std::vector<double>& samples_;
+  double sigma_;
+};
+
+// `factor` steps to one; each sample is split between its two new neighbours, so that the mean time stays.
+std::vector<double> Coarser(const std::vector<double>& samples, std::size_t factor) {
+  if (factor == 1) return samples;
+  std::vector<double> coarse(samples.size() / factor + 2, 0.0);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double part = static_cast<double>(i % factor) / static_cast<double>(factor);
+    coarse[i / factor] += samples[i] * (1 - part);
+    coarse[i / factor + 1] += samples[i] * part;
+  }
+  return coarse;
+}
+
+// Where `wave` crosses `level` between two times on opposite sides of it.
+double Crossing(const Waveform& wave, double level, double below, double above) {
+  for (int i = 0; i < 40 && std::abs(above - below) > 1e-9 * wave.sigma(); ++i) {
+    const double middle = (below + above) / 2;
+    (wave.At(middle).value < level ? below : above) = middle;
+  }
+  return (below + above) / 2;
+}
+
+struct Shape {
+  double peak, height, half, half_after, gate_begin, gate_end;
+};
+
+std::optional<Shape> ShapeOf(const Waveform& wave) {
+  const double step = wave.sigma() / 3;
+  const auto count = static_cast<std::size_t>((wave.last() - wave.first()) / step);
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] = wave.At(wave.first() + step * static_cast<double>(i)).value;
+  const auto top = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  if (count < 3 || top == 0 || top + 1 >= count || !(values[top] > 0)) return std::nullopt;
+  const auto time = [&](std::size_t i) { return wave.first() + step * static_cast<double>(i); };
+
+  Shape shape{};
+  double before = time(top - 1), after = time(top + 1);
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (before + after) / 2;
+    (wave.At(middle).slope > 0 ? before : after) = middle;
+  }
+  shape.peak = (before + after) / 2;
+  shape.height = wave.At(shape.peak).value;
+  const auto first_above = [&](double level) -> double {
+    std::size_t i = 0;
+    while (i < top && values[i] < level) ++i;
+    const double above = i == top ? shape.peak : time(i);
+    return Crossing(wave, level, i == 0 ? wave.first() - step : time(i - 1), above);
+  };
+  const auto last_above = [&](double level) -> std::optional<double> {
+    std::size_t i = top;
+    while (i < count && (values[i] >= level || i == top)) ++i;
+    if (i == count) return std::nullopt;
+    return Crossing(wave, level, time(i), i == top + 1 ? shape.peak : time(i - 1));
+  };
+  const std::optional<double> half_after = last_above(shape.height / 2),
+                              gate = last_above(shape.height * kGate);
+  if (!half_after || !gate) return std::nullopt;
+  shape.half = first_above(shape.height / 2);
+  shape.gate_begin = first_above(shape.height * kGate);
+  shape.half_after = *half_after;
+  shape.gate_end = *gate;
+  return shape;
+}
+
+}  // namespace
+
+std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length) {
+  const auto factor =
+      static_cast<std::size_t>(std::max(1.0, std::floor(pulse_length / (kStepsOfPulse * echo.step))));
+  const std::vector<double> weights = Coarser(echo.weights, factor);
+  const std::vector<double> ahead_weights = Coarser(echo.ahead_weights, factor);
+  const double step = echo.step * static_cast<double>(factor), sigma = pulse_length * kSigmaOfWidth;
+  const Waveform wave(Echo::kEarliest, step, weights, sigma),
+      ahead(Echo::kEarliest, step, ahead_weights, sigma);
+  const std::optional<Shape> found = ShapeOf(wave);
+  if (!found) return std::nullopt;
+  const Shape& at = *found;
+
+  DetectedBottom bottom;
+  bottom.width = at.half_after - at.half;
+  // A bump delays the waveform y_x of its point x by its height, which changes the equation that each detector solves:
+  // y' = 0 at the peak, y(half) = y(peak) / 2, and the ratio of two integrals whose limits solve y = y(peak) / 10.
+  const Wave peak = wave.At(at.peak), ahead_peak = ahead.At(at.peak);
+  bottom.by[Index(Detector::kPeak)] = {at.peak, ahead_peak.curvature / peak.curvature};
+  bottom.by[Index(Detector::kHalf)] = {
+      at.half + pulse_length / 2,
+      (ahead.At(at.half).slope - 0.5 * ahead_peak.slope) / wave.At(at.half).slope};
+  const Area area = wave.Between(at.gate_begin, at.gate_end),
+             ahead_area = ahead.Between(at.gate_begin, at.gate_end);
+  const double centroid = area.moment / area.total;
+  double kernel = ahead_area.total;
+  for (const double end : {at.gate_begin, at.gate_end}) {
+    const Wave of_all = wave.At(end), of_ahead = ahead.At(end);
+    const double moved = (kGate * ahead_peak.slope - of_ahead.slope) / of_all.slope;
+    const double edge = (end - centroid) * (of_ahead.value + of_all.value * moved);
+    kernel += end == at.gate_end ? -edge : edge;
+  }
+  bottom.by[Index(Detector::kCentroid)] = {centroid, kernel / area.total};
+  return bottom;
+}
+
+DetectedBottom ClearBottom(const EchoSetup& setup, double pulse_length) {
+  // Time and point are jointly normal: both grow with where on the surface the light went in.
+  const double spread = setup.footprint / 4 / std::cos(setup.incidence);
+  const double slope = std::sin(setup.incidence) / setup.group_index;
+  const double sigma = std::hypot(pulse_length * kSigmaOfWidth, slope * spread);
+  DetectedBottom bottom;
+  bottom.width = sigma / kSigmaOfWidth;
+  bottom.by[Index(Detector::kHalf)] = {(pulse_length - bottom.width) / 2,
+                                       -slope * spread * spread * std::sqrt(2 * std::numbers::ln2) / sigma};
+  return bottom;
+}
+
+}  // namespace albtpu

@@ -1,0 +1,42 @@
+// Where a detector finds the bottom in an echo, and which part of the bottom it so measures.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "generator/water/echo.h"
+
+namespace albtpu {
+
+// How a time is read from the waveform.
+enum class Detector {
+  kPeak,      // its maximum
+  kHalf,      // where it first reaches half its maximum, plus half the width of the emitted pulse
+  kCentroid,  // the centroid between its first and its last crossing of a tenth of its maximum around the peak
+};
+inline constexpr std::array<Detector, 3> kDetectors = {Detector::kPeak, Detector::kHalf, Detector::kCentroid};
+inline constexpr std::array<std::string_view, 3> kDetectorNames = {"peak", "half", "centroid"};
+constexpr std::size_t Index(Detector detector) { return static_cast<std::size_t>(detector); }
+
+// In the units of Echo: times of 2 n_group z / c, lengths of z.
+struct Detection {
+  double time = 0;
+  // A bump of the bottom at x changes the time in proportion to a kernel of x (where the waveform of that point rises
+  // or falls at `time`); this is the mean of x over it.
+  double ahead = 0;
+};
+
+struct DetectedBottom {
+  std::array<Detection, 3> by;  // by Detector
+  double width = 0;             // of the waveform at half its maximum
+};
+
+// `pulse_length` is the full width at half maximum of the emitted Gaussian pulse, at least ten steps of the echo.
+// Nothing if the echo has no light, or does not fall below a tenth of its maximum within its times.
+std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length);
+
+// The same without scattering, in closed form, for the Gaussian beam of `setup`.
+DetectedBottom ClearBottom(const EchoSetup& setup, double pulse_length);
+
+}  // namespace albtpu

@@ -1,0 +1,62 @@
+// What the water column does to the reported bottom, by Monte Carlo.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "generator/math/statistics.h"
+#include "generator/water/bottom_detector.h"
+#include "generator/water/phase_function.h"
+
+namespace albtpu {
+
+// The shape of a pulse in water: everything that the relative bias depends on. Lengths are over the depth z.
+struct WaterColumn {
+  double incidence = 0;            // in air [radian, below 1]
+  double refractive_index = 1.34;  // of phase
+  double group_index = 1.36;
+  double scattering = 0;  // b z, above 0
+  double absorption = 0;  // a / b
+  double field_of_view =
+      INFINITY;          // diameter of the disc on the surface that the receiver sees, across the beam
+  double footprint = 0;  // 1/e^2 diameter of the Gaussian beam, across it
+};
+
+// For one pulse length. Lengths are over the depth; reported minus true.
+struct DetectedBias {
+  std::array<Estimate, 3> vertical;  // by Detector; positive: reported too shallow
+  std::array<Estimate, 3> along;     // positive: reported too far along the beam
+  Estimate stretch;                  // width of the echo at half its maximum over that in clear water
+};
+
+struct WaterColumnBias {
+  std::vector<std::optional<DetectedBias>> by_pulse;  // nothing where the echo has no clear end
+  Estimate spot;    // standard deviation, along the beam, of where on the bottom the echo comes from
+  Estimate energy;  // of the echo within the field of view over that of unscattered light
+};
+
+struct WaterEffort {
+  std::uint32_t photons = 200'000;  // of each pool
+  std::uint32_t pools = 8;  // Standard errors are of the scatter of pools: photons of one are paired often.
+  int pairs_per_photon = 5;
+  std::uint64_t seed = 1;
+  std::uint32_t cell = 0;
+};
+
+// `pulse_lengths` are full widths at half maximum as c t / (2 n_group z), above 0. Pools are computed in parallel; the
+// result is the same on any number of threads.
+WaterColumnBias ComputeWaterColumn(const PhaseFunction& phase, const WaterColumn& column,
+                                   std::span<const double> pulse_lengths, const WaterEffort& effort);
+
+// The estimate from echoes of several pools of the same column.
+WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& column,
+                             std::span<const double> pulse_lengths);
+
+// The angle in the water of a beam [radian].
+double RefractedAngle(double incidence, double refractive_index);
+
+}  // namespace albtpu

@@ -1,0 +1,115 @@
+#include "generator/water/bottom_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generator/math/random_stream.h"
+
+namespace albtpu {
+namespace {
+
+Echo EmptyEcho(double step) {
+  Echo echo{.step = step, .weights = {}, .ahead_weights = {}};
+  const auto bins = static_cast<std::size_t>((Echo::kLatest - Echo::kEarliest) / step) + 2;
+  echo.weights.assign(bins, 0);
+  echo.ahead_weights.assign(bins, 0);
+  return echo;
+}
+
+void Add(Echo& echo, double time, double ahead, double weight) {
+  const double place = (time - Echo::kEarliest) / echo.step;
+  const auto bin = static_cast<std::size_t>(place);
+  const double part = place - static_cast<double>(bin);
+  echo.weights[bin] += weight * (1 - part);
+  echo.weights[bin + 1] += weight * part;
+  echo.ahead_weights[bin] += weight * ahead * (1 - part);
+  echo.ahead_weights[bin + 1] += weight * ahead * part;
+}
+
+// A skewed echo whose late light comes from farther ahead; a bottom of slope `slope` delays each by its point.
+Echo SkewedEcho(double slope) {
+  Echo echo = EmptyEcho(0.0005);
+  UniformStream random(1, 0, 0);
+  for (int i = 0; i < 20'000; ++i) {
+    const double late = -0.1 * std::log(random.Next()), ahead = 0.3 * late + 0.2 * (random.Next() - 0.5);
+    Add(echo, late + slope * ahead, ahead, 1);
+  }
+  Add(echo, 0, 0, 20'000);
+  return echo;
+}
+
+TEST(BottomDetector, FindsASinglePointAtItsTime) {
+  Echo echo = EmptyEcho(0.001);
+  Add(echo, 0.25, 0.5, 3);
+  for (const double pulse : {0.02, 0.1, 0.5}) {
+    const auto bottom = DetectBottom(echo, pulse);
+    ASSERT_TRUE(bottom.has_value());
+    // Splitting light between the two nearest of 40 steps of a pulse widens it by up to 0.04 %.
+    EXPECT_NEAR(bottom->width / pulse, 1, 5e-4);
+    for (const Detection& detection : bottom->by) {
+      EXPECT_NEAR(detection.time, 0.25, 3e-4 * pulse);
+      EXPECT_NEAR(detection.ahead, 0.5, 1e-4);
+    }
+  }
+}
+
+TEST(BottomDetector, OrdersItsDetectorsOnASkewedEcho) {
+  const auto bottom = DetectBottom(SkewedEcho(0), 0.1);
+  ASSERT_TRUE(bottom.has_value());
+  const double half = bottom->by[Index(Detector::kHalf)].time;
+  const double peak = bottom->by[Index(Detector::kPeak)].time;
+  const double centroid = bottom->by[Index(Detector::kCentroid)].time;
+  EXPECT_GT(half, 0);
+  EXPECT_GT(peak, half);
+  EXPECT_GT(centroid, peak);
+  EXPECT_LT(centroid, 0.05);  // The mean of all light.
+  EXPECT_GT(bottom->width, 0.1);
+}
+
+// The point that a detector measures is that by which a tilted bottom changes its time.
+TEST(BottomDetector, MeasuresThePointByWhichATiltIsSeen) {
+  const double slope = 1e-3;
+  const auto level = DetectBottom(SkewedEcho(0), 0.1);
+  const auto up = DetectBottom(SkewedEcho(slope), 0.1), down = DetectBottom(SkewedEcho(-slope), 0.1);
+  for (const Detector detector : kDetectors) {
+    const std::size_t d = Index(detector);
+    const double seen = (up->by[d].time - down->by[d].time) / (2 * slope);
+    EXPECT_NEAR(seen, level->by[d].ahead, 2e-4) << kDetectorNames[d];
+    EXPECT_GT(std::abs(seen), 5e-4) << kDetectorNames[d];
+  }
+}
+
+TEST(BottomDetector, FindsNothingInTheDark) {
+  EXPECT_FALSE(DetectBottom(EmptyEcho(0.001), 0.1).has_value());
+  Echo endless = EmptyEcho(0.001);
+  for (double time = 0; time < Echo::kLatest - 0.01; time += 0.001) Add(endless, time, 0, 1);
+  EXPECT_FALSE(DetectBottom(endless, 3).has_value());
+}
+
+// In clear water the closed form is that of light drawn over a Gaussian footprint.
+TEST(BottomDetector, KnowsClearWaterInClosedForm) {
+  const EchoSetup setup{.incidence = 0.4, .footprint = 0.5, .step = 0.001};
+  const double spread = setup.footprint / 4 / std::cos(setup.incidence);
+  const double slope = std::sin(setup.incidence) / setup.group_index;
+  Echo echo = EmptyEcho(setup.step);
+  const int draws = 20'001;
+  for (int i = 0; i < draws; ++i) {
+    const double u = -6 + 12.0 * i / (draws - 1);
+    Add(echo, slope * spread * u, spread * u, std::exp(-u * u / 2));
+  }
+  const double pulse = 0.08;
+  const auto drawn = DetectBottom(echo, pulse);
+  const DetectedBottom clear = ClearBottom(setup, pulse);
+  ASSERT_TRUE(drawn.has_value());
+  EXPECT_NEAR(drawn->width, clear.width, 2e-4);
+  for (const Detector detector : kDetectors) {
+    const std::size_t d = Index(detector);
+    EXPECT_NEAR(drawn->by[d].time, clear.by[d].time, 1e-4) << kDetectorNames[d];
+    EXPECT_NEAR(drawn->by[d].ahead, clear.by[d].ahead, 5e-4) << kDetectorNames[d];
+  }
+  EXPECT_LT(clear.by[Index(Detector::kHalf)].time, -0.01);
+}
+
+}  // namespace
+}  // namespace albtpu
