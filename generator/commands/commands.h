@@ -64,6 +64,20 @@ struct PointOptions {
 };
 absl::Status RunPoint(const PointOptions& options);
 
+struct WaterPointOptions {
+  double incidence = 0;                   // degree, in air
+  double absorption = 0, scattering = 0;  // 1/m
+  double backscatter_fraction = 0.0183;
+  double depth = 0, field_of_view = 0;  // m; the field of view may be infinite
+  double pulse_length = 0;              // ns
+  double footprint = 0;                 // m
+  double refractive_index = 1.342, group_index = 1.3643;
+  std::uint32_t photons = 1'600'000;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+absl::Status RunWaterPoint(const WaterPointOptions& options);
+
 struct ValidateOptions {
   std::filesystem::path output;  // a folder
   bool quick = false;

@@ -21,6 +21,7 @@
 #include "generator/commands/commands.h"
 #include "generator/commands/flags.h"
 #include "generator/commands/point_flags.h"
+#include "generator/commands/water_point_flags.h"
 #include "tables/version.h"
 
 namespace {
@@ -169,6 +170,11 @@ int Run(int argc, char** argv) {
   CLI::App* point = app.add_subcommand("point", "Compute the uncertainty of one beam over one sea");
   albtpu::AddPoint(*point, point_options, threads);
 
+  albtpu::WaterPointOptions water_point_options;
+  CLI::App* water_point = app.add_subcommand(
+      "water-point", "Compute the bias of one beam that the scattering of the water makes");
+  albtpu::AddWaterPoint(*water_point, water_point_options, threads);
+
   ValidateOptions validate_options;
   CLI::App* validate =
       app.add_subcommand("validate", "Report the tables and figures of the paper beside ours");
@@ -189,6 +195,7 @@ int Run(int argc, char** argv) {
   if (*merge) return ExitCode(RunMerge(merge_options));
   if (*keys) return ExitCode(albtpu::RunKeys());
   if (*plan) return ExitCode(RunPlan(plan_options));
+  if (*water_point) return ExitCode(albtpu::RunWaterPoint(water_point_options));
   if (*validate) return ExitCode(RunValidate(validate_options));
   return ExitCode(RunPoint(point_options));
 }

@@ -65,6 +65,28 @@ class Table(unittest.TestCase):
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         return result.stderr
 
+    def test_knows_what_the_water_column_does_to_one_beam(self):
+        beam = ("water-point", "--incidence", "15", "--absorption", "0.108717", "--scattering", "0.279559",
+                "--backscatter-fraction", "0.02", "--depth", "7.3", "--pulse-length", "2.2", "--footprint", "0.6",
+                "--photons", "400000")
+        answers = [json.loads(generate(*beam, "--field-of-view", "5", "--seed", seed, "--json").stdout)
+                   for seed in (1, 2)]
+        for name, value in answers[0].items():
+            if name.endswith("_standard_error"):
+                continue
+            errors = [answer[name + "_standard_error"] for answer in answers]
+            self.assertGreater(min(errors), 0, name)
+            self.assertLess(abs(value - answers[1][name]), 4.5 * math.hypot(*errors), name)
+        self.assertLess(answers[0]["bias_vertical_centroid"], answers[0]["bias_vertical_peak"])
+        self.assertLess(answers[0]["bias_vertical_peak"], 0)
+        text = generate(*beam, "--field-of-view", "inf", "--threads", "1")
+        self.assertIn("reported minus true", text.stdout)
+        self.assertIn("2.5 footprints", self.refused(2, *beam, "--field-of-view", "1.4"))
+        deep = [text.replace("7.3", "300") for text in beam]
+        self.assertIn("no echo", self.refused(1, *deep, "--field-of-view", "5"))
+        clear = [text.replace("0.279559", "0") for text in beam]
+        self.assertIn("--scattering", self.refused(2, *clear, "--field-of-view", "5"))
+
     def test_same_bytes_from_one_thread_and_from_two(self):
         one = self.make("one.h5", "--threads", "1", SOURCE_DATE_EPOCH="1700000000")
         two = self.make("two.h5", "--threads", "2", SOURCE_DATE_EPOCH="1700000000")
@@ -272,7 +294,7 @@ class Point(unittest.TestCase):
 
     def test_suggests_near_commands_options_and_values(self):
         for arguments, expected in ((["tabel"], "'tabel' is not a command (commands: table, merge, plan, keys, point, "
-                                                "validate); did you mean table?"),
+                                                "water-point, validate); did you mean table?"),
                                     ([*POINT, "--wind-sped", "3"], "did you mean --wind-speed?"),
                                     (["point", "--wind-sped", "3"], "did you mean --wind-speed?"),
                                     ([*POINT, "--profile", "unifrom"], "did you mean uniform?"),

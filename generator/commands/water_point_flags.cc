@@ -1,0 +1,92 @@
+#include "generator/commands/water_point_flags.h"
+
+#include <limits>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "command_line/help.h"
+#include "generator/commands/flags.h"
+
+namespace albtpu {
+namespace {
+
+// The table of clear water knows its echo in closed form only where the field of view takes in the whole footprint.
+constexpr double kLeastFootprints = 2.5;
+
+CLI::Validator FieldOfView() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double x = 0;
+        if (CLI::detail::lexical_cast(text, x) && x > 0) return {};
+        return "'" + text + "' is not a field of view; give metres above 0, or inf for all of the surface";
+      },
+      "", "field of view");
+}
+
+}  // namespace
+
+void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
+  point.add_option("--absorption", options.absorption, "Absorption of the water [1/m]")
+      ->required()
+      ->check(NumberIn(0.001, 100));
+  point.add_option("--scattering", options.scattering, "Scattering of the water [1/m]")
+      ->required()
+      ->check(NumberIn(1e-6, 100));
+  point
+      .add_option("--backscatter-fraction", options.backscatter_fraction,
+                  "Share of scattered light that turns back (default: 0.0183)")
+      ->check(NumberIn(0.001, 0.1));
+  point.add_option("--depth", options.depth, "Depth of the bottom below the surface [m]")
+      ->required()
+      ->check(NumberIn(0.01, 1000));
+  point.add_option("--incidence", options.incidence, "Angle of the beam from the vertical, in air [degree]")
+      ->required()
+      ->check(NumberIn(0, 60));
+  point
+      .add_option("--field-of-view", options.field_of_view,
+                  "Diameter of the disc on the surface that the receiver sees, across the beam [m], or inf")
+      ->required()
+      ->check(FieldOfView());
+  point
+      .add_option("--pulse-length", options.pulse_length,
+                  "Width of the Gaussian pulse at half its maximum [ns]")
+      ->required()
+      ->check(NumberIn(0.05, 100));
+  point
+      .add_option("--footprint", options.footprint,
+                  "1/e^2 diameter of the Gaussian beam at the mean surface, across its axis [m]")
+      ->required()
+      ->check(NumberIn(0, 1000));
+  point
+      .add_option("--refractive-index", options.refractive_index,
+                  "Index of the phase, which refracts (default: 1.342)")
+      ->check(NumberIn(1.01, 2));
+  point
+      .add_option("--group-index", options.group_index, "Index of the group, which delays (default: 1.3643)")
+      ->check(NumberIn(1.01, 2));
+  point.add_option("--photons", options.photons, "Photons of the simulation (default: 1600000)")
+      ->check(NumberIn(8000, 1e8));
+  point.add_option("--seed", options.seed, "Seed of the random numbers, a whole number (default: 1)")
+      ->check(Seed());
+  point.add_flag("--json", options.json, "Print one JSON object");
+  AddThreads(point, threads);
+  point.callback([&options] {
+    if (options.field_of_view >= kLeastFootprints * options.footprint) return;
+    throw CLI::ValidationError("--field-of-view",
+                               absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
+                                            kLeastFootprints * options.footprint, " m, 2.5 footprints"));
+  });
+  Group(point, "The water",
+        {"--absorption", "--scattering", "--backscatter-fraction", "--depth", "--refractive-index",
+         "--group-index"});
+  Group(point, "The system", {"--incidence", "--field-of-view", "--pulse-length", "--footprint"});
+  Group(point, kWork, {"--photons", "--seed", "--threads"});
+  EndHelp(
+      point, "",
+      "--absorption 0.108 --scattering 0.28 --depth 7 --incidence 15 --field-of-view 5 --pulse-length 2.2 "
+      "--footprint 0.6",
+      "--absorption 0.07 --scattering 0.2 --depth 10 --incidence 20 --field-of-view inf --pulse-length 5 "
+      "--footprint 2 --json");
+}
+
+}  // namespace albtpu

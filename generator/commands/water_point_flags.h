@@ -1,0 +1,12 @@
+// The flags of albtpu-generate water-point.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "generator/commands/commands.h"
+
+namespace albtpu {
+
+void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads);
+
+}  // namespace albtpu

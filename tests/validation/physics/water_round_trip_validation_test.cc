@@ -1,0 +1,109 @@
+// Pairs of photons, one of them backwards from the receiver, against photons that make the whole way.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "generator/water/water_column.h"
+#include "sea/angle.h"
+#include "validation/studies/water_round_trip.h"
+
+namespace albtpu {
+namespace {
+
+const PhaseFunction kOcean = PhaseFunction::FournierForand(0.0183);
+constexpr std::uint32_t kPools = 16, kPhotons = 500'000;  // some tens of seconds a case
+
+struct Case {
+  std::string name;
+  double incidence, attenuation, depth, field_of_view, nanoseconds, footprint;
+
+  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+  RoundTrip Trip() const {
+    // Albedo 0.8; the attenuation is that of diffuse light by Kirk's factor of 0.256.
+    const double absorption = attenuation / std::sqrt(1 + 0.256 * 4);
+    return {.incidence = RadiansOfDegrees(incidence),
+            .scattering = 4 * absorption,
+            .absorption = absorption,
+            .depth = depth,
+            .field_of_view = field_of_view,
+            .footprint = footprint};
+  }
+  WaterColumn Column() const {
+    const RoundTrip trip = Trip();
+    return {.incidence = trip.incidence,
+            .refractive_index = trip.refractive_index,
+            .group_index = trip.group_index,
+            .scattering = trip.scattering * depth,
+            .absorption = trip.absorption / trip.scattering,
+            .field_of_view = field_of_view / depth,
+            .footprint = footprint / depth};
+  }
+  double PulseLength() const { return 0.299792458 * nanoseconds / (2 * Column().group_index * depth); }
+};
+
+// As ComputeWaterColumn, with a receiver that accepts the same cone.
+std::vector<Echo> PairsOf(const Case& c) {
+  const WaterColumn column = c.Column();
+  const double refracted = RefractedAngle(column.incidence, column.refractive_index),
+               depths[] = {column.scattering};
+  const EchoSetup setup{.incidence = column.incidence,
+                        .group_index = column.group_index,
+                        .absorption = column.absorption,
+                        .footprint = column.footprint,
+                        .field_of_view = column.field_of_view,
+                        .step = c.PulseLength() / 30,
+                        .pairs_per_photon = 5};
+  std::vector<Echo> pools;
+  for (std::uint32_t pool = 0; pool < 8; ++pool) {
+    const WalkSetup beam{.refracted = refracted, .longest_excess = 14 / column.absorption};
+    WalkSetup receiver = beam;
+    receiver.cone = c.Trip().cone;
+    const auto sources = WalkPhotons(kOcean, beam, depths, 200'000, 1, 0, pool);
+    const auto receivers = WalkPhotons(kOcean, receiver, depths, 200'000, 1, 1, pool);
+    pools.push_back(PairPhotons(sources[0], receivers[0], setup, 1, 0, pool));
+  }
+  return pools;
+}
+
+class WaterRoundTrip : public testing::TestWithParam<Case> {};
+
+TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
+  const Case& c = GetParam();
+  const double pulses[] = {c.PulseLength()};
+  const WaterColumnBias trips = BiasOfEchoes(
+      TraceRoundTrips(kOcean, c.Trip(), pulses[0] / 30, kPools, kPhotons, 1), c.Column(), pulses);
+  const WaterColumnBias pairs = BiasOfEchoes(PairsOf(c), c.Column(), pulses);
+  const auto agree = [&](const std::string& name, const Estimate& trip, const Estimate& pair,
+                         double allowed) {
+    const double error = std::hypot(trip.standard_error, pair.standard_error);
+    std::printf("%-14s %-9s %9.5f +- %.5f by trips, %9.5f +- %.5f by pairs\n", c.name.c_str(), name.c_str(),
+                trip.value * unit, trip.standard_error * unit, pair.value * unit, pair.standard_error * unit);
+    EXPECT_NEAR(trip.value, pair.value, std::max(allowed / unit, 3 * error)) << name;
+  };
+  ASSERT_TRUE(trips.by_pulse[0] && pairs.by_pulse[0]);
+  for (const Detector detector : kDetectors) {
+    const std::size_t d = Index(detector);
+    const std::string name(kDetectorNames[d]);
+    agree(name, trips.by_pulse[0]->vertical[d], pairs.by_pulse[0]->vertical[d], 0.001, c.depth);
+    agree(name + " x", trips.by_pulse[0]->along[d], pairs.by_pulse[0]->along[d], 0.01, c.depth);
+  }
+  agree("spot", trips.spot, pairs.spot, 0, c.depth);
+  agree("energy", trips.energy, pairs.energy, 0, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, WaterRoundTrip,
+                         testing::Values(Case{"wide at 12", 12, 0.1, 10, 16, 5, 2},
+                                         Case{"wide at 20", 20, 0.1, 10, 16, 5, 2},
+                                         Case{"narrow at 12", 12, 0.1, 10, 6, 3, 1}),
+                         [](const auto& case_info) {
+                           std::string name = case_info.param.name;
+                           for (char& c : name) c = c == ' ' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace albtpu
