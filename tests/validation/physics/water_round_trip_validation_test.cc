@@ -77,8 +77,9 @@ TEST_P(WaterRoundTrip, IsWhatPairsOfPhotonsSay) {
   const WaterColumnBias trips = BiasOfEchoes(
       TraceRoundTrips(kOcean, c.Trip(), pulses[0] / 30, kPools, kPhotons, 1), c.Column(), pulses);
   const WaterColumnBias pairs = BiasOfEchoes(PairsOf(c), c.Column(), pulses);
-  const auto agree = [&](const std::string& name, const Estimate& trip, const Estimate& pair,
-                         double allowed) {
+  // Lengths are in units of the depth; `allowed` is in metres.
+  const auto agree = [&](const std::string& name, const Estimate& trip, const Estimate& pair, double allowed,
+                         double unit) {
     const double error = std::hypot(trip.standard_error, pair.standard_error);
     std::printf("%-14s %-9s %9.5f +- %.5f by trips, %9.5f +- %.5f by pairs\n", c.name.c_str(), name.c_str(),
                 trip.value * unit, trip.standard_error * unit, pair.value * unit, pair.standard_error * unit);
