@@ -41,8 +41,8 @@ struct Echo {
   Echo& operator*=(double factor);
 };
 
-// Two walks to the same depth, which may be one and the same: of the photons of the beam, and of those that the receiver
-// sends out. Streams are of (seed, cell, photon, pool).
+// Two walks to the same depth, which may be one and the same: of the photons of the beam, and of those that the
+// receiver sends out. Streams are of (seed, cell, photon, pool).
 Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
                  std::uint64_t seed, std::uint32_t cell, std::uint32_t pool);
 

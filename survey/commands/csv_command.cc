@@ -56,7 +56,7 @@ std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
 
 // Null where no sensor is named.
 absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options, const SurveyDescription& survey,
-                                                FixedInputs& fixed) {
+                                                const FixedInputs& fixed) {
   if (absl::Status status = CheckTotalFlags(options.total, survey); !status.ok()) return status;
   if (!WantsTotal(survey)) {
     if (options.details) return UsageError("csv: --details has no effect without --sensor; leave it out");
@@ -72,19 +72,14 @@ absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options, const
   if (!plan.ok()) return plan.status();
   if (const std::optional<float>& wind_from = fixed[PulseInput::kWindFrom]; wind_from.has_value())
     plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
-  if (!fixed[PulseInput::kFootprint].has_value() && !fixed[PulseInput::kDivergence].has_value() &&
-      fixed[PulseInput::kAltitude].has_value()) {
-    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
-    if (!sensor.ok()) return sensor.status();
-    if (sensor->divergence.has_value()) {
-      fixed[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
-      plan->numbers.push_back({"divergence", absl::StrCat(sensor->divergence->value, " mrad"),
-                               "assumed: the default of the sensor", true});
-    }
-  }
+  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+  if (!sensor.ok()) return sensor.status();
+  std::optional<float> divergence;
+  if (sensor->divergence.has_value()) divergence = static_cast<float>(sensor->divergence->value);
   const bool details =
       options.details || (survey.output.has_value() && survey.output->details.value_or(false));
-  return CsvTotal{.plan = *std::move(plan), .details = details, .wind_spectrum = {}};
+  return CsvTotal{
+      .plan = *std::move(plan), .details = details, .divergence = divergence, .wind_spectrum = {}};
 }
 
 absl::Status RunCsv(const CsvOptions& flags) {
@@ -128,7 +123,11 @@ absl::Status RunCsv(const CsvOptions& flags) {
               .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
           absl::StrCat(" ", outcomes, notes)};
     }
-    const TotalPlan& plan = (*total)->plan;
+    TotalPlan plan = (*total)->plan;
+    if (csv->took_divergence) {
+      plan.numbers.push_back({"divergence", absl::StrCat(*(*total)->divergence, " mrad"),
+                              "assumed: the default of the sensor", true});
+    }
     std::string text = absl::StrCat(
         " ", outcomes,
         csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));

@@ -194,8 +194,10 @@ class BlockWork {
   AnswerSource source_;
 };
 
-// Flags that a total takes, and that stand for an axis only where the other half of their way is known, too.
-FixedInputs WithoutAircraft(FixedInputs fixed, const CsvRecord& header) {
+// Flags of a total, which stand for an axis only where the other half of their way is known, too; with the divergence
+// of the sensor where a file says nothing of footprints.
+FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const CsvRecord& header,
+                    bool& took_divergence) {
   const auto is_known = [&](PulseInput input) {
     if (fixed[input].has_value()) return true;
     for (std::size_t i = 0; i < header.cell_count(); ++i) {
@@ -205,6 +207,9 @@ FixedInputs WithoutAircraft(FixedInputs fixed, const CsvRecord& header) {
     }
     return false;
   };
+  took_divergence =
+      total.divergence.has_value() && !is_known(PulseInput::kDivergence) && !is_known(PulseInput::kFootprint);
+  if (took_divergence) fixed[PulseInput::kDivergence] = total.divergence;
   if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint))
     fixed[PulseInput::kAltitude].reset();
   if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();
@@ -272,8 +277,10 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
   }
   const std::vector<std::string> appended =
       total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
-  const absl::StatusOr<CsvPulses> columns = CsvPulses::Bind(
-      input.string(), header, total != nullptr ? WithoutAircraft(fixed, header) : fixed, appended);
+  bool took_divergence = false;
+  const absl::StatusOr<CsvPulses> columns =
+      CsvPulses::Bind(input.string(), header,
+                      total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended);
   if (!columns.ok()) return columns.status();
   std::optional<CsvAircraft> aircraft;
   if (total != nullptr) {
@@ -287,6 +294,7 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
   AnnotatedCsv annotated{.input_bytes = reader->bytes_read(),
                          .summary = UncertaintySummary(style),
                          .totals = {},
+                         .took_divergence = took_divergence,
                          .file = *std::move(file)};
   FileProgress::File file_progress(progress, input.filename().string());
   const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,17 @@ namespace albtpu::client {
 struct AnnotatedCsv {
   std::uint64_t input_bytes = 0;
   UncertaintySummary summary;
-  TotalSummary totals;  // Empty without a total.
-  OutputFile file;      // Complete; Commit() gives it its name.
+  TotalSummary totals;           // Empty without a total.
+  bool took_divergence = false;  // of CsvTotal
+  OutputFile file;               // Complete; Commit() gives it its name.
 };
 
 // How totals are made of the pulses of a file.
 struct CsvTotal {
   TotalPlan plan;
-  bool details = false;       // Append shares and covariance, too.
-  std::string wind_spectrum;  // Of the table of winds, for the height of the waves; empty over any sea.
+  bool details = false;             // Append shares and covariance, too.
+  std::optional<float> divergence;  // mrad: of a file that has neither footprints nor divergences
+  std::string wind_spectrum;        // Of the table of winds, for the height of the waves; empty over any sea.
 };
 
 // Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns
