@@ -48,6 +48,20 @@ function(albtpu_kernels target scope)
   target_link_libraries(${target} ${scope} hwy::hwy)
 endfunction()
 
+# What every test includes, compiled once for all of them: a quarter of the time of a test's file goes into it.
+function(albtpu_reuse_test_headers target)
+  if(NOT TARGET albtpu_test_headers)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cc CONTENT "")
+    add_library(albtpu_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cc)
+    albtpu_target(albtpu_test_headers)
+    target_compile_options(albtpu_test_headers PRIVATE -pthread)
+    target_link_libraries(albtpu_test_headers PRIVATE GTest::gmock GTest::gtest_main)
+    target_precompile_headers(albtpu_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
+  target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
+  target_precompile_headers(${target} REUSE_FROM albtpu_test_headers)
+endfunction()
+
 # A GoogleTest program, whose tests are registered with CTest under one label:
 #   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
 function(albtpu_test name label)
@@ -55,6 +69,7 @@ function(albtpu_test name label)
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
+  albtpu_reuse_test_headers(${name})
   include(GoogleTest)
   gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -29,6 +29,7 @@ constexpr NamedStudy kStudies[] = {
     {"the real sea", RealSeaStudy},
     {"waves that are corrected away", CorrectedWavesStudy},
     {"the response theory", ResponseTheoryStudy},
+    {"the water column", WaterColumnStudy},
 };
 
 // Checks the published tables before the studies start, which read them one by one.

@@ -81,6 +81,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
          "--group-index"});
   Group(point, "The system", {"--incidence", "--field-of-view", "--pulse-length", "--footprint"});
   Group(point, kWork, {"--photons", "--seed", "--threads"});
+  Group(point, "Output", {"--json"});
   EndHelp(
       point, "",
       "--absorption 0.108 --scattering 0.28 --depth 7 --incidence 15 --field-of-view 5 --pulse-length 2.2 "

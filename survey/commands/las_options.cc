@@ -11,6 +11,7 @@
 #include "survey/exit_status.h"
 #include "survey/las/las_points.h"
 #include "survey/sensors/installed_sensors.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {
@@ -51,7 +52,13 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
   command
       .add_flag("--details", options.details,
                 "Also append the geometry of each beam: incidence, beam_azimuth, footprint, water_depth, "
-                "slant_range")
+                "slant_range; with a total also its shares, biases and covariance")
+      ->group(group::kOutput);
+  command
+      .add_flag(
+          "--replace", options.replace,
+          "Where the points have dimensions of these names already, as floats or doubles, replace their "
+          "values")
       ->group(group::kOutput);
   command
       .add_option_function<std::string>(
@@ -98,7 +105,7 @@ LasOptions Together(LasOptions flags, const SurveyDescription& survey) {
   if (from_files && !beams.geoid_separation.has_value() && survey.datum.has_value())
     beams.geoid_separation = survey.datum->geoid_separation;
   if ((from_files || beams.from_returns) && !beams.water_index.has_value() && survey.water.has_value())
-    beams.water_index = survey.water->index;
+    beams.water_index = IndexOf(*survey.water);
   if (const std::optional<ToldSurface>& surface = survey.surface; surface.has_value()) {
     if (beams.water_classes.empty()) beams.water_classes = {surface->classes.begin(), surface->classes.end()};
     if (!beams.water_level.has_value() && surface->level.has_value())
@@ -147,6 +154,7 @@ absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const Survey
                        .plan = *std::move(plan),
                        .seas = nullptr,
                        .details = options.details,
+                       .replace = options.replace,
                        .style = options.style,
                        .total = std::move(totals)};
 }
@@ -173,6 +181,7 @@ nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const ToldSea
   json["classes"] = nullptr;  // The default of the point format.
   if (annotation.classes.has_value()) json["classes"] = *annotation.classes;
   json["details"] = annotation.details;
+  if (annotation.replace) json["replace"] = true;
   json["format"] = nullptr;  // By the name of the output, or that of the input.
   if (format.has_value()) json["format"] = std::string(Name(*format));
   json.update(Parameters(annotation.style));

@@ -22,6 +22,7 @@ struct LasOptions {
   std::optional<std::set<int>> classes;
   BeamOptions beams;
   bool details = false;
+  bool replace = false;
   std::optional<LasKind> format;  // --format
   Existing existing = Existing::kKeep;
   SeaOptions sea;

@@ -85,17 +85,18 @@ bool HasCopcIndex(const LasReader& reader) {
 }
 
 absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
-                                      LasKind kind) {
-  const std::size_t appended_bytes = appended.size() * sizeof(float);
+                                      LasKind kind, bool replace) {
   const LasHeader& header = reader.header();
   const std::string_view input = reader.head();
   const absl::StatusOr<std::optional<VlrEntry>> existing = FindExtraBytesRecord(reader);
   if (!existing.ok()) return existing.status();
   const std::string_view described =
       existing->has_value() ? input.substr((*existing)->data_offset, (*existing)->data_size) : "";
-  const absl::StatusOr<std::string> data =
-      DescribeAppended(reader.name(), described, header.extra_bytes(), appended);
-  if (!data.ok()) return data.status();
+  const absl::StatusOr<AppendedDescription> description =
+      DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace);
+  if (!description.ok()) return description.status();
+  const std::string& data = description->record;
+  const std::size_t appended_bytes = (appended.size() - description->replaced.size()) * sizeof(float);
   const std::size_t record_length = header.record_length + appended_bytes;
   const auto no_room = [&] {
     return Invalid(reader, absl::StrCat("has no room for ", appended_bytes, " more bytes in records of ",
@@ -103,7 +104,9 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
   };
   if (record_length > std::numeric_limits<std::uint16_t>::max()) return no_room();
 
-  LasHead head{.bytes = std::string(input.substr(0, header.header_size)), .record = {}};
+  LasHead head{.bytes = std::string(input.substr(0, header.header_size)),
+               .record = {},
+               .replaced = description->replaced};
   std::uint64_t vlr_count = 0;
   const auto add = [&](std::string_view vlr) {
     head.bytes += vlr;
@@ -113,13 +116,13 @@ absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector
     if (!IsKept(reader, vlr)) continue;
     if (vlr.Is(kSpecUser, kExtraBytesRecord)) {
       std::string extended(input.substr(vlr.offset, kVlrHeaderSize));
-      Store(static_cast<std::uint16_t>(data->size()), extended.data() + kVlrLengthField);
-      add(extended + *data);
+      Store(static_cast<std::uint16_t>(data.size()), extended.data() + kVlrLengthField);
+      add(extended + data);
     } else {
       add(input.substr(vlr.offset, vlr.end() - vlr.offset));
     }
   }
-  if (!existing->has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", *data));
+  if (!existing->has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
   if (kind == LasKind::kLaz) {
     const std::size_t points = std::clamp<std::size_t>(kChunkBytes / record_length, 1, laz::kCommonChunkSize);
     head.record = laz::RecordFor(header.point_format, record_length, static_cast<std::uint32_t>(points));

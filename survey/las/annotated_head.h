@@ -16,6 +16,7 @@ namespace albtpu::client {
 struct LasHead {
   std::string bytes;                        // Up to the points.
   std::optional<laz::LaszipRecord> record;  // How the points are compressed; LAZ only.
+  std::vector<ReplacedFloat> replaced;      // What takes its place in the records.
 };
 
 // The Extra Bytes record is extended in place, or added after the last VLR; then follows the LASzip record of LAZ. That
@@ -23,8 +24,9 @@ struct LasHead {
 // kept. In the header only these fields change: offset to points, numbers of VLRs and EVLRs, record length, and the
 // mark of compressed points; where EVLRs and waveform packets begin is not known before the points are written
 // (MoveTailStarts). Fails when a field would overflow, or when DescribeAppended fails.
+// With `replace`, floats that the records have already are not appended.
 absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
-                                      LasKind kind);
+                                      LasKind kind, bool replace = false);
 
 // Whether a VLR or EVLR of LAZ is as true of the copy. The records of COPC, an index by the places of compressed
 // points, are not.

@@ -73,8 +73,8 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
   absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader, kPulseReach, kPulseReach);
   if (!runs.ok()) return runs.status();
   if (absl::Status status = writer.Begin(); !status.ok()) return status;
-  const LasChunkWork work(header, annotation, beams.geometry(), beams.utc(), beams.has_surface_returns(),
-                          source);
+  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(),
+                          beams.has_surface_returns(), source);
   std::uint64_t written_records = 0;
   const absl::Status status = RunOrderedPipeline(
       [&] {
@@ -118,7 +118,7 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   if (!reader.ok()) return reader.status();
   const LasKind output_kind = kind.value_or(reader->kind());
   const absl::StatusOr<LasHead> head =
-      AnnotatedHead(*reader, AppendedFloats(annotation.appended()), output_kind);
+      AnnotatedHead(*reader, AppendedFloats(annotation.appended()), output_kind, annotation.replace);
   if (!head.ok()) return head.status();
   FileProgress::File file_progress(progress, input.filename().string());
   const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);

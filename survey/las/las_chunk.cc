@@ -22,8 +22,8 @@ AnswerStyle LasAnnotation::style_of_sea() const {
 }
 
 LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
-                           const BeamGeometry& beams, double utc, bool pulse_surface,
-                           const AnswerSource& source)
+                           const std::vector<ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
+                           bool pulse_surface, const AnswerSource& source)
     : fields_(header),
       record_length_(header.record_length),
       plan_(annotation.plan),
@@ -32,6 +32,8 @@ LasChunkWork::LasChunkWork(const LasHeader& header, const LasAnnotation& annotat
       utc_(utc),
       pulse_surface_(pulse_surface && fields_.has_gps_time()),
       appended_(annotation.appended()),
+      replaced_(replaced),
+      extra_bytes_begin_(header.record_length - header.extra_bytes()),
       style_(annotation.style_of_sea()),
       total_(annotation.total.has_value() ? &*annotation.total : nullptr),
       source_(source) {
@@ -59,6 +61,7 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   if (total_ != nullptr) FindTotals(chunk);
   Summarize(chunk);
   Encode(chunk);
+  if (!replaced_.empty()) Replace(chunk);
   return status;
 }
 
@@ -162,6 +165,35 @@ void LasChunkWork::Summarize(Chunk& chunk) const {
   }
 }
 
+void LasChunkWork::Replace(Chunk& chunk) const {
+  const std::size_t length = record_length_ + no_data_.size() * sizeof(float);
+  const std::size_t new_length = length - replaced_.size() * sizeof(float);
+  char* const begin = chunk.annotated.data();
+  for (std::size_t i = 0; i < chunk.own; ++i) {
+    char* const record = begin + i * length;
+    char* const values = record + record_length_;
+    for (const ReplacedFloat& replaced : replaced_) {
+      float value;
+      std::memcpy(&value, values + replaced.appended * sizeof(float), sizeof(float));
+      char* const place = record + extra_bytes_begin_ + replaced.offset;
+      replaced.is_double ? Store(static_cast<double>(value), place) : Store(value, place);
+    }
+    // What is new closes up, and the record moves to where it begins among shorter ones.
+    char* end = values;
+    auto next = replaced_.begin();
+    for (std::size_t k = 0; k < no_data_.size(); ++k) {
+      if (next != replaced_.end() && next->appended == k) {
+        ++next;
+        continue;
+      }
+      std::memmove(end, values + k * sizeof(float), sizeof(float));
+      end += sizeof(float);
+    }
+    std::memmove(begin + i * new_length, record, new_length);
+  }
+  chunk.annotated.resize(chunk.own * new_length);
+}
+
 void LasChunkWork::Encode(Chunk& chunk) const {
   const std::size_t appended = no_data_.size() * sizeof(float);
   const std::size_t annotated_length = record_length_ + appended;
@@ -214,18 +246,8 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
   put(kNoNumber);
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);
   put(chunk.answers[Quantity::kBiasVertical][i]);
-  // From north, east, down to the axes of the file: x has the true azimuth 90 degrees + convergence, y the convergence,
-  // z is up.
-  const float convergence = chunk.beams.aircraft.convergence[chunk.rows[i]];
-  const float c = std::cos(convergence), s = std::sin(convergence);
-  const float nn = total.covariance[0][i], ee = total.covariance[1][i], dd = total.covariance[2][i];
-  const float ne = total.covariance[3][i], nd = total.covariance[4][i], ed = total.covariance[5][i];
-  put(s * s * nn + c * c * ee - 2 * s * c * ne);
-  put(c * c * nn + s * s * ee + 2 * s * c * ne);
-  put(dd);
-  put(s * c * (ee - nn) + (c * c - s * s) * ne);
-  put(s * nd - c * ed);
-  put(-(c * nd + s * ed));
+  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.aircraft.convergence[chunk.rows[i]]))
+    put(entry);
 }
 
 }  // namespace albtpu::client

@@ -30,6 +30,7 @@ struct LasAnnotation {
   BeamPlan plan;
   std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
   bool details = false;                     // Append the geometry of each beam, too.
+  bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
   AnswerStyle style;
   std::optional<TotalPlan> total = {};  // Absent: the share of the sea surface alone.
 
@@ -44,10 +45,11 @@ struct LasAnnotation {
 // Everything that the chunks of a file have in common.
 class LasChunkWork {
  public:
-  // `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where the sea goes by time.
+  // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where the sea goes by time.
   // `pulse_surface`: the water surface at a point may come from a return of the same pulse.
-  LasChunkWork(const LasHeader& header, const LasAnnotation& annotation, const BeamGeometry& beams,
-               double utc, bool pulse_surface, const AnswerSource& source);
+  LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
+               const std::vector<ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
+               bool pulse_surface, const AnswerSource& source);
 
   // Memory that is reused from chunk to chunk. The input is a run of points; those that are not its own are only
   // searched for returns of the same pulse.
@@ -89,6 +91,7 @@ class LasChunkWork {
   void FindTotals(Chunk& chunk) const;
   void Summarize(Chunk& chunk) const;
   void Encode(Chunk& chunk) const;
+  void Replace(Chunk& chunk) const;
   void EncodeTotals(Chunk& chunk, char* values, std::size_t pulse) const;
 
   LasPointFields fields_;
@@ -99,7 +102,9 @@ class LasChunkWork {
   double utc_;
   bool pulse_surface_;
   Appended appended_;
-  std::vector<float> no_data_;  // Of what is appended.
+  std::vector<float> no_data_;  // Of what is appended or replaces.
+  std::vector<ReplacedFloat> replaced_;
+  std::size_t extra_bytes_begin_;  // In a record of the input.
   AnswerStyle style_;
   const TotalPlan* total_;  // Null without a total.
   AnswerSelection selection_;

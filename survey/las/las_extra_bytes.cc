@@ -27,15 +27,22 @@ constexpr std::size_t kDescriptionField = 160;
 
 constexpr std::uint8_t kUndocumented = 0;  // The options field has the number of bytes.
 constexpr std::size_t kMostUndocumented = 255;
-constexpr std::uint8_t kFloat = 9;
+constexpr std::uint8_t kFloat = 9, kDouble = 10;
 constexpr std::uint8_t kNoDataIsSet = 0x01;
 
 // Types 1-10 are u8, i8, u16 .. i64, f32, f64; the deprecated types 11-20 and 21-30 are two and three of these.
 constexpr std::array<std::size_t, 10> kTypeSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr int kTypeCount = 30;
 
+struct Known {
+  std::string name;
+  int type;
+  std::size_t offset;  // In the extra bytes.
+};
+
 struct Described {
   std::size_t bytes = 0;
+  std::vector<Known> entries;
   std::set<std::string, std::less<>> names;
 };
 
@@ -56,11 +63,13 @@ absl::StatusOr<Described> Read(const std::string& name, std::string_view record)
       return Invalid(name, absl::StrCat("its Extra Bytes record has type ", type,
                                         " (of unknown size); expected 0 to ", kTypeCount));
     }
+    const std::string_view text = entry.substr(kNameField, kTextSize);
+    const std::string entry_name(text.substr(0, text.find('\0')));
+    described.entries.push_back({entry_name, type, described.bytes});
+    described.names.insert(entry_name);
     described.bytes += type == kUndocumented ? Load<std::uint8_t>(entry, kOptionsField)
                                              : kTypeSizes[(type - 1) % kTypeSizes.size()] *
                                                    (1 + (type - 1) / kTypeSizes.size());
-    const std::string_view text = entry.substr(kNameField, kTextSize);
-    described.names.emplace(text.substr(0, text.find('\0')));
   }
   return described;
 }
@@ -75,8 +84,8 @@ std::string Entry(std::uint8_t type, std::uint8_t options, std::string_view name
   return entry;
 }
 
-std::string FloatEntry(const AppendedFloat& appended) {
-  std::string entry = Entry(kFloat, kNoDataIsSet, appended.name, appended.description);
+std::string FloatEntry(const AppendedFloat& appended, std::uint8_t type = kFloat) {
+  std::string entry = Entry(type, kNoDataIsSet, appended.name, appended.description);
   Store(static_cast<double>(appended.no_data), entry.data() + kNoDataField);  // As f64, also for a float.
   return entry;
 }
@@ -141,35 +150,56 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   return floats;
 }
 
-absl::StatusOr<std::string> DescribeAppended(const std::string& name, std::string_view described,
-                                             std::size_t extra_bytes,
-                                             const std::vector<AppendedFloat>& appended) {
+absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
+                                                     std::size_t extra_bytes,
+                                                     const std::vector<AppendedFloat>& appended,
+                                                     bool replace) {
   absl::StatusOr<Described> known = Read(name, described);
   if (!known.ok()) return known.status();
-  for (const AppendedFloat& ours : appended) {
-    if (known->names.count(ours.name) > 0) {
-      return Invalid(name, absl::StrCat("already has ", std::string(ours.name),
-                                        "; annotate the file from which it was made"));
+  AppendedDescription description{.record = std::string(described), .replaced = {}};
+  std::string& record = description.record;
+  for (std::size_t i = 0; i < appended.size(); ++i) {
+    const std::string ours(appended[i].name);
+    if (known->names.count(ours) == 0) continue;
+    if (!replace) {
+      return Invalid(name,
+                     absl::StrCat("already has ", ours,
+                                  "; annotate the file from which it was made, or replace its values by "
+                                  "--replace"));
     }
+    const auto is_ours = [&](const Known& entry) { return entry.name == ours; };
+    if (std::count_if(known->entries.begin(), known->entries.end(), is_ours) > 1)
+      return Invalid(name, absl::StrCat("describes ", ours, " twice; remove one of the descriptions"));
+    const auto entry = std::find_if(known->entries.begin(), known->entries.end(), is_ours);
+    if (entry->type != kFloat && entry->type != kDouble) {
+      return Invalid(name,
+                     absl::StrCat("has ", ours, " as type ", entry->type,
+                                  " of Extra Bytes; --replace takes floats (9) and doubles (10): annotate "
+                                  "the file from which it was made"));
+    }
+    const auto place = static_cast<std::size_t>(entry - known->entries.begin()) * kEntrySize;
+    record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
+    description.replaced.push_back({i, entry->offset, entry->type == kDouble});
   }
   if (known->bytes > extra_bytes) {
     return Invalid(name, absl::StrCat("describes ", known->bytes, " extra bytes, but its points have ",
                                       extra_bytes, "; correct the description"));
   }
-  std::string record(described);
   FreeNames free_names(known->names);
   for (std::size_t left = extra_bytes - known->bytes; left > 0;) {
     const std::size_t bytes = std::min(left, kMostUndocumented);
     record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }
-  for (const AppendedFloat& ours : appended) record += FloatEntry(ours);
+  for (const AppendedFloat& ours : appended) {
+    if (known->names.count(ours.name) == 0) record += FloatEntry(ours);
+  }
   if (record.size() > kLargestExtraBytesRecord) {
     return Invalid(
         name, absl::StrCat("describes so many extra bytes that ", appended.size(),
                            " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
   }
-  return record;
+  return description;
 }
 
 }  // namespace albtpu::client

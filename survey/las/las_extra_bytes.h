@@ -39,15 +39,29 @@ inline constexpr std::size_t kGeometryCount =
 // Bytes; the capacity of a VLR.
 inline constexpr std::size_t kLargestExtraBytesRecord = 65535;
 
+// Extra bytes of the input that have the name of an appended float, and take its values in its place.
+struct ReplacedFloat {
+  std::size_t appended = 0;  // Which of the appended floats.
+  std::size_t offset = 0;    // In the extra bytes of a point.
+  bool is_double = false;
+};
+
+struct AppendedDescription {
+  std::string record;                   // The data of the VLR.
+  std::vector<ReplacedFloat> replaced;  // By `appended`.
+};
+
 // The data of the record after descriptions of `appended` have been added. `described` is the existing data, which is
-// kept byte for byte; it is empty if the file has no such record. `extra_bytes` is the actual number of extra bytes in
-// a point. Bytes without a description get entries of type 0, "undocumented", so that readers find ours at the right
-// offset.
+// kept byte for byte but for what is replaced; it is empty if the file has no such record. `extra_bytes` is the actual
+// number of extra bytes in a point. Bytes without a description get entries of type 0, "undocumented", so that readers
+// find ours at the right offset. With `replace`, entries of a name of ours that are floats or doubles get our
+// description, no-data value and no scale, and are not added again.
 //
-// Fails when a name exists already, when more bytes are described than exist, when a type is unknown, or when the
-// result does not fit a VLR.
-absl::StatusOr<std::string> DescribeAppended(const std::string& name, std::string_view described,
-                                             std::size_t extra_bytes,
-                                             const std::vector<AppendedFloat>& appended);
+// Fails when a name exists already (with `replace`: and has another type, or twice), when more bytes are described than
+// exist, when a type is unknown, or when the result does not fit a VLR.
+absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
+                                                     std::size_t extra_bytes,
+                                                     const std::vector<AppendedFloat>& appended,
+                                                     bool replace = false);
 
 }  // namespace albtpu::client

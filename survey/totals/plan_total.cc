@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "budget/water/refractive_index.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/wave_state.h"
 #include "survey/exit_status.h"
@@ -26,6 +27,8 @@ constexpr double kTime = 1e-5;                        // s
 constexpr double kLevel = 0.05;  // m; of a water level of a gauge or a tide model near by.
 // Sea water of 5 to 30 degrees C and salinities of 25 to 38 has 1.337 to 1.344 at 532 nm (Quan and Fry 1995).
 constexpr double kIndex = 0.002;
+// By refractive_index.h: 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.
+constexpr double kIndexOfState = 0.0002;
 
 std::string Text(double value) { return absl::StrCat(value); }
 std::string Text(const Triple& value) { return absl::StrJoin(value, ", "); }
@@ -172,14 +175,20 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
         "surface_height", "m", told.surface_height, level ? kLevel : return_range,
         level ? "assumed: a gauge or tide model near by" : "assumed: no better than one return");
   }
-  errors.index = numbers.Choose("index", "", told.index, kIndex,
-                                "assumed: sea water of unknown temperature and salinity");
-
   const ToldWater water = survey.water.value_or(ToldWater());
-  options.index = context.index.value_or(water.index.value_or(options.index));
-  const bool index_told = context.index.has_value() || water.index.has_value();
-  state("refractive_index", Text(options.index), index_told ? "the user" : "assumed: sea water at 532 nm",
-        !index_told);
+  const std::optional<double> of_water = IndexOf(water);
+  const bool by_state =
+      of_water.has_value() && !water.index.has_value() && context.index.value_or(*of_water) == *of_water;
+  errors.index = numbers.Choose("index", "", told.index, by_state ? kIndexOfState : kIndex,
+                                by_state ? "assumed: temperature and salinity within 1 degree and 1"
+                                         : "assumed: sea water of unknown temperature and salinity");
+  const std::optional<double> index = context.index.has_value() ? context.index : of_water;
+  options.index = index.value_or(options.index);
+  state("refractive_index", Text(options.index),
+        !index.has_value() ? "assumed: sea water at 532 nm"
+        : by_state         ? "temperature and salinity of [water], 532 nm"
+                           : "the user",
+        !index.has_value());
   const std::optional<Triple> arm =
       context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
   options.lever_arm = arm.value_or(Triple{});
@@ -191,6 +200,12 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
         datum_told ? "[datum]" : "assumed: none, ellipsoidal heights", !datum_told);
   state("water_column", "left out", water.without_column ? "[water]" : "not decided", !water.without_column);
   return plan;
+}
+
+std::optional<double> IndexOf(const ToldWater& water) {
+  if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value())
+    return water.index;
+  return SeaWaterIndex(*water.temperature, *water.salinity).phase;
 }
 
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum) {

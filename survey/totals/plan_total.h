@@ -26,6 +26,9 @@ struct TotalContext {
 // the total is not decided. `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context);
 
+// The index that the user tells, or that of the temperature and salinity if both are told (refractive_index.h).
+std::optional<double> IndexOf(const ToldWater& water);
+
 // The wind sea by which a table of winds was made, for the height of waves that the location of the surface does not
 // see. `spectrum` is the attribute of the table.
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum);

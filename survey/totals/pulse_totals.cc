@@ -108,4 +108,18 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
   for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(size, NAN);
 }
 
+std::array<float, 6> OnGridAxes(const std::array<std::vector<float>, 6>& covariance, std::size_t i,
+                                float convergence) {
+  // The x axis is (north, east) = (-s, c), the y axis (c, s).
+  const float c = std::cos(convergence), s = std::sin(convergence);
+  const float nn = covariance[0][i], ee = covariance[1][i], dd = covariance[2][i];
+  const float ne = covariance[3][i], nd = covariance[4][i], ed = covariance[5][i];
+  return {s * s * nn + c * c * ee - 2 * s * c * ne,
+          c * c * nn + s * s * ee + 2 * s * c * ne,
+          dd,
+          s * c * (ee - nn) + (c * c - s * s) * ne,
+          s * nd - c * ed,
+          -(c * nd + s * ed)};
+}
+
 }  // namespace albtpu::client

@@ -73,4 +73,9 @@ class TotalInputs {
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
                    AircraftColumns& aircraft, TotalBatch& totals);
 
+// The covariance of pulse i, whose columns are NN EE DD NE ND ED, on the axes of a map grid: XX YY ZZ XY XZ YZ, z up.
+// `convergence` [rad] is the true azimuth of its y axis.
+std::array<float, 6> OnGridAxes(const std::array<std::vector<float>, 6>& covariance, std::size_t i,
+                                float convergence);
+
 }  // namespace albtpu::client

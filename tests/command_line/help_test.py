@@ -28,7 +28,7 @@ def commands():
         text = help_of(program)
         yield program, "", text
         listed = text.partition("\nSubcommands:\n")[2].partition("\n\n")[0]
-        for command in re.findall(r"^  ([a-z]+)\b", listed, re.MULTILINE):
+        for command in re.findall(r"^  ([a-z-]+)\b", listed, re.MULTILINE):
             yield program, command, help_of(program, command)
 
 
@@ -40,7 +40,7 @@ class Help(unittest.TestCase):
     def test_is_there_for_all_commands(self):
         self.assertEqual({(program, command) for program, command, _ in commands() if command},
                          {("albtpu-generate", command)
-                          for command in ("table", "merge", "plan", "keys", "point", "validate")} |
+                          for command in ("table", "merge", "plan", "keys", "point", "water-point", "validate")} |
                          {("albtpu-query", command)
                           for command in ("pulse", "csv", "las", "sea", "trajectory", "sensors", "tables",
                                          "health")})

@@ -44,10 +44,10 @@ class Limits(SecurityTest):
             while browser.recv(4096):
                 pass
 
-    def assert_refused(self, code, server, request, **options):
+    def assert_refused(self, code, server, request, method="QueryColumns", **options):
         with grpc.insecure_channel(server.address, [("grpc.enable_http_proxy", 0)]) as channel:
             with self.assertRaises(grpc.RpcError) as failure:
-                UncertaintyServiceStub(channel).QueryColumns(request, timeout=PATIENCE, **options)
+                getattr(UncertaintyServiceStub(channel), method)(request, timeout=PATIENCE, **options)
             self.assertEqual(failure.exception.code(), code, failure.exception)
         return failure.exception
 
@@ -56,6 +56,8 @@ class Limits(SecurityTest):
         exhausted = grpc.StatusCode.RESOURCE_EXHAUSTED
         long = pb.QueryColumnsRequest(pulses=dict(depth=bytes(5 << 20)))
         self.assert_refused(exhausted, server, long)
+        aircraft = pb.QueryBudgetRequest(aircraft=dict(roll=bytes(9 << 20)))
+        self.assert_refused(exhausted, server, aircraft, "QueryBudget")
         short = pb.QueryColumnsRequest()
         self.assert_refused(exhausted, server, short, metadata=[("note", "x" * 20000)])
         self.assertEqual(server.stop(signal.SIGTERM), 0)
@@ -86,8 +88,11 @@ class Limits(SecurityTest):
 
     def test_repeat_only_a_short_part_of_a_request_in_errors(self):
         request = pb.QueryColumnsRequest(options=dict(table="ä" * 1_000_000))
-        failure = self.assert_refused(grpc.StatusCode.NOT_FOUND, self.serve(), request)
-        self.assertLess(len(failure.details()), 2000)
+        server = self.serve()
+        budget = pb.QueryBudgetRequest(options=dict(table="ä" * 1_000_000, located=1))
+        for long, method in ((request, "QueryColumns"), (budget, "QueryBudget")):
+            failure = self.assert_refused(grpc.StatusCode.NOT_FOUND, server, long, method)
+            self.assertLess(len(failure.details()), 2000)
 
 
 class Errors(SecurityTest):

@@ -35,6 +35,19 @@ def columns(count):
         "footprint": np.float32(1).tobytes(), "depth": np.float32(4).tobytes()})
 
 
+def budget(count):
+    """The same pulses, and the share of the sea surface in their budget."""
+    return pb.QueryBudgetRequest(
+        options={"located": "SURFACE_LOCATION_LEVEL"}, pulses=columns(count).pulses, quantities=["BUDGET_QUANTITY_THU_SEA"],
+        aircraft={"altitude": np.float32(400).tobytes(), "beam_azimuth": np.float32(90).tobytes()})
+
+
+def read_budget(answer):
+    values = set(np.frombuffer(answer.budget.thu_sea, "<f4").tolist())
+    assert len(values) == 1, f"one budget has answers from two tables: {values}"
+    return answer.table.digest, values.pop()
+
+
 def read(answer):
     """The digest, and the THU, which is the same for all pulses of an answer."""
     values = set(np.frombuffer(answer.sea_surface.thu, "<f4").tolist())
@@ -87,11 +100,11 @@ class Load:
     def __init__(self, address):
         self.address = address
         self.stopping = threading.Event()
-        self.answered = {}
+        self.answered, self.budgets = {}, {}
         self.failures = []
         self.calls = 0
         self.lock = threading.Lock()
-        works = (self.ask_long, self.ask_long, self.ask_short, self.stream)
+        works = (self.ask_long, self.ask_budget, self.ask_short, self.stream)
         self.threads = [threading.Thread(target=self.run, args=(work,)) for work in works]
         for thread in self.threads:
             thread.start()
@@ -114,6 +127,12 @@ class Load:
 
     def ask_long(self, stub):
         self.count(read(stub.QueryColumns(columns(20000), timeout=PATIENCE, wait_for_ready=True)))
+
+    def ask_budget(self, stub):
+        digest, thu = read_budget(stub.QueryBudget(budget(20000), timeout=PATIENCE, wait_for_ready=True))
+        with self.lock:
+            self.calls += 1
+            self.budgets.setdefault(digest, set()).add(thu)
 
     def ask_short(self, stub):
         self.count(read(stub.QueryColumns(columns(1), timeout=PATIENCE, wait_for_ready=True)))
@@ -148,8 +167,10 @@ class Reloads(ReloadTest):
         self.assertEqual(load.failures, [])
         self.assertGreater(load.calls, RELOADS)
         self.assertEqual([len(values) for values in load.answered.values()], [1, 1])
-        (one,), (two,) = load.answered.values()
-        self.assertAlmostEqual(max(one, two) / min(one, two), 2, places=5)
+        self.assertEqual(load.budgets.keys(), load.answered.keys())
+        for answered in (load.answered, load.budgets):
+            (one,), (two,) = answered.values()
+            self.assertAlmostEqual(max(one, two) / min(one, two), 2, places=5)
 
     def test_by_signal_load_a_new_version(self):
         self.put(1, "bay/1")

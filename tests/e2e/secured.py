@@ -21,6 +21,7 @@ from serving import PATIENCE, Server
 
 SERVE, SYNTHETIC_TABLE, QUERY = sys.argv[1:4]
 PULSE = dict(wind_speed=5, incidence=10, footprint=0.5, depth=8)
+BUDGET = dict(PULSE, altitude=400, beam_azimuth=90, located="level")
 PULSE_FLAGS = [word for name, value in PULSE.items() for word in (f"--{name.replace('_', '-')}", str(value))]
 
 
@@ -84,8 +85,9 @@ class SecurityTest(unittest.TestCase):
         flags = [word for name, path in credentials.items() for word in (f"--tls-{name}", path)]
         if token:
             flags += ["--token-file", self.file("token.client", token + "\n")]
-        answer = self.connect(server, **credentials, token=token).query(**PULSE)
-        self.assertEqual(str(answer.outcome), "INTERPOLATED")
+        service = self.connect(server, **credentials, token=token)
+        for answer in (service.query(**PULSE), service.query_budget(**BUDGET)):
+            self.assertEqual(str(answer.outcome), "INTERPOLATED")
         result = self.query(server, *flags)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("INTERPOLATED", result.stdout)
@@ -95,10 +97,12 @@ class SecurityTest(unittest.TestCase):
         flags = [word for name, path in credentials.items() for word in (f"--tls-{name}", path)]
         if token:
             flags += ["--token-file", self.file("token.client", token)]
-        with self.assertRaises(albtpu.ServiceError) as failure:
-            self.connect(server, **credentials, token=token).tables()
-        self.assertEqual(failure.exception.code, code, failure.exception)
-        self.assertIn(problem, str(failure.exception))
+        service = self.connect(server, **credentials, token=token)
+        for call in (service.tables, lambda: service.query_budget(**BUDGET)):
+            with self.assertRaises(albtpu.ServiceError) as failure:
+                call()
+            self.assertEqual(failure.exception.code, code, failure.exception)
+            self.assertIn(problem, str(failure.exception))
         result = self.query(server, *flags)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertEqual(result.stdout, "")

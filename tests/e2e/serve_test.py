@@ -154,7 +154,7 @@ class Signals(ServeTest):
 
     def test_let_calls_in_progress_finish(self):
         server = self.serve()
-        clients = [BusyClient(server.address) for _ in range(3)]
+        clients = [BusyClient(server.address, method) for method in ("QueryColumns", "QueryBudget", "QueryColumns")]
         for client in clients:
             self.assertTrue(client.answered.wait(PATIENCE))
         self.assertEqual(server.stop(signal.SIGTERM), 0)
@@ -244,8 +244,8 @@ class BusyClient:
 
     PULSES = 65536
 
-    def __init__(self, address):
-        self.address = address
+    def __init__(self, address, method="QueryColumns"):
+        self.address, self.method = address, method
         self.answered = threading.Event()
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
@@ -259,11 +259,15 @@ class BusyClient:
 
     def run(self):
         request = self.request()
+        if self.method == "QueryBudget":
+            request = uncertainty_service_pb2.QueryBudgetRequest(
+                options={"located": "SURFACE_LOCATION_LEVEL"}, pulses=request.pulses,
+                aircraft={"altitude": np.float32(400).tobytes(), "beam_azimuth": np.float32(90).tobytes()})
         with connect(self.address) as channel:
             stub = uncertainty_service_pb2_grpc.UncertaintyServiceStub(channel)
             try:
                 while True:
-                    answer = stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=False)
+                    answer = getattr(stub, self.method)(request, timeout=PATIENCE, wait_for_ready=False)
                     assert answer.pulse_count == self.PULSES
                     self.answered.set()
             except grpc.RpcError as failure:

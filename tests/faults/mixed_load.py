@@ -2,9 +2,10 @@
 
 Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight=PATH [--minutes N]
 
-At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses and pulses on
-seas are queried; requests are invalid; streams are cancelled or never read; connections are silent or do not speak
-HTTP/2; tables are replaced. Every answer is compared with that of the table file. Prints what was done, and the
+At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets
+and pulses on seas are queried; requests are invalid; streams are cancelled or never read; connections are silent or do not speak
+HTTP/2; tables are replaced. Every answer is compared with that of the table file, budgets with that of the server at
+rest. Prints what was done, and the
 resident memory of the server after a tenth of the time and at the end. Under load, from 10 minutes on, a growth of more
 than 5 % between the two is a failure. At rest, the load has paused and the server has given back its free memory; some
 MiB of what remains are caches of threads that come and go. Seeds are fixed, so that only timing differs between runs.
@@ -79,6 +80,7 @@ class MixedLoad:
                 answer = table.query(**self._some(slice(0, 1000)))
                 self.replacements[answer.table.digest] = answer
         self.server = Server(programs.serve, "--tables", self.tables)
+        self.expected_budget = self._budget()
 
     def file(self):
         self._annotate(self._output())
@@ -95,6 +97,11 @@ class MixedLoad:
     def array(self):
         with albtpu.connect(self.server.address, patience=PATIENCE) as service:
             self._compare(service.query(**self.pulses), self.expected)
+
+    def budget(self):
+        budget = self._budget()
+        for name, expected in self.expected_budget.values.items():
+            expect(budget.values[name].tobytes() == expected.tobytes(), name)
 
     def single_pulses(self):
         with connect(self.server.address) as channel:
@@ -154,6 +161,12 @@ class MixedLoad:
     def strange_connections(self):
         numbers = random.Random(next(self.numbers))
         self._talk([b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + numbers.randbytes(200) for _ in range(50)])
+
+    def _budget(self):
+        errors = dict(position=(0.03, 0.03, 0.05), scan=0.001, bottom_range=0.025)
+        with albtpu.connect(self.server.address, patience=PATIENCE) as service:
+            return service.query_budget(**self.pulses, table="survey", altitude=400, beam_azimuth=90, located="local",
+                                        errors=errors, aircraft=dict(roll=5))
 
     def _talk(self, messages):
         host, port = self.server.address.rsplit(":", 1)

@@ -146,7 +146,7 @@ std::string Annotated(std::string_view file, const LasReader& reader, const std:
   LasChunkWork::Chunk chunk((AnswerStyle()));
   chunk.records = file.substr(header.offset_to_points, header.point_count * header.record_length);
   chunk.own = header.point_count;
-  ALBTPU_MUST(LasChunkWork(header, annotation, beams, 0, true, source)(chunk).ok());
+  ALBTPU_MUST(LasChunkWork(header, annotation, {}, beams, 0, true, source)(chunk).ok());
   return head + chunk.annotated + std::string(file.substr(header.end_of_points()));
 }
 

@@ -48,8 +48,10 @@ void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
 void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   constexpr std::size_t kEntry = 192, kNameField = 4;
   const std::vector<AppendedFloat> appended = AppendedFloats({.details = true});
-  const absl::StatusOr<std::string> ours = DescribeAppended(kName, described, extra_bytes, appended);
-  if (!ours.ok()) return MustExplain(ours.status());
+  const absl::StatusOr<AppendedDescription> description =
+      DescribeAppended(kName, described, extra_bytes, appended);
+  if (!description.ok()) return MustExplain(description.status());
+  const std::string* const ours = &description->record;
   ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + appended.size() * kEntry);
   ALBTPU_MUST(ours->size() <= kLargestExtraBytesRecord);
   ALBTPU_MUST(ours->substr(0, described.size()) == described);
@@ -58,8 +60,9 @@ void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
     ALBTPU_MUST(ours->substr(entry + kNameField, appended[i].name.size()) == appended[i].name);
   }
   const std::size_t more = appended.size() * sizeof(float);
-  const absl::StatusOr<std::string> again = DescribeAppended(kName, *ours, extra_bytes + more, appended);
-  ALBTPU_MUST(absl::IsInvalidArgument(again.status()));
+  ALBTPU_MUST(absl::IsInvalidArgument(DescribeAppended(kName, *ours, extra_bytes + more, appended).status()));
+  const auto replacing = DescribeAppended(kName, *ours, extra_bytes + more, appended, true);
+  ALBTPU_MUST(replacing.ok() && replacing->record == *ours && replacing->replaced.size() == appended.size());
 }
 
 void CheckData(const VlrEntry& entry, std::string_view data, const LasHeader& header) {

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import struct
 
 import numpy as np
 
@@ -33,6 +34,19 @@ index = 0.001
 DECIDED = "[datum]\nsigma = 0.08\n[water]\nindex = 1.34\ncolumn = 'none'\n"
 SENSOR = "[sensor]\nname = 'riegl-vq-880-g'\nlever_arm = [0.3, -0.2, 0.5]\n"
 WIND = "[sea]\nwind_speed = 6.5\nwind_from = 100\n"
+
+
+def with_doubles(path):
+    """The bytes of a LAS file whose only extra bytes are two floats, as doubles."""
+    data = bytearray(path.read_bytes())
+    points, = struct.unpack_from("<I", data, 96)
+    length, = struct.unpack_from("<H", data, 105)
+    for name in (b"total_thu", b"total_tvu"):
+        data[data.index(name) - 2] = 10
+    struct.pack_into("<H", data, 105, length + 8)
+    records = [bytes(data[at:at + length]) for at in range(points, len(data), length)]
+    return bytes(data[:points]) + b"".join(
+        record[:-8] + struct.pack("<2d", *struct.unpack("<2f", record[-8:])) for record in records)
 
 
 class TotalsTest(programs.Test):
@@ -115,6 +129,42 @@ class TotalsTest(programs.Test):
         with programs.server(self.folder) as address:
             query(*arguments[:3], *arguments[5:], again, "--server", address, check=0)
         self.assertEqual(again.read_bytes(), out.read_bytes())
+
+    def test_replaces_the_numbers_of_an_earlier_run(self):
+        flight = SimulatedSurvey(self.folder / "flight").folder
+        text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + DECIDED +
+                "[sea]\nwind_speed = {wind}\nwind_from = 100\n[output]\nclasses = [40]\n")
+
+        def annotate(source, name, wind, *flags, code=0):
+            survey = self.survey(text.format(wind=wind), f"wind_{wind}.toml")
+            result = query("las", "--survey", survey, "--table", self.table, source, self.folder / name, *flags)
+            self.assertEqual(result.returncode, code, result.stderr)
+            return result.stderr if code else self.folder / name
+
+        first = annotate(flight / "flight.las", "first.las", 4)
+        other = annotate(flight / "flight.las", "other.las", 6.5)
+        self.assertNotEqual(first.read_bytes(), other.read_bytes())
+        self.assertIn("--replace", annotate(first, "again.las", 6.5, code=1))
+        self.assertFalse((self.folder / "again.las").exists())
+        self.assertEqual(annotate(first, "again.las", 6.5, "--replace").read_bytes(), other.read_bytes())
+        # Compressed, and with details, of which two are there already.
+        packed = annotate(flight / "flight.las", "packed.laz", 4)
+        self.assertEqual(annotate(packed, "unpacked.las", 6.5, "--replace").read_bytes(), other.read_bytes())
+        detailed = LasFile(annotate(first, "detailed.las", 6.5, "--replace", "--details"))
+        expected = LasFile(annotate(flight / "flight.las", "expected.las", 6.5, "--details"))
+        self.assertEqual(list(detailed.extra_dimensions()), list(expected.extra_dimensions()))
+        for name, where in expected.extra_dimensions().items():
+            np.testing.assert_array_equal(detailed.field(detailed.extra_dimensions()[name][0], "<f4"),
+                                          expected.field(where[0], "<f4"), name)
+        # Doubles of another tool.
+        doubles = self.folder / "doubles.las"
+        doubles.write_bytes(with_doubles(first))
+        replaced = LasFile(annotate(doubles, "replaced.las", 6.5, "--replace"))
+        plain = LasFile(other)
+        for i, name in enumerate(("total_thu", "total_tvu")):
+            begin = plain.extra_dimensions()["total_thu"][0]
+            np.testing.assert_array_equal(replaced.field(begin + 8 * i, "<f8"),
+                                          plain.field(begin + 4 * i, "<f4").astype(float), name)
 
     def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n"):
         path, out = self.folder / "pulses.csv", self.folder / "totals.csv"

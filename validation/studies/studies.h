@@ -25,6 +25,9 @@ absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options);
 // The theory that answers for measured and described seas, beside tracing.
 absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options);
 
+// What scattering in the water does to the reported bottom, beside what is known of its parts.
+absl::StatusOr<Study> WaterColumnStudy(const StudyOptions& options);
+
 // Figure 1a of the paper: gravity waves longer than the footprint, removed by a correction for the local slope.
 absl::StatusOr<Study> CorrectedWavesStudy(const StudyOptions& options);
 

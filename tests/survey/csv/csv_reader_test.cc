@@ -110,8 +110,9 @@ TEST(CsvReader, ReturnsCompleteRecordsInManyBlocks) {
 
 TEST(CsvReader, NamesTheLineOfAnUnclosedQuote) {
   EXPECT_THAT(std::string(ErrorOf("a\nb\n\"c\nd\n").message()), HasSubstr("in.csv line 3: "));
-  EXPECT_THAT(std::string(ErrorOf("a\n\"" + std::string(CsvReader::kLongestRecord, 'x')).message()),
-              HasSubstr("line 2"));
+  std::string long_record = "a\n\"";
+  long_record.append(CsvReader::kLongestRecord, 'x');
+  EXPECT_THAT(std::string(ErrorOf(long_record).message()), HasSubstr("line 2"));
 }
 
 TEST(CsvReader, NamesTheCellWithTextAfterItsQuote) {

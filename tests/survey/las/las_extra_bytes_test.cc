@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 std::string Describe(const std::string& described, std::size_t extra_bytes) {
   const auto record = DescribeAppended("in.las", described, extra_bytes, AppendedFloats({}));
-  return record.ok() ? *record : std::string(record.status().message());
+  return record.ok() ? record->record : std::string(record.status().message());
 }
 
 std::string NameOf(const std::string& record, std::size_t entry) {
@@ -48,12 +48,12 @@ TEST(LasExtraBytes, DescribesTwoFloatsAndTheirNoDataValue) {
 TEST(LasExtraBytes, StatesTheCoverage) {
   const auto record =
       DescribeAppended("in.las", "", 0, AppendedFloats({.coverage = Coverage::kP95, .details = false}));
-  EXPECT_STREQ(record->substr(160, 32).c_str(), "sea surface only, 95 %, m");
+  EXPECT_STREQ(record->record.substr(160, 32).c_str(), "sea surface only, 95 %, m");
 }
 
 TEST(LasExtraBytes, DescribesTheGeometryOfBeamsOnRequest) {
   const auto record = DescribeAppended("in.las", "", 0, AppendedFloats({.details = true}));
-  ASSERT_EQ(record->size(), AppendedFloats({.details = true}).size() * 192);
+  ASSERT_EQ(record->record.size(), AppendedFloats({.details = true}).size() * 192);
   const struct {
     const char* name;
     bool is_angle;
@@ -63,10 +63,10 @@ TEST(LasExtraBytes, DescribesTheGeometryOfBeamsOnRequest) {
                   {"water_depth", false},
                   {"slant_range", false}};
   for (std::size_t i = 0; i < std::size(expected); ++i) {
-    EXPECT_EQ(NameOf(*record, 2 + i), expected[i].name);
-    EXPECT_EQ(TypeOf(*record, 2 + i), 9);
-    EXPECT_EQ(OptionsOf(*record, 2 + i), 1);
-    const auto no_data = Load<double>(*record, 192 * (2 + i) + 40);
+    EXPECT_EQ(NameOf(record->record, 2 + i), expected[i].name);
+    EXPECT_EQ(TypeOf(record->record, 2 + i), 9);
+    EXPECT_EQ(OptionsOf(record->record, 2 + i), 1);
+    const auto no_data = Load<double>(record->record, 192 * (2 + i) + 40);
     EXPECT_TRUE(expected[i].is_angle ? std::isnan(no_data) : no_data == -1) << expected[i].name;
   }
 }
@@ -108,6 +108,33 @@ TEST(LasExtraBytes, KnowsTheSizeOfEveryType) {
 
 TEST(LasExtraBytes, RejectsNamesThatExistAlready) {
   EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "sea_tvu"), 4), HasSubstr("in.las: already has sea_tvu"));
+  EXPECT_THAT(Describe(ExtraBytesEntry(9, 0, "sea_tvu"), 4), HasSubstr("--replace"));
+}
+
+TEST(LasExtraBytes, ReplacesFloatsAndDoublesOfTheSameNames) {
+  const std::string described =
+      ExtraBytesEntry(4, 0, "echo width") + ExtraBytesEntry(10, 24, "sea_tvu") + ExtraBytesEntry(1, 0, "x");
+  const auto ours = DescribeAppended("in.las", described, 2 + 8 + 1, AppendedFloats({}), true);
+  ASSERT_TRUE(ours.ok()) << ours.status();
+  ASSERT_EQ(ours->record.size(), 4 * 192u);  // Only sea_thu is new.
+  EXPECT_EQ(NameOf(ours->record, 1), "sea_tvu");
+  EXPECT_EQ(TypeOf(ours->record, 1), 10);
+  EXPECT_EQ(OptionsOf(ours->record, 1), 1);  // Its scale and offset are gone.
+  EXPECT_EQ(NameOf(ours->record, 3), "sea_thu");
+  ASSERT_EQ(ours->replaced.size(), 1u);
+  EXPECT_EQ(ours->replaced[0].appended, 1u);
+  EXPECT_EQ(ours->replaced[0].offset, 2u);
+  EXPECT_TRUE(ours->replaced[0].is_double);
+}
+
+TEST(LasExtraBytes, ReplacesNothingThatHoldsNoNumberOfOurs) {
+  const auto replace = [](const std::string& described, std::size_t bytes) {
+    return std::string(
+        DescribeAppended("in.las", described, bytes, AppendedFloats({}), true).status().message());
+  };
+  EXPECT_THAT(replace(ExtraBytesEntry(3, 0, "sea_thu"), 2), HasSubstr("has sea_thu as type 3"));
+  EXPECT_THAT(replace(ExtraBytesEntry(9, 0, "sea_thu") + ExtraBytesEntry(9, 0, "sea_thu"), 8),
+              HasSubstr("describes sea_thu twice"));
 }
 
 TEST(LasExtraBytes, RejectsInvalidRecords) {

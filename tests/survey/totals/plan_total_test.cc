@@ -133,5 +133,27 @@ TEST(WaveHeightOfWind, GrowsWithWindAndFetch) {
   EXPECT_NE(WaveHeightOfWind(5, {}, "Apel (1994)"), developed);
 }
 
+TEST(PlanTotal, KnowsTheIndexByTemperatureAndSalinity) {
+  const auto plan = [](const std::string& water, const TotalContext& context = {.has_level = true}) {
+    const absl::StatusOr<TotalPlan> found = PlanTotal(Survey(Decided() + water), context);
+    EXPECT_TRUE(found.ok()) << found.status();
+    return *found;
+  };
+  const TotalPlan by_state = plan("temperature = 15\nsalinity = 35\n");
+  EXPECT_NEAR(by_state.options.index, 1.34199, 5e-6);
+  EXPECT_NEAR(by_state.options.errors.index, 0.0002, kAny);
+  EXPECT_THAT(Number(by_state, "refractive_index").source, HasSubstr("temperature and salinity"));
+  EXPECT_FALSE(Number(by_state, "refractive_index").assumed);
+  EXPECT_TRUE(Number(by_state, "index").assumed);
+  // Half of what is needed, what is told outright, and what a flag says.
+  EXPECT_NEAR(plan("salinity = 35\n").options.errors.index, 0.002, kAny);
+  const TotalPlan told = plan("temperature = 15\nsalinity = 35\nindex = 1.336\n");
+  EXPECT_NEAR(told.options.index, 1.336, kAny);
+  EXPECT_EQ(Number(told, "refractive_index").source, "the user");
+  const TotalPlan by_flag = plan("temperature = 15\nsalinity = 35\n", {.index = 1.338, .has_level = true});
+  EXPECT_NEAR(by_flag.options.index, 1.338, kAny);
+  EXPECT_NEAR(by_flag.options.errors.index, 0.002, kAny);
+}
+
 }  // namespace
 }  // namespace albtpu::client

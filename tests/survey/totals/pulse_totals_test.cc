@@ -138,5 +138,17 @@ TEST(LengthSpread, FindsQuantilesToAPerCent) {
   EXPECT_EQ(spread.greatest(), 1);
 }
 
+// Of a grid whose north points 30 degrees east of true north. An error of fixed direction has the covariance of its
+// outer product: (north, east, down) = (0.3, -0.2, 0.1) is x = -0.3 sin 30 - 0.2 cos 30, y = 0.3 cos 30 - 0.2 sin 30.
+TEST(OnGridAxes, TurnsAnErrorIntoTheGrid) {
+  const float north = 0.3f, east = -0.2f, down = 0.1f;
+  const std::array<std::vector<float>, 6> covariance = {
+      {{north * north}, {east * east}, {down * down}, {north * east}, {north * down}, {east * down}}};
+  const float x = -0.15f - 0.2f * 0.8660254f, y = 0.3f * 0.8660254f - 0.1f, z = -down;
+  const float expected[] = {x * x, y * y, z * z, x * y, x * z, y * z};
+  const std::array<float, 6> grid = OnGridAxes(covariance, 0, 0.52359878f);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(grid[i], expected[i], 1e-7) << i;
+}
+
 }  // namespace
 }  // namespace albtpu::client
