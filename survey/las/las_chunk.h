@@ -45,8 +45,8 @@ struct LasAnnotation {
 // Everything that the chunks of a file have in common.
 class LasChunkWork {
  public:
-  // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where the sea goes by time.
-  // `pulse_surface`: the water surface at a point may come from a return of the same pulse.
+  // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where
+  // the sea goes by time. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
   LasChunkWork(const LasHeader& header, const LasAnnotation& annotation,
                const std::vector<ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
                bool pulse_surface, const AnswerSource& source);
