@@ -38,7 +38,8 @@ def columns(count):
 def budget(count):
     """The same pulses, and the share of the sea surface in their budget."""
     return pb.QueryBudgetRequest(
-        options={"located": "SURFACE_LOCATION_LEVEL"}, pulses=columns(count).pulses, quantities=["BUDGET_QUANTITY_THU_SEA"],
+        options={"located": "SURFACE_LOCATION_LEVEL"}, pulses=columns(count).pulses,
+        quantities=["BUDGET_QUANTITY_THU_SEA"],
         aircraft={"altitude": np.float32(400).tobytes(), "beam_azimuth": np.float32(90).tobytes()})
 
 
