@@ -5,10 +5,10 @@ Usage: mixed_load.py query=PATH serve=PATH synthetic_table=PATH simulated_flight
 At the same time: files are annotated, some by clients that are killed and resumed; arrays, single pulses, whole budgets
 and pulses on seas are queried; requests are invalid; streams are cancelled or never read; connections are silent or do
 not speak HTTP/2; tables are replaced. Every answer is compared with that of the table file, budgets with that of the
-server at rest. Prints what was done, and the
-resident memory of the server after a tenth of the time and at the end. Under load, from 10 minutes on, a growth of more
-than 5 % between the two is a failure. At rest, the load has paused and the server has given back its free memory; some
-MiB of what remains are caches of threads that come and go. Seeds are fixed, so that only timing differs between runs.
+server at rest. Prints what was done, and the resident memory of the server after a tenth of the time and at the end.
+Under load, from 10 minutes on, a growth of more than 5 % between the two is a failure. At rest, the load has paused and
+the server has given back its free memory; some MiB of what remains are caches of threads that come and go. Seeds are
+fixed, so that only timing differs between runs.
 """
 
 import argparse
