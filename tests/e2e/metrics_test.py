@@ -76,6 +76,12 @@ class Metrics(unittest.TestCase):
     def ask(self, request):
         return self.stub.QueryColumns(request, timeout=PATIENCE, wait_for_ready=True)
 
+    def ask_budget(self, depths, table=""):
+        request = pb.QueryBudgetRequest(
+            options=dict(located="SURFACE_LOCATION_LEVEL", table=table), pulses=columns(depths).pulses,
+            aircraft=dict(altitude=np.float32(400).tobytes(), beam_azimuth=np.float32(90).tobytes()))
+        return self.stub.QueryBudget(request, timeout=PATIENCE, wait_for_ready=True)
+
     def test_count_calls_and_pulses_exactly(self):
         for _ in range(10):
             self.ask(columns([1, 2, 3]))
@@ -84,13 +90,18 @@ class Metrics(unittest.TestCase):
         self.assertEqual(len(list(self.stub.StreamColumns(iter(requests), timeout=PATIENCE))), 3)
         with self.assertRaises(grpc.RpcError):
             self.ask(columns([1], table="nowhere"))
-        for outcome, axis, count in (("INTERPOLATED", "", 10 * 3 + 1 + 60000), ("OUT_OF_DOMAIN", "depth", 2),
+        self.ask_budget([1, 2, 1000, -1])
+        self.ask_budget([3])
+        with self.assertRaises(grpc.RpcError):
+            self.ask_budget([1], table="nowhere")
+        for outcome, axis, count in (("INTERPOLATED", "", 10 * 3 + 1 + 60000 + 3), ("OUT_OF_DOMAIN", "depth", 4),
                                      ("INVALID", "depth", 1), ("OUT_OF_DOMAIN", "wind_speed", 0)):
             self.assertEqual(self.value("albtpu_pulses_total", outcome=outcome, axis=axis), count)
         for method, code, count in (("QueryColumns", "OK", 11), ("QueryColumns", "NOT_FOUND", 1),
-                                    ("StreamColumns", "OK", 1), ("QueryPulses", "OK", 0), ("QueryBudget", "OK", 0)):
+                                    ("StreamColumns", "OK", 1), ("QueryPulses", "OK", 0), ("QueryBudget", "OK", 2),
+                                    ("QueryBudget", "NOT_FOUND", 1)):
             self.assertEqual(self.value("albtpu_calls_total", method=method, code=code), count)
-        for method, count, pulses in (("QueryColumns", 11, 34), ("StreamColumns", 3, 60000)):
+        for method, count, pulses in (("QueryColumns", 11, 34), ("StreamColumns", 3, 60000), ("QueryBudget", 2, 5)):
             self.assertEqual(self.value("albtpu_answer_pulses_count", method=method), count)
             self.assertEqual(self.value("albtpu_answer_pulses_sum", method=method), pulses)
             self.assertEqual(self.value("albtpu_answer_seconds_count", method=method), count)
