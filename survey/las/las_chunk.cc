@@ -176,7 +176,11 @@ void LasChunkWork::Replace(Chunk& chunk) const {
       float value;
       std::memcpy(&value, values + replaced.appended * sizeof(float), sizeof(float));
       char* const place = record + extra_bytes_begin_ + replaced.offset;
-      replaced.is_double ? Store(static_cast<double>(value), place) : Store(value, place);
+      if (replaced.is_double) {
+        Store(static_cast<double>(value), place);
+      } else {
+        Store(value, place);
+      }
     }
     // What is new closes up, and the record moves to where it begins among shorter ones.
     char* end = values;
