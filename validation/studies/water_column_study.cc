@@ -224,14 +224,11 @@ absl::StatusOr<Study> WaterColumnStudy(const StudyOptions& options) {
       "down and pairs them with photons that the receiver sends out, because light finds its way back as it "
       "would have come. docs/physics.md, section 8, has its equations.",
       "The parts are compared with what is known apart from them, and the pairs with photons that make the "
-      "whole way down, off the bottom and up again. The last comparisons are with a program of others for "
-      "the "
+      "whole way down, off the bottom and up again. The last comparisons are with another program for the "
       "same definitions: a narrow system (field of view 3 m, pulse 1.5 ns, footprint 0.5 m) and a wide one "
-      "(16 "
-      "m, 5 ns, 2 m), albedo 0.8, Petzold's mean phase function.",
+      "(16 m, 5 ns, 2 m), albedo 0.8, Petzold's mean phase function.",
       "The vendor's detector, the albedo and the phase function of the water are hardly known in a survey. "
-      "By how "
-      "much the bias depends on the system, within one water, shows that it cannot be left to a default."};
+      "The bias differs so much between systems in one water that it cannot be left to a default."};
   AddMoments(study);
   AddSlab(options, study);
   AddSmallAngles(options, study);
