@@ -64,6 +64,8 @@ struct PointOptions {
 };
 absl::Status RunPoint(const PointOptions& options);
 
+inline constexpr double kLightSpeed = 0.299792458;  // m/ns
+
 struct WaterPointOptions {
   double incidence = 0;                   // degree, in air
   double absorption = 0, scattering = 0;  // 1/m

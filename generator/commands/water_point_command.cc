@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t kPools = 8;
 // Standard error of the energy over the energy, beyond which an echo is of too few pairs.
 constexpr double kMostRelative = 0.05;
-constexpr double kLightSpeed = 0.299792458;  // m/ns
 
 Estimate InMetres(const Estimate& relative, double depth) {
   return {relative.value * depth, relative.standard_error * depth};

@@ -10,8 +10,12 @@
 namespace albtpu {
 namespace {
 
-// The table of clear water knows its echo in closed form only where the field of view takes in the whole footprint.
+// The echo of clear water is known in closed form only where the field of view takes in the whole footprint.
 constexpr double kLeastFootprints = 2.5;
+
+// Of the pulse in water over twice the depth: an echo is kept in steps of a thirtieth of the pulse, from two depths
+// above the bottom to five below it.
+constexpr double kShortestPulse = 5e-4, kLongestPulse = 1.5;
 
 CLI::Validator FieldOfView() {
   return CLI::Validator(
@@ -71,10 +75,18 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
   point.add_flag("--json", options.json, "Print one JSON object");
   AddThreads(point, threads);
   point.callback([&options] {
-    if (options.field_of_view >= kLeastFootprints * options.footprint) return;
-    throw CLI::ValidationError("--field-of-view",
-                               absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
-                                            kLeastFootprints * options.footprint, " m, 2.5 footprints"));
+    if (options.field_of_view < kLeastFootprints * options.footprint) {
+      throw CLI::ValidationError(
+          "--field-of-view", absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
+                                          kLeastFootprints * options.footprint, " m, 2.5 footprints"));
+    }
+    const double unit = 2 * options.group_index * options.depth / kLightSpeed;  // ns: down and up.
+    if (options.pulse_length < kShortestPulse * unit || options.pulse_length > kLongestPulse * unit) {
+      throw CLI::ValidationError(
+          "--pulse-length",
+          absl::StrCat("of ", options.pulse_length, " ns has no echo to read at ", options.depth, " m; give ",
+                       kShortestPulse * unit, " to ", kLongestPulse * unit, " ns, or another depth"));
+    }
   });
   Group(point, "The water",
         {"--absorption", "--scattering", "--backscatter-fraction", "--depth", "--refractive-index",

@@ -84,6 +84,8 @@ class Table(unittest.TestCase):
         self.assertIn("2.5 footprints", self.refused(2, *beam, "--field-of-view", "1.4"))
         deep = [text.replace("7.3", "300") for text in beam]
         self.assertIn("no echo", self.refused(1, *deep, "--field-of-view", "5"))
+        long_pulse = [text.replace("2.2", "99.9") for text in beam]
+        self.assertIn("no echo to read at 7.3 m", self.refused(2, *long_pulse, "--field-of-view", "5"))
         clear = [text.replace("0.279559", "0") for text in beam]
         self.assertIn("--scattering", self.refused(2, *clear, "--field-of-view", "5"))
 
