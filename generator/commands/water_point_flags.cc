@@ -84,7 +84,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
     if (options.pulse_length < kShortestPulse * unit || options.pulse_length > kLongestPulse * unit) {
       throw CLI::ValidationError(
           "--pulse-length",
-          absl::StrCat("of ", options.pulse_length, " ns has no echo to read at ", options.depth, " m; give ",
+          absl::StrCat(options.pulse_length, " ns has no echo to read at ", options.depth, " m; give ",
                        kShortestPulse * unit, " to ", kLongestPulse * unit, " ns, or another depth"));
     }
   });
