@@ -48,7 +48,7 @@ struct AxisSchema {
   bool operator==(const AxisSchema&) const = default;
 };
 
-// All quantities but the biases are 2 sigma.
+// Uncertainties are 2 sigma.
 struct QuantitySchema {
   std::string_view name;   // "thu"; its standard error is `name + kStandardErrorSuffix`.
   std::string_view units;  // "degree" or "m".
@@ -79,7 +79,7 @@ inline constexpr std::string_view kStandardErrorSuffix = "_standard_error";
 
 // The most axes and quantities that a table may have: the interpolator keeps arrays of these sizes.
 inline constexpr std::size_t kMaxAxes = 6;
-inline constexpr std::size_t kMaxQuantities = 8;
+inline constexpr std::size_t kMaxQuantities = 9;
 
 // A constant of the program: tables of the kind refer to it.
 struct TableSchema {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_keys.h"
 #include "generator/campaign/toml_reader.h"
 #include "sea/angle.h"
@@ -22,63 +23,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A campaign of hundreds of nodes has a tenth of this. A longer text could nest keys so deeply ("a.a.a ...") that the
 // TOML parser, which recurses into each level, would overflow the stack.
 constexpr std::size_t kMostBytes = 32768;
-
-// Nodes are kept in single precision, as in tables: 0.1 in the file becomes the float nearest to it.
-std::vector<double> InSinglePrecision(std::vector<double> nodes) {
-  for (double& node : nodes) node = static_cast<float>(node);
-  return nodes;
-}
-
-// The least float at or above `x`.
-double FloatNotBelow(double x) {
-  const float nearest = static_cast<float>(x);
-  return nearest >= x ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
-}
-
-// `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
-// there the seas of all winds are, and beyond it nothing changes.
-absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
-                          const std::vector<double>& wind_speed) {
-  if (fetch.empty() || fetch.back() != kInfinity) {
-    return absl::InvalidArgumentError(
-        "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
-  }
-  const double strongest = *std::max_element(wind_speed.begin(), wind_speed.end());
-  // A calm is the same at any fetch.
-  const double developed = strongest > 0 ? FloatNotBelow(model.fully_developed_fetch(strongest)) : 1;
-  fetch.back() = developed;
-  if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("node ", fetch.size() - 2, " of 'axes.fetch', ", fetch[fetch.size() - 2],
-                     " m, is beyond full development of the strongest wind (", developed,
-                     " m): leave it out, the last node is that sea"));
-  }
-  return absl::OkStatus();
-}
-
-using Nodes = std::array<std::vector<double>, kAxisCount>;
-
-// In the order of AxisId.
-constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindSpeed, campaign_keys::kFetch,
-                                                           campaign_keys::kIncidence, campaign_keys::kAzimuth,
-                                                           campaign_keys::kFootprint, campaign_keys::kDepth};
-
-// Whether the sea of a file takes the place of the axis.
-bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
-
-Nodes ReadAllNodes(TomlReader& toml, bool has_sea_file) {
-  Nodes nodes;
-  for (const AxisId axis : kAxes) {
-    const CampaignKey& key = kAxisKeys[Index(axis)];
-    if (!has_sea_file || !IsOfWindSea(axis)) {
-      nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, key));
-    } else if (toml.Has(key.table, key.name)) {
-      toml.Fail(absl::StrCat("'", FullName(key),
-                             "' has no place beside 'sea.file', which is one sea: leave it out"));
-    }
-  }
-  return nodes;
-}
 
 WindSea ReadWindSea(TomlReader& toml) {
   WindSea sea;
@@ -136,48 +80,6 @@ Effort ReadEffort(TomlReader& toml) {
   return effort;
 }
 
-absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
-  std::vector<Axis> axes;
-  for (const AxisId id : kAxes) {
-    absl::StatusOr<Axis> axis = Axis::Create(kind.axes[Index(id)], nodes[Index(id)]);
-    if (!axis.ok()) return axis.status();
-    axes.push_back(*std::move(axis));
-  }
-  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
-}
-
-// Checks the rules for a sea that can be simulated, and then those of all axes.
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
-  for (const AxisId axis : kAxes) {
-    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
-    if (!problem.empty()) return absl::InvalidArgumentError(problem);
-  }
-  const absl::Status fetch =
-      ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
-  if (!fetch.ok()) return fetch;
-
-  return AxesOfKind(kSeaSurface, nodes);
-}
-
-// The same of one sea, whose axes of wind and fetch have the one node that its tables have.
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TracedSea& sea, Nodes nodes) {
-  for (const AxisId axis : kAxes) {
-    if (IsOfWindSea(axis) || axis == AxisId::kAzimuth) continue;
-    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
-    if (!problem.empty()) return absl::InvalidArgumentError(problem);
-  }
-  const std::vector<double>& azimuth = nodes[Index(AxisId::kAzimuth)];
-  if (azimuth.size() < 2 || azimuth.front() != 0 || azimuth.back() != 180) {
-    return absl::InvalidArgumentError(
-        "'axes.azimuth' of the sea of a file must begin at 0 and end at 180 (a sea looks alike after half a "
-        "turn, "
-        "and need not in a mirror); add the missing nodes");
-  }
-  nodes[Index(AxisId::kWindSpeed)] = InSinglePrecision({sea.described.wind_speed_10m});
-  nodes[Index(AxisId::kFetch)] = {1};
-  return AxesOfKind(kOneSea, nodes);
-}
-
 // Refuses before the computation what the table would refuse after it.
 absl::Status CheckTable(const Campaign& campaign) {
   std::size_t most_nodes = format::kMaxValueCount;  // divided, since the product of all axes could overflow
@@ -194,6 +96,41 @@ absl::Status CheckTable(const Campaign& campaign) {
   return CheckProvenance(provenance);
 }
 
+// What all kinds begin with.
+struct CampaignHead {
+  std::string text, id, version, title;
+  std::uint64_t seed;
+};
+
+absl::StatusOr<Campaign> ParseWater(TomlReader& toml, const CampaignHead& head) {
+  const Nodes nodes = ReadNodesOfWater(toml);
+  const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
+  const std::optional<double> group_index = ReadNumber(toml, campaign_keys::kGroupIndex);
+  const std::optional<std::int64_t> photons = ReadWhole(toml, campaign_keys::kPhotons);
+  const std::optional<std::int64_t> pairs = ReadWhole(toml, campaign_keys::kPairs);
+  const std::optional<std::int64_t> checked = ReadWhole(toml, campaign_keys::kCheckedBeams);
+  if (const absl::Status status = toml.Finish(); !status.ok()) return status;
+  absl::StatusOr<UncertaintyTable::Axes> axes = MakeWaterAxes(nodes);
+  if (!axes.ok()) return axes.status();
+  Campaign campaign{.text = head.text,
+                    .id = head.id,
+                    .version = head.version,
+                    .title = head.title,
+                    .seed = head.seed,
+                    .axes = *std::move(axes),
+                    .refractive_index = *refractive_index,
+                    .wind_sea = {},
+                    .sea = std::nullopt,
+                    .water = WaterWork{.group_index = *group_index,
+                                       .photons = static_cast<std::uint32_t>(*photons),
+                                       .pairs_per_photon = static_cast<int>(*pairs)},
+                    .effort = {},
+                    .rays = std::nullopt,
+                    .checked_pulses = static_cast<std::size_t>(*checked)};
+  if (const absl::Status status = CheckTable(campaign); !status.ok()) return status;
+  return campaign;
+}
+
 }  // namespace
 
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
@@ -208,9 +145,13 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
   const std::string id = ReadText(toml, campaign_keys::kId);
   const std::string version = ReadText(toml, campaign_keys::kVersion);
   const std::string title = ReadText(toml, campaign_keys::kTitle);
+  const std::string kind = ReadText(toml, campaign_keys::kKind);
   const std::optional<std::int64_t> seed = ReadWhole(toml, campaign_keys::kSeed);
+  if (kind == kWaterColumn.name)
+    return ParseWater(toml,
+                      {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
   const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(toml);
-  const Nodes nodes = ReadAllNodes(toml, sea_of_file.has_value());
+  const Nodes nodes = ReadNodesOfSea(toml, sea_of_file.has_value());
   const std::string profile = ReadText(toml, campaign_keys::kProfile);
   const std::optional<double> source_height = ReadNumber(toml, campaign_keys::kSourceHeight);
   const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
@@ -242,6 +183,7 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
                     .refractive_index = *refractive_index,
                     .wind_sea = wind_sea,
                     .sea = std::move(sea),
+                    .water = std::nullopt,
                     .corrected_above = *corrected_above,
                     .effort = effort,
                     .rays = rays ? std::optional<int>(static_cast<int>(*rays)) : std::nullopt};

@@ -15,8 +15,16 @@
 #include "generator/surface/beam.h"
 #include "sea/sea_state.h"
 #include "tables/uncertainty_table.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
+
+// What a table of the water column takes in place of a sea.
+struct WaterWork {
+  double group_index = 1.3643;
+  std::uint32_t photons = 60'000;  // of each pool
+  int pairs_per_photon = 3;
+};
 
 // The keys of the file are in campaign_keys.h, and for people in docs/campaign.md.
 struct Campaign {
@@ -31,13 +39,15 @@ struct Campaign {
   WindSea wind_sea;  // without wind and fetch, which are axes
   std::optional<TracedSea>
       sea;  // in its place, of a table of one sea: its axes of wind and fetch have one node
+  std::optional<WaterWork> water;  // in place of any sea, of a table of the water column (water_cases.h)
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
   std::optional<int> rays;
   bool balanced_nodes = false;      // see node_balance.h
   std::size_t checked_pulses = 40;  // see interpolation_check.h
 
-  const TableSchema& kind() const { return sea ? kOneSea : kSeaSurface; }
+  const TableSchema& kind() const { return water ? kWaterColumn : sea ? kOneSea : kSeaSurface; }
+  // Of a sea.
   const std::vector<double>& nodes(AxisId axis) const { return axes[Index(axis)].nodes(); }
 };
 
@@ -54,7 +64,7 @@ absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path);
 // errors, which are those of each value by itself.
 inline constexpr std::uint32_t kCellOfTables = 0;
 
-// A campaign is computed in sea cases: one sea and one footprint, with all incidences, azimuths and depths. They are
+// A campaign of a sea is computed in sea cases: one sea and one footprint, with all incidences, azimuths and depths. They are
 // ordered by wind, fetch and footprint, which varies fastest.
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);

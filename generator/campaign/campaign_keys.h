@@ -61,6 +61,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr std::int64_t kMostRealizations = 10'000'000;
 inline constexpr int kMostRealizationsUnlessGiven = 40'000;
 
+inline constexpr std::string_view kKinds[] = {"sea_surface", "water_column"};
 inline constexpr std::string_view kProfiles[] = {"uniform", "gaussian"};
 inline constexpr std::string_view kEstimators[] = {"control_variate", "plain"};
 inline constexpr std::string_view kTails[] = {"relax", "wind", "level", "none"};
@@ -76,6 +77,9 @@ inline constexpr CampaignKey kVersion = {
 inline constexpr CampaignKey kTitle = {
     "", "title", AnyText{"one line"}, "", Required{},
     "What the table is for, in words."};
+inline constexpr CampaignKey kKind = {
+    "", "kind", Choice{kKinds}, "", std::string_view("sea_surface"),
+    "What the table is of. Each kind has keys of its own; those above and `seed` are the same."};
 inline constexpr CampaignKey kSeed = {
     "", "seed", WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", std::int64_t{1},
     "Seed of all random numbers. The same program on the same kind of processor makes the same table from the "
@@ -178,6 +182,39 @@ inline constexpr CampaignKey kCheckedPulses = {
     "interpolation", "checked_pulses", WholeRange{1, 10'000}, "", std::int64_t{40},
     "Random pulses between the nodes at which the table is compared with direct computation, which gives its "
     "interpolation error."};
+
+// Of the water column. Lengths are over the depth (tables/water/water_schema.h).
+inline constexpr CampaignKey kBackscatterFraction = {
+    "axes", "backscatter_fraction", NodeRange{0.002, true, 0.1, "no natural water has more"}, "", Required{},
+    "Share of scattered light that turns back, of the phase function of Fournier and Forand."};
+inline constexpr CampaignKey kScatteringOverAbsorption = {
+    "axes", "scattering_over_absorption", NodeRange{0.05, true, 50, "the walk of photons would take too long"}, "",
+    Required{}, "Scattering over absorption of the water: 4 at an albedo of 0.8."};
+inline constexpr CampaignKey kIncidenceOnWater = {
+    "axes", "incidence", NodeRange{0, true, 50, "footprints would be far longer than wide"}, "degree", Required{},
+    "Angle of the beam from the vertical, in air."};
+inline constexpr CampaignKey kOpticalDepth = {
+    "axes", "optical_depth", NodeRange{0.01, true, 8, "hardly any echo comes back"}, "", Required{},
+    "sqrt(a^2 + 6 B a b) times the depth, of absorption a, scattering b and backscatter fraction B."};
+inline constexpr CampaignKey kFieldOfView = {
+    "axes", "field_of_view", NodeRange{0.01, true, 1000, "the last node stands for all of the surface"}, "", Required{},
+    "Diameter of the disc on the surface that the receiver sees. The last node is computed without limit."};
+inline constexpr CampaignKey kPulseLength = {
+    "axes", "pulse_length", NodeRange{0.001, true, 1.5, "an echo is kept up to five depths below the bottom"}, "",
+    Required{}, "Length of the pulse at half its maximum, in water, over twice the depth."};
+inline constexpr CampaignKey kGroupIndex = {
+    "water", "group_index", NumberRange{1.01, 2}, "", 1.3643,
+    "Index of the group, which delays the pulse."};
+inline constexpr CampaignKey kPhotons = {
+    "effort", "photons", WholeRange{1000, 10'000'000}, "", std::int64_t{60'000},
+    "Photons of each of eight pools, whose scatter gives the standard errors."};
+inline constexpr CampaignKey kPairs = {
+    "effort", "pairs_per_photon", WholeRange{1, 100}, "", std::int64_t{3},
+    "Pairs of one photon down and another up, for each photon."};
+inline constexpr CampaignKey kCheckedBeams = {
+    "interpolation", "checked_pulses", WholeRange{1, 10'000}, "", std::int64_t{200},
+    "Random waters, depths and systems between the nodes at which the table is compared with direct computation, "
+    "which gives its interpolation error."};
 // clang-format on
 
 }  // namespace campaign_keys
@@ -187,6 +224,7 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kId,
     campaign_keys::kVersion,
     campaign_keys::kTitle,
+    campaign_keys::kKind,
     campaign_keys::kSeed,
     campaign_keys::kWindSpeed,
     campaign_keys::kFetch,
@@ -214,6 +252,21 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kRays,
     campaign_keys::kNodes,
     campaign_keys::kCheckedPulses,
+};
+
+// Those of a table of the water column beside id, version, title, kind and seed.
+inline constexpr std::array kWaterCampaignKeys = {
+    campaign_keys::kBackscatterFraction,
+    campaign_keys::kScatteringOverAbsorption,
+    campaign_keys::kIncidenceOnWater,
+    campaign_keys::kOpticalDepth,
+    campaign_keys::kFieldOfView,
+    campaign_keys::kPulseLength,
+    campaign_keys::kRefractiveIndexOfWater,
+    campaign_keys::kGroupIndex,
+    campaign_keys::kPhotons,
+    campaign_keys::kPairs,
+    campaign_keys::kCheckedBeams,
 };
 
 // Each reads a key of one kind of values, checks its range, and returns its default where it is missing, or nothing (an

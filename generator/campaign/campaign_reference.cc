@@ -113,18 +113,31 @@ std::string MarkdownTable(const std::vector<Row>& rows) {
   return text;
 }
 
-}  // namespace
+constexpr char kOfWater[] = R"(
+# Campaigns of the water column
 
-std::string CampaignReference() {
-  std::string page = kIntroduction;
-  for (auto key = kCampaignKeys.begin(); key != kCampaignKeys.end();) {
+With `kind = "water_column"`, a campaign has these keys beside the first five. All lengths are over the depth of the
+bottom; `generator/campaigns/water.toml` is the one that ships.
+)";
+
+void AppendTables(std::span<const CampaignKey> keys, std::string& page) {
+  for (auto key = keys.begin(); key != keys.end();) {
     const std::string_view table = key->table;
     std::vector<Row> rows = {{"key", "type", "unit", "range", "default", "meaning"}};
-    for (; key != kCampaignKeys.end() && key->table == table; ++key) rows.push_back(RowOf(*key));
+    for (; key != keys.end() && key->table == table; ++key) rows.push_back(RowOf(*key));
     absl::StrAppend(&page, "\n## ",
                     table.empty() ? "Top-level keys" : absl::StrCat("[", std::string(table), "]"), "\n\n",
                     MarkdownTable(rows));
   }
+}
+
+}  // namespace
+
+std::string CampaignReference() {
+  std::string page = kIntroduction;
+  AppendTables(kCampaignKeys, page);
+  page += kOfWater;
+  AppendTables(kWaterCampaignKeys, page);
   return page;
 }
 

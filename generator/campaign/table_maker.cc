@@ -1,12 +1,14 @@
 #include "generator/campaign/table_maker.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "generator/campaign/interpolation_check.h"
 #include "generator/campaign/node_balance.h"
 #include "generator/campaign/provenance.h"
 #include "generator/campaign/unit_work.h"
+#include "generator/campaign/water_cases.h"
 #include "generator/math/rounding.h"
 #include "generator/ranks/ranks.h"
 #include "sea/angle.h"
@@ -87,43 +89,55 @@ absl::Status WrongShape() {
 }  // namespace
 
 struct TableBuilder::Parts {
+  explicit Parts(const Campaign& of) : campaign(of), origin(OriginOf(of)), direct(of.checked_pulses) {
+    if (campaign.water) {
+      water.resize(WaterCaseCount(campaign));
+    } else {
+      grid.emplace(campaign);
+      results.resize(SeaCaseCount(campaign));
+    }
+  }
+
   const Campaign& campaign;
   UnitOrigin origin;
-  VariableGrid grid;
-  std::vector<SeaCaseResult> results;         // without their beams, which are in the grid
   std::vector<std::vector<Estimate>> direct;  // values at the checked pulses
+  // Of a sea.
+  std::optional<VariableGrid> grid;
+  std::vector<SeaCaseResult> results;  // without their beams, which are in the grid
+  // Of the water column, by case.
+  std::vector<std::vector<Estimate>> water;
 };
 
-TableBuilder::TableBuilder(const Campaign& campaign)
-    : parts_(new Parts{campaign, OriginOf(campaign), VariableGrid(campaign),
-                       std::vector<SeaCaseResult>(SeaCaseCount(campaign)),
-                       std::vector<std::vector<Estimate>>(campaign.checked_pulses)}) {}
+TableBuilder::TableBuilder(const Campaign& campaign) : parts_(new Parts(campaign)) {}
 
 TableBuilder::~TableBuilder() = default;
 
 absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
   const absl::StatusOr<std::string_view> content = OpenUnit(unit, parts_->origin, bytes);
   if (!content.ok()) return content.status();
-  if (unit.kind == UnitKind::kPulse) {
+  if (unit.kind != UnitKind::kSeaCase) {
     absl::StatusOr<std::vector<Estimate>> estimates = DecodeEstimates(*content);
     if (!estimates.ok()) return estimates.status();
-    if (estimates->size() != kChecked.size()) return WrongShape();
-    parts_->direct[unit.index] = *std::move(estimates);
+    const bool checks = unit.kind == UnitKind::kPulse;
+    if (checks && estimates->size() != (parts_->campaign.water ? kCheckedBiases : kChecked.size()))
+      return WrongShape();
+    (checks ? parts_->direct : parts_->water)[unit.index] = *std::move(estimates);
     return absl::OkStatus();
   }
   absl::StatusOr<SeaCaseResult> result = DecodeResult(*content);
   if (!result.ok()) return result.status();
   if (!HasShapeOf(parts_->campaign, *result)) return WrongShape();
   for (std::size_t beam = 0; beam < result->beams.size(); ++beam)
-    Store(result->beams[beam], unit.index, beam, parts_->grid);
+    Store(result->beams[beam], unit.index, beam, *parts_->grid);
   result->beams.clear();
   parts_->results[unit.index] = *std::move(result);
   return absl::OkStatus();
 }
 
-absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
+absl::StatusOr<Table> TableBuilder::Build() {
   const Campaign& campaign = parts_->campaign;
-  UncertaintyTable::Variables variables = parts_->grid.Take();
+  if (campaign.water) return BuildWaterTable(campaign, parts_->water, parts_->direct);
+  UncertaintyTable::Variables variables = parts_->grid->Take();
   for (const Quantity quantity : kQuantities) {
     Variable& variable = *variables[Index(quantity)];
     if (campaign.balanced_nodes) BalanceNodes(campaign.axes, quantity, variable.values);
@@ -138,7 +152,10 @@ absl::StatusOr<UncertaintyTable> TableBuilder::Build() {
     errors.push_back(CompareWithTable(campaign, *table, parts_->direct, q));
   }
   DescribeInterpolationErrors(errors, provenance);
-  return UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance));
+  const absl::StatusOr<UncertaintyTable> described =
+      UncertaintyTable::Create(campaign.kind(), campaign.axes, variables, std::move(provenance));
+  if (!described.ok()) return described.status();
+  return described->table();
 }
 
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
@@ -152,7 +169,9 @@ absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                                return added;
                                              });
   if (!computed.ok()) return computed;
-  return builder.Build();
+  absl::StatusOr<Table> table = builder.Build();
+  if (!table.ok()) return table.status();
+  return UncertaintyTable(*std::move(table));
 }
 
 }  // namespace albtpu

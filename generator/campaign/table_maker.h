@@ -10,6 +10,7 @@
 #include "absl/status/statusor.h"
 #include "generator/campaign/campaign.h"
 #include "generator/campaign/unit.h"
+#include "tables/table.h"
 #include "tables/uncertainty_table.h"
 
 namespace albtpu {
@@ -28,14 +29,14 @@ class TableBuilder {
   absl::Status Add(UnitId unit, std::string_view bytes);
 
   // Requires that all units were added. Call it once.
-  absl::StatusOr<UncertaintyTable> Build();
+  absl::StatusOr<Table> Build();
 
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
 
-// Computes all units of a campaign in this process (unit_work.h). After each unit, `done` is called with the number of
+// Computes all units of a campaign of a sea in this process (unit_work.h). After each unit, `done` is called with the number of
 // finished units, by one thread at a time.
 absl::StatusOr<UncertaintyTable> MakeTable(const Campaign& campaign,
                                            const std::function<void(std::size_t)>& done);

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "generator/campaign/byte_stream.h"
+#include "generator/campaign/water_cases.h"
 #include "generator/math/instruction_set.h"
 #include "tables/digest.h"
 #include "tables/version.h"
@@ -52,6 +53,8 @@ std::string KindName(UnitKind kind) {
   switch (kind) {
     case UnitKind::kSeaCase:
       return "encounter";  // The name in files, which outlives the one in the code.
+    case UnitKind::kWaterCase:
+      return "water";
     case UnitKind::kPulse:
       return "pulse";
   }
@@ -90,7 +93,9 @@ std::string Name(UnitId unit) { return absl::StrFormat("%s-%05d", KindName(unit.
 
 std::vector<UnitId> UnitsOf(const Campaign& campaign) {
   std::vector<UnitId> units;
-  for (std::size_t i = 0; i < SeaCaseCount(campaign); ++i) units.push_back({UnitKind::kSeaCase, i});
+  const std::size_t cases = campaign.water ? WaterCaseCount(campaign) : SeaCaseCount(campaign);
+  const UnitKind kind = campaign.water ? UnitKind::kWaterCase : UnitKind::kSeaCase;
+  for (std::size_t i = 0; i < cases; ++i) units.push_back({kind, i});
   for (std::size_t i = 0; i < campaign.checked_pulses; ++i) units.push_back({UnitKind::kPulse, i});
   return units;
 }

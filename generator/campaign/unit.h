@@ -16,8 +16,9 @@
 namespace albtpu {
 
 enum class UnitKind {
-  kSeaCase,  // `index` counts the sea cases of the campaign
-  kPulse,    // `index` counts the pulses at which the table is checked (interpolation_check.h)
+  kSeaCase,    // `index` counts the sea cases of the campaign
+  kWaterCase,  // the same of a campaign of the water column
+  kPulse,      // `index` counts the pulses at which the table is checked (interpolation_check.h)
 };
 
 struct UnitId {
@@ -27,7 +28,7 @@ struct UnitId {
   auto operator<=>(const UnitId&) const = default;
 };
 
-std::string Name(UnitId unit);  // "encounter-00012", "pulse-00003"
+std::string Name(UnitId unit);  // "encounter-00012", "water-00001", "pulse-00003"
 
 // All units of a campaign, in the order in which they are computed.
 std::vector<UnitId> UnitsOf(const Campaign& campaign);
@@ -45,7 +46,7 @@ UnitOrigin OriginOf(const Campaign& campaign);  // when computed by this program
 std::string EncodeResult(const SeaCaseResult& result);
 absl::StatusOr<SeaCaseResult> DecodeResult(std::string_view bytes);
 
-// The same for the result of ComputeDirectly (interpolation_check.h).
+// The same for the results of ComputeDirectly (interpolation_check.h, water_cases.h) and of water cases.
 std::string EncodeEstimates(const std::vector<Estimate>& estimates);
 absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes);
 

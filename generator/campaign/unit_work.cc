@@ -17,6 +17,7 @@
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/byte_stream.h"
 #include "generator/campaign/interpolation_check.h"
+#include "generator/campaign/water_cases.h"
 
 namespace albtpu {
 namespace {
@@ -51,9 +52,13 @@ std::string Compute(const Campaign& campaign, const UnitOrigin& origin, UnitId u
       return SealUnit(unit, origin,
                       EncodeResult(Simulate(SeaCaseOf(campaign, unit.index), campaign.effort, campaign.seed,
                                             kCellOfTables)));
+    case UnitKind::kWaterCase:
+      return SealUnit(unit, origin, EncodeEstimates(ComputeWaterCase(campaign, unit.index)));
     case UnitKind::kPulse:
-      return SealUnit(unit, origin,
-                      EncodeEstimates(ComputeDirectly(campaign, CheckedPulse(campaign, unit.index))));
+      return SealUnit(
+          unit, origin,
+          EncodeEstimates(campaign.water ? ComputeDirectly(campaign, CheckedBeamOf(campaign, unit.index))
+                                         : ComputeDirectly(campaign, CheckedPulse(campaign, unit.index))));
   }
   std::abort();  // not reached: the switch has all kinds
 }

@@ -35,7 +35,7 @@ absl::Status RunMerge(const MergeOptions& options) {
     });
     if (!read.ok()) return read;
   }
-  const absl::StatusOr<UncertaintyTable> table = builder.Build();
+  const absl::StatusOr<Table> table = builder.Build();
   if (!table.ok()) return table.status();
   return Publish(*table, options.output, options.overwrite);
 }

@@ -9,6 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "generator/campaign/campaign.h"
 #include "generator/campaign/interpolation_check.h"
+#include "generator/campaign/water_cases.h"
 #include "generator/commands/commands.h"
 #include "tables/uncertainty_table.h"
 
@@ -58,6 +59,43 @@ std::string Clock(double seconds) {
   return seconds < 5400 ? absl::StrFormat("%.0f s", seconds) : absl::StrFormat("%.1f h", seconds / 3600);
 }
 
+void PrintLine(const char* what, const std::string& value) {
+  std::cout << absl::StrFormat("%-24s%s\n", what, value);
+}
+
+// `least` and `most` are of one core [s].
+void PrintTimes(double least, double most, int cores) {
+  const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const auto clock = [&](double of) {
+    return most > least ? Clock(least / of) + " to " + Clock(most / of) : Clock(least / of);
+  };
+  PrintLine("time of one core", clock(1));
+  PrintLine("on this machine", absl::StrFormat("%s, if its %d threads are as good as cores",
+                                               clock(static_cast<double>(threads)), threads));
+  if (cores > 0) PrintLine("on so many cores", absl::StrFormat("%d: %s", cores, clock(cores)));
+}
+
+// The same of the water column, whose cases take a time in proportion to their scatterings.
+void PlanWater(const Campaign& campaign, int cores) {
+  constexpr std::size_t kProbes = 6;
+  const std::size_t cases = WaterCaseCount(campaign), probes = std::min(kProbes, cases);
+  double seconds = 0;
+  for (std::size_t p = 0; p < probes; ++p) {
+    seconds += SecondsOf([&] { ComputeWaterCase(campaign, (2 * p + 1) * cases / (2 * probes)); });
+  }
+  seconds *= static_cast<double>(cases) / static_cast<double>(probes);
+  seconds += static_cast<double>(campaign.checked_pulses) *
+             SecondsOf([&] { ComputeDirectly(campaign, CheckedBeamOf(campaign, 0)); });
+  std::size_t values = 0;
+  for (const QuantitySchema& quantity : kWaterColumn.quantities)
+    values += ValueCount(campaign.axes, quantity);
+  PrintLine("waters and incidences", std::to_string(cases));
+  PrintLine("cells", std::to_string(ValueCount(campaign.axes, kWaterColumn.quantities.front())));
+  PrintLine("checked beams", std::to_string(campaign.checked_pulses));
+  PrintLine("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
+  PrintTimes(seconds, seconds, cores);
+}
+
 }  // namespace
 
 // Counts cells and bytes. Measures time on one thread and divides it by the number of cores.
@@ -65,6 +103,11 @@ absl::Status RunPlan(const PlanOptions& options) {
   const absl::StatusOr<Campaign> campaign = ReadCampaign(options.campaign);
   if (!campaign.ok()) return campaign.status();
 
+  PrintLine("campaign", campaign->id + ", version " + campaign->version);
+  if (campaign->water) {
+    PlanWater(*campaign, options.cores);
+    return absl::OkStatus();
+  }
   std::size_t values = 0;
   for (const Quantity quantity : kQuantities) values += ValueCount(campaign->axes, quantity);
   const Effort& effort = campaign->effort;
@@ -73,29 +116,17 @@ absl::Status RunPlan(const PlanOptions& options) {
                         SecondsOf([&] { ComputeDirectly(*campaign, CheckedPulse(*campaign, 0)); });
   const double least = cost.Of(effort.realizations) + checks;
   const double most = cost.Of(effort.most_realizations) + checks;
-  const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 
-  const auto line = [](const char* what, const std::string& value) {
-    std::cout << absl::StrFormat("%-24s%s\n", what, value);
-  };
-  line("campaign", campaign->id + ", version " + campaign->version);
-  line("seas and footprints", std::to_string(SeaCaseCount(*campaign)));
-  line("beams of each", std::to_string(SeaCaseOf(*campaign, 0).beams.size()));
-  line("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
-  line("checked pulses", std::to_string(campaign->checked_pulses));
-  line("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
-  line("realizations", effort.most_realizations > effort.realizations
-                           ? absl::StrFormat("%d to %d, by the error of each beam", effort.realizations,
-                                             effort.most_realizations)
-                           : std::to_string(effort.realizations));
-  const auto clock = [&](double cores) {
-    return most > least ? Clock(least / cores) + " to " + Clock(most / cores) : Clock(least / cores);
-  };
-  line("time of one core", clock(1));
-  line("on this machine", absl::StrFormat("%s, if its %d threads are as good as cores",
-                                          clock(static_cast<double>(threads)), threads));
-  if (options.cores > 0)
-    line("on so many cores", absl::StrFormat("%d: %s", options.cores, clock(options.cores)));
+  PrintLine("seas and footprints", std::to_string(SeaCaseCount(*campaign)));
+  PrintLine("beams of each", std::to_string(SeaCaseOf(*campaign, 0).beams.size()));
+  PrintLine("cells", std::to_string(ValueCount(campaign->axes, Quantity::kThu)));
+  PrintLine("checked pulses", std::to_string(campaign->checked_pulses));
+  PrintLine("table in memory", absl::StrFormat("%d KiB", 2 * sizeof(float) * values / 1024));
+  PrintLine("realizations", effort.most_realizations > effort.realizations
+                                ? absl::StrFormat("%d to %d, by the error of each beam", effort.realizations,
+                                                  effort.most_realizations)
+                                : std::to_string(effort.realizations));
+  PrintTimes(least, most, options.cores);
   return absl::OkStatus();
 }
 

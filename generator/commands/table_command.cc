@@ -95,7 +95,7 @@ absl::Status Lead(const TableOptions& options, Ranks& ranks) {
     std::cout << "units " << share.size() << '\n';
     return absl::OkStatus();
   }
-  const absl::StatusOr<UncertaintyTable> table = builder.Build();
+  const absl::StatusOr<Table> table = builder.Build();
   if (!table.ok()) return table.status();
   if (const absl::Status status = Publish(*table, options.output, options.overwrite); !status.ok())
     return status;

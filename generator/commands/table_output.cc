@@ -8,8 +8,10 @@
 #include <iostream>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "command_line/percent_text.h"
 #include "generator/campaign/interpolation_check.h"
+#include "generator/campaign/water_cases.h"
 #include "tables/file/table_io.h"
 
 namespace albtpu {
@@ -17,6 +19,7 @@ namespace {
 
 // A table whose interpolation errs by more (rms, relative) is coarse beside the approximations of the model.
 constexpr double kCoarse = 0.02;
+constexpr double kMostWithin = 0.99;
 
 // The attribute interpolation_error_NAME: rms, 99th percentile, greatest, noise, number of pulses.
 void PrintInterpolationErrors(const Provenance& provenance) {
@@ -40,6 +43,23 @@ void PrintInterpolationErrors(const Provenance& provenance) {
   if (coarse.empty()) return;
   std::cerr << "albtpu-generate: warning: the table is coarse (its values between nodes are off by more than "
             << PercentText(kCoarse) << " rms: " << coarse << "); give its axes more nodes\n";
+}
+
+// The same of the water column: rms, share within 3 mm or 4 %, greatest, noise, number of beams.
+void PrintErrorsOfWater(const Provenance& provenance) {
+  bool coarse = false;
+  for (std::size_t bias = 0; bias < kCheckedBiases; ++bias) {
+    const std::string name = "interpolation_error_" + std::string(kWaterColumn.quantities[bias].name);
+    const auto& numbers = std::get<std::vector<double>>(provenance.attributes.at(name));
+    std::cout << name << ' '
+              << absl::StrFormat("%.1f mm rms, %.1f mm greatest, %.1f %% of %.0f beams within 3 mm or 4 %%\n",
+                                 1000 * numbers[0], 1000 * numbers[2], 100 * numbers[1], numbers[4]);
+    coarse = coarse || numbers[1] < kMostWithin;
+  }
+  if (!coarse) return;
+  std::cerr << "albtpu-generate: warning: the table is coarse (its values between nodes are off by more than "
+               "3 mm and "
+               "4 % at more than one beam in a hundred); give its axes more nodes\n";
 }
 
 }  // namespace
@@ -71,12 +91,16 @@ absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite) {
   return absl::OkStatus();
 }
 
-absl::Status Publish(const UncertaintyTable& table, const std::filesystem::path& output, bool overwrite) {
+absl::Status Publish(const Table& table, const std::filesystem::path& output, bool overwrite) {
   const absl::Status written = WriteTable(table, output, overwrite ? Existing::kReplace : Existing::kKeep);
   if (!written.ok()) return written;
   std::cout << "id " << table.provenance().id << "\nversion " << table.provenance().version << "\ndigest "
             << table.digest() << '\n';
-  PrintInterpolationErrors(table.provenance());
+  if (&table.schema() == &kWaterColumn) {
+    PrintErrorsOfWater(table.provenance());
+  } else {
+    PrintInterpolationErrors(table.provenance());
+  }
   return absl::OkStatus();
 }
 

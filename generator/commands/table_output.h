@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "absl/status/status.h"
-#include "tables/uncertainty_table.h"
+#include "tables/table.h"
 
 namespace albtpu {
 
@@ -13,6 +13,6 @@ absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite);
 
 // Writes the table. Prints its id, version, digest and interpolation errors on standard output, and a warning on
 // standard error if they are large.
-absl::Status Publish(const UncertaintyTable& table, const std::filesystem::path& output, bool overwrite);
+absl::Status Publish(const Table& table, const std::filesystem::path& output, bool overwrite);
 
 }  // namespace albtpu

@@ -1,7 +1,9 @@
 #include "generator/water/bottom_detector.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace albtpu {
@@ -42,6 +44,24 @@ class Waveform {
     return {wave.value * scale, wave.slope * scale / sigma_, wave.curvature * scale / (sigma_ * sigma_)};
   }
 
+  // Values at every `stride`-th sample, which need no exponential of their own.
+  std::vector<double> Scan(std::size_t stride) const {
+    const auto reach = static_cast<std::ptrdiff_t>(kReach * sigma_ / step_);
+    Eigen::VectorXd kernel(2 * reach + 1);
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+      const double u = static_cast<double>(k) * step_ / sigma_;
+      kernel[k + reach] = std::exp(-0.5 * u * u) / (sigma_ * std::sqrt(2 * std::numbers::pi));
+    }
+    const Eigen::Map<const Eigen::VectorXd> samples(samples_.data(), std::ssize(samples_));
+    std::vector<double> values;
+    for (std::ptrdiff_t i = 0; i < samples.size(); i += static_cast<std::ptrdiff_t>(stride)) {
+      const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, i - reach);
+      const std::ptrdiff_t count = std::min(samples.size(), i + reach + 1) - begin;
+      values.push_back(samples.segment(begin, count).dot(kernel.segment(begin - i + reach, count)));
+    }
+    return values;
+  }
+
   Area Between(double from, double to) const {
     Area area;
     const auto [begin, end] = Near(from, to);
@@ -58,7 +78,7 @@ class Waveform {
 
   double sigma() const { return sigma_; }
   double first() const { return first_; }
-  double last() const { return TimeOf(samples_.size() - 1); }
+  double step() const { return step_; }
 
  private:
   double TimeOf(std::size_t i) const { return first_ + static_cast<double>(i) * step_; }
@@ -79,10 +99,14 @@ class Waveform {
 std::vector<double> Coarser(const std::vector<double>& samples, std::size_t factor) {
   if (factor == 1) return samples;
   std::vector<double> coarse(samples.size() / factor + 2, 0.0);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double part = static_cast<double>(i % factor) / static_cast<double>(factor);
-    coarse[i / factor] += samples[i] * (1 - part);
-    coarse[i / factor + 1] += samples[i] * part;
+  for (std::size_t begin = 0, to = 0; begin < samples.size(); begin += factor, ++to) {
+    double sum = 0, moment = 0;
+    for (std::size_t k = 0; k < std::min(factor, samples.size() - begin); ++k) {
+      sum += samples[begin + k];
+      moment += samples[begin + k] * static_cast<double>(k);
+    }
+    coarse[to] += sum - moment / static_cast<double>(factor);
+    coarse[to + 1] += moment / static_cast<double>(factor);
   }
   return coarse;
 }
@@ -101,11 +125,10 @@ struct Shape {
 };
 
 std::optional<Shape> ShapeOf(const Waveform& wave) {
-  const double step = wave.sigma() / 3;
-  const auto count = static_cast<std::size_t>((wave.last() - wave.first()) / step);
-  std::vector<double> values(count);
-  for (std::size_t i = 0; i < count; ++i)
-    values[i] = wave.At(wave.first() + step * static_cast<double>(i)).value;
+  const auto stride = static_cast<std::size_t>(std::max(1.0, wave.sigma() / 3 / wave.step()));
+  const double step = wave.step() * static_cast<double>(stride);
+  const std::vector<double> values = wave.Scan(stride);
+  const std::size_t count = values.size();
   const auto top = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   if (count < 3 || top == 0 || top + 1 >= count || !(values[top] > 0)) return std::nullopt;
   const auto time = [&](std::size_t i) { return wave.first() + step * static_cast<double>(i); };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "generator/math/random_stream.h"
 
@@ -97,6 +98,25 @@ class NearArrivals {
 
 }  // namespace
 
+Echo::Echo(double of_step)
+    : step(of_step),
+      weights(static_cast<std::size_t>((kLatest - kEarliest) / of_step) + 2),
+      ahead_weights(weights.size()) {}
+
+void Echo::Add(double time, double ahead_of, double weight) {
+  energy += weight;
+  ahead += weight * ahead_of;
+  ahead_squared += weight * ahead_of * ahead_of;
+  const double place = (time - kEarliest) / step;
+  if (!(place >= 0 && place < static_cast<double>(weights.size() - 1))) return;
+  const auto bin = static_cast<std::size_t>(place);
+  const double later = weight * (place - static_cast<double>(bin)), earlier = weight - later;
+  weights[bin] += earlier;
+  weights[bin + 1] += later;
+  ahead_weights[bin] += earlier * ahead_of;
+  ahead_weights[bin + 1] += later * ahead_of;
+}
+
 Echo& Echo::operator+=(const Echo& other) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     weights[i] += other.weights[i];
@@ -119,11 +139,14 @@ Echo& Echo::operator*=(double factor) {
 
 Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
                  std::uint64_t seed, std::uint32_t cell, std::uint32_t pool) {
-  Echo echo;
-  echo.step = setup.step;
-  const auto bins = static_cast<std::size_t>((Echo::kLatest - Echo::kEarliest) / setup.step) + 2;
-  echo.weights.assign(bins, 0);
-  echo.ahead_weights.assign(bins, 0);
+  const std::array one = {setup.field_of_view};
+  return std::move(PairPhotons(sources, receivers, setup, one, seed, cell, pool).front());
+}
+
+std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
+                              std::span<const double> fields_of_view, std::uint64_t seed, std::uint32_t cell,
+                              std::uint32_t pool) {
+  std::vector<Echo> echoes(fields_of_view.size(), Echo(setup.step));
   const std::vector<Arrival> lit = ArrivalsOf(sources, setup.absorption);
   const double cosine = std::cos(setup.incidence), radius = setup.field_of_view / 2;
   const double lag = std::sin(setup.incidence) / (2 * setup.group_index);
@@ -150,24 +173,21 @@ Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const Ech
       const auto chosen = static_cast<std::uint32_t>(pick * near.count());
       const Arrival& receiver = near[std::min(chosen, near.count() - 1)];
       const double exit_x = x - receiver.ahead, exit_y = y - receiver.sideways;
-      if (std::hypot(exit_x * cosine, exit_y) > radius) continue;
-      const double weight = double{source.weight} * receiver.weight * near.count();
-      echo.energy += weight;
-      echo.ahead += weight * x;
-      echo.ahead_squared += weight * x * x;
+      const double diameter = 2 * std::hypot(exit_x * cosine, exit_y);
+      // The least field of view that sees it; wider ones are summed up below.
+      const auto least = std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter);
+      if (least == fields_of_view.end()) continue;
       const double time = (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x);
-      const double place = (time - Echo::kEarliest) / setup.step;
-      if (!(place >= 0 && place < static_cast<double>(bins - 1))) continue;
-      const auto bin = static_cast<std::size_t>(place);
-      const double part = place - static_cast<double>(bin);
-      echo.weights[bin] += weight * (1 - part);
-      echo.weights[bin + 1] += weight * part;
-      echo.ahead_weights[bin] += weight * x * (1 - part);
-      echo.ahead_weights[bin + 1] += weight * x * part;
+      echoes[static_cast<std::size_t>(least - fields_of_view.begin())].Add(
+          time, x, double{source.weight} * receiver.weight * near.count());
     }
   }
   const double pairs = static_cast<double>(sources.launched) * receivers.launched;
-  return echo *= 1 / (setup.pairs_per_photon * pairs);
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    echoes[i] *= 1 / (setup.pairs_per_photon * pairs);
+    if (i > 0) echoes[i] += echoes[i - 1];
+  }
+  return echoes;
 }
 
 }  // namespace albtpu

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "generator/water/photon_walk.h"
@@ -29,13 +30,16 @@ struct EchoSetup {
 struct Echo {
   static constexpr double kEarliest = -2, kLatest = 5;  // Pairs outside count in the sums alone.
 
-  double step = 0;
+  double step;
   std::vector<double> weights;  // at kEarliest + i * step; a pair is split between its two neighbours
   std::vector<double>
       ahead_weights;  // times the point on the bottom, ahead of where unscattered light meets it
   double energy = 0;  // of all pairs
   double ahead = 0, ahead_squared = 0;
 
+  explicit Echo(double of_step = 1);
+
+  void Add(double time, double ahead_of, double weight);  // a pair
   double TimeAt(double i) const { return kEarliest + i * step; }
   Echo& operator+=(const Echo& other);  // of the same step
   Echo& operator*=(double factor);
@@ -45,5 +49,10 @@ struct Echo {
 // receiver sends out. Streams are of (seed, cell, photon, pool).
 Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
                  std::uint64_t seed, std::uint32_t cell, std::uint32_t pool);
+
+// The same pairs seen in several fields of view, increasing, the last of which is that of `setup`: an echo for each.
+std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
+                              std::span<const double> fields_of_view, std::uint64_t seed, std::uint32_t cell,
+                              std::uint32_t pool);
 
 }  // namespace albtpu

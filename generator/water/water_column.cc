@@ -3,13 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <utility>
 
 namespace albtpu {
 namespace {
 
 // Excess of paths, in units of 1 / a, beyond which absorption has left a millionth of the light.
 constexpr double kAbsorbed = 14;
+// Of fields of view over the depth.
+constexpr double kNarrow = 0.25;
 
 EchoSetup SetupOf(const WaterColumn& column, std::span<const double> pulse_lengths, int pairs_per_photon) {
   return {.incidence = column.incidence,
@@ -89,18 +93,48 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
 
 WaterColumnBias ComputeWaterColumn(const PhaseFunction& phase, const WaterColumn& column,
                                    std::span<const double> pulse_lengths, const WaterEffort& effort) {
+  const std::array scattering = {column.scattering}, fields_of_view = {column.field_of_view};
+  return std::move(
+      ComputeWaterColumns(phase, column, scattering, fields_of_view, pulse_lengths, effort)[0][0]);
+}
+
+std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunction& phase,
+                                                              const WaterColumn& column,
+                                                              std::span<const double> scattering,
+                                                              std::span<const double> fields_of_view,
+                                                              std::span<const double> pulse_lengths,
+                                                              const WaterEffort& effort) {
   const WalkSetup walk{.refracted = RefractedAngle(column.incidence, column.refractive_index),
                        .refractive_index = column.refractive_index,
                        .longest_excess = kAbsorbed / std::max(column.absorption, 1e-3)};
-  const EchoSetup setup = SetupOf(column, pulse_lengths, effort.pairs_per_photon);
-  std::vector<Echo> pools(effort.pools);
+  std::vector<std::vector<Crossings>> pools(effort.pools);
   tbb::parallel_for(std::uint32_t{0}, effort.pools, [&](std::uint32_t pool) {
-    const double depths[] = {column.scattering};
-    const std::vector<Crossings> crossings =
-        WalkPhotons(phase, walk, depths, effort.photons, effort.seed, effort.cell, pool);
-    pools[pool] = PairPhotons(crossings[0], crossings[0], setup, effort.seed, effort.cell, pool);
+    pools[pool] = WalkPhotons(phase, walk, scattering, effort.photons, effort.seed, effort.cell, pool);
   });
-  return BiasOfEchoes(pools, column, pulse_lengths);
+  // Of pairs in a wide view, few are in a narrow one: narrow views have pairs of their own.
+  const auto narrow = static_cast<std::size_t>(
+      std::upper_bound(fields_of_view.begin(), fields_of_view.end(), kNarrow) - fields_of_view.begin());
+  std::vector<std::vector<WaterColumnBias>> biases(scattering.size());
+  for (std::size_t depth = 0; depth < scattering.size(); ++depth) {
+    for (const auto& views : {fields_of_view.first(narrow), fields_of_view.subspan(narrow)}) {
+      if (views.empty()) continue;
+      WaterColumn seen = column;
+      seen.field_of_view = views.back();
+      const EchoSetup setup = SetupOf(seen, pulse_lengths, effort.pairs_per_photon);
+      std::vector<std::vector<Echo>> echoes(views.size(), std::vector<Echo>(effort.pools));
+      tbb::parallel_for(std::uint32_t{0}, effort.pools, [&](std::uint32_t pool) {
+        const Crossings& crossings = pools[pool][depth];
+        std::vector<Echo> paired =
+            PairPhotons(crossings, crossings, setup, views, effort.seed, effort.cell, pool);
+        for (std::size_t view = 0; view < views.size(); ++view) echoes[view][pool] = std::move(paired[view]);
+      });
+      for (std::size_t view = 0; view < views.size(); ++view) {
+        seen.field_of_view = views[view];
+        biases[depth].push_back(BiasOfEchoes(echoes[view], seen, pulse_lengths));
+      }
+    }
+  }
+  return biases;
 }
 
 }  // namespace albtpu

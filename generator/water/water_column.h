@@ -56,6 +56,13 @@ WaterColumnBias ComputeWaterColumn(const PhaseFunction& phase, const WaterColumn
 WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& column,
                              std::span<const double> pulse_lengths);
 
+// The same for several depths of one water and several fields of view: one walk serves all. `scattering` increases and
+// takes the place of `column.scattering`; `fields_of_view` increase and take the place of its field of view. Element
+// [i][j] is of scattering[i] and fields_of_view[j].
+std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(
+    const PhaseFunction& phase, const WaterColumn& column, std::span<const double> scattering,
+    std::span<const double> fields_of_view, std::span<const double> pulse_lengths, const WaterEffort& effort);
+
 // The angle in the water of a beam [radian].
 double RefractedAngle(double incidence, double refractive_index);
 

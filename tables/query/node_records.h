@@ -22,9 +22,9 @@ struct RecordPlace {
 struct NodeRecords {
   explicit NodeRecords(const Table& table);
 
-  // The most sets that a table may need: three quantities over one number of axes, five over the other.
+  // The most sets that a table may need: three quantities over one number of axes, six over the other.
   static constexpr std::size_t kMaxSets = 6;
-  static_assert(kMaxQuantities == 8 && kRecordSize == 4);
+  static_assert(kMaxQuantities == 9 && kRecordSize == 4);
 
   struct Set {
     bool over_last_axis;

@@ -89,13 +89,10 @@ std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& t
   const double unscattered = trip.depth / down.z(), x0 = unscattered * sine;
   const double lag = std::sin(trip.incidence) / (2 * trip.group_index), cosine = std::cos(trip.incidence);
   const double in_cone = down.z() * std::pow(std::sin(trip.cone), 2);  // of Lambertian light
-  std::vector<Echo> echoes(pools);
+  std::vector<Echo> echoes(pools, Echo(step));
   tbb::parallel_for(std::uint32_t{0}, pools, [&](std::uint32_t pool) {
     Random random(seed * 1000 + pool);
     Echo& echo = echoes[pool];
-    echo.step = step;
-    echo.weights.assign(static_cast<std::size_t>((Echo::kLatest - Echo::kEarliest) / step) + 2, 0);
-    echo.ahead_weights = echo.weights;
     for (std::uint32_t i = 0; i < photons; ++i) {
       Traveller photon(phase, trip, x0);
       const double length = trip.footprint / 4 * std::sqrt(-2 * std::log(Uniform(random)));
@@ -112,17 +109,7 @@ std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& t
       const double excess = photon.path - 2 * unscattered;
       const double weight = std::exp(-trip.absorption * excess) / in_cone / photons;
       const double time = (excess / 2 + lag * (entry + photon.at.x())) / trip.depth;
-      echo.energy += weight;
-      echo.ahead += weight * ahead;
-      echo.ahead_squared += weight * ahead * ahead;
-      const double place = (time - Echo::kEarliest) / step;
-      if (!(place >= 0 && place < static_cast<double>(echo.weights.size() - 1))) continue;
-      const auto bin = static_cast<std::size_t>(place);
-      const double part = place - static_cast<double>(bin);
-      echo.weights[bin] += weight * (1 - part);
-      echo.weights[bin + 1] += weight * part;
-      echo.ahead_weights[bin] += weight * ahead * (1 - part);
-      echo.ahead_weights[bin + 1] += weight * ahead * part;
+      echo.Add(time, ahead, weight);
     }
   });
   return echoes;

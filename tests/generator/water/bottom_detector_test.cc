@@ -9,39 +9,21 @@
 namespace albtpu {
 namespace {
 
-Echo EmptyEcho(double step) {
-  Echo echo{.step = step, .weights = {}, .ahead_weights = {}};
-  const auto bins = static_cast<std::size_t>((Echo::kLatest - Echo::kEarliest) / step) + 2;
-  echo.weights.assign(bins, 0);
-  echo.ahead_weights.assign(bins, 0);
-  return echo;
-}
-
-void Add(Echo& echo, double time, double ahead, double weight) {
-  const double place = (time - Echo::kEarliest) / echo.step;
-  const auto bin = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(bin);
-  echo.weights[bin] += weight * (1 - part);
-  echo.weights[bin + 1] += weight * part;
-  echo.ahead_weights[bin] += weight * ahead * (1 - part);
-  echo.ahead_weights[bin + 1] += weight * ahead * part;
-}
-
 // A skewed echo whose late light comes from farther ahead; a bottom of slope `slope` delays each by its point.
 Echo SkewedEcho(double slope) {
-  Echo echo = EmptyEcho(0.0005);
+  Echo echo(0.0005);
   UniformStream random(1, 0, 0);
   for (int i = 0; i < 20'000; ++i) {
     const double late = -0.1 * std::log(random.Next()), ahead = 0.3 * late + 0.2 * (random.Next() - 0.5);
-    Add(echo, late + slope * ahead, ahead, 1);
+    echo.Add(late + slope * ahead, ahead, 1);
   }
-  Add(echo, 0, 0, 20'000);
+  echo.Add(0, 0, 20'000);
   return echo;
 }
 
 TEST(BottomDetector, FindsASinglePointAtItsTime) {
-  Echo echo = EmptyEcho(0.001);
-  Add(echo, 0.25, 0.5, 3);
+  Echo echo(0.001);
+  echo.Add(0.25, 0.5, 3);
   for (const double pulse : {0.02, 0.1, 0.5}) {
     const auto bottom = DetectBottom(echo, pulse);
     ASSERT_TRUE(bottom.has_value());
@@ -81,9 +63,9 @@ TEST(BottomDetector, MeasuresThePointByWhichATiltIsSeen) {
 }
 
 TEST(BottomDetector, FindsNothingInTheDark) {
-  EXPECT_FALSE(DetectBottom(EmptyEcho(0.001), 0.1).has_value());
-  Echo endless = EmptyEcho(0.001);
-  for (double time = 0; time < Echo::kLatest - 0.01; time += 0.001) Add(endless, time, 0, 1);
+  EXPECT_FALSE(DetectBottom(Echo(0.001), 0.1).has_value());
+  Echo endless(0.001);
+  for (double time = 0; time < Echo::kLatest - 0.01; time += 0.001) endless.Add(time, 0, 1);
   EXPECT_FALSE(DetectBottom(endless, 3).has_value());
 }
 
@@ -92,11 +74,11 @@ TEST(BottomDetector, KnowsClearWaterInClosedForm) {
   const EchoSetup setup{.incidence = 0.4, .footprint = 0.5, .step = 0.001};
   const double spread = setup.footprint / 4 / std::cos(setup.incidence);
   const double slope = std::sin(setup.incidence) / setup.group_index;
-  Echo echo = EmptyEcho(setup.step);
+  Echo echo(setup.step);
   const int draws = 20'001;
   for (int i = 0; i < draws; ++i) {
     const double u = -6 + 12.0 * i / (draws - 1);
-    Add(echo, slope * spread * u, spread * u, std::exp(-u * u / 2));
+    echo.Add(slope * spread * u, spread * u, std::exp(-u * u / 2));
   }
   const double pulse = 0.08;
   const auto drawn = DetectBottom(echo, pulse);

@@ -45,14 +45,15 @@ constexpr AxisSchema Plain(const char* name, Scale scale) {
 constexpr std::array<AxisSchema, kMaxAxes> kSix = {
     Plain("a", Scale::kLinear), kAttenuation, Plain("c", Scale::kLog),
     Plain("d", Scale::kLinear), kHeading,     Plain("f", Scale::kLog)};
-constexpr std::array<QuantitySchema, kMaxQuantities> kEightQuantities = {{{"q0", "1", "q0", true, false},
-                                                                          {"q1", "1", "q1", false, true},
-                                                                          {"q2", "1", "q2", true, false},
-                                                                          {"q3", "1", "q3", true, true},
-                                                                          {"q4", "1", "q4", false, false},
-                                                                          {"q5", "1", "q5", true, false},
-                                                                          {"q6", "1", "q6", false, false},
-                                                                          {"q7", "1", "q7", true, true}}};
+constexpr std::array<QuantitySchema, kMaxQuantities> kNineQuantities = {{{"q0", "1", "q0", true, false},
+                                                                         {"q1", "1", "q1", false, true},
+                                                                         {"q2", "1", "q2", true, false},
+                                                                         {"q3", "1", "q3", true, true},
+                                                                         {"q4", "1", "q4", false, false},
+                                                                         {"q5", "1", "q5", true, false},
+                                                                         {"q6", "1", "q6", false, false},
+                                                                         {"q7", "1", "q7", true, true},
+                                                                         {"q8", "1", "q8", true, false}}};
 constexpr std::array<std::size_t, kMaxAxes> kSixOrder = {4, 2, 0, 3, 1, 5};
 
 constexpr std::array<AxisSchema, 1> kOne = {kRange};
@@ -62,7 +63,7 @@ constexpr std::array<std::size_t, 1> kOneOrder = {0};
 constexpr TableSchema kSchemas[] = {
     {.name = "three_axes", .axes = kThree, .quantities = kTwoQuantities, .blend_order = kThreeOrder},
     {.name = "three_axes_renamed", .axes = kThree, .quantities = kTwoQuantities, .blend_order = kThreeOrder},
-    {.name = "largest_kind", .axes = kSix, .quantities = kEightQuantities, .blend_order = kSixOrder},
+    {.name = "largest_kind", .axes = kSix, .quantities = kNineQuantities, .blend_order = kSixOrder},
     {.name = "one_axis", .axes = kOne, .quantities = kOneQuantity, .blend_order = kOneOrder},
     {.name = "half_turn", .axes = kTurned, .quantities = kTwoQuantities, .blend_order = kThreeOrder}};
 static_assert(IsWellFormed(kSchemas[0]) && IsWellFormed(kSchemas[1]) && IsWellFormed(kSchemas[2]) &&

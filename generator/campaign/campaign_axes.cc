@@ -1,0 +1,136 @@
+#include "generator/campaign/campaign_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "generator/campaign/campaign_keys.h"
+#include "tables/water/water_schema.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Nodes are kept in single precision, as in tables: 0.1 in the file becomes the float nearest to it.
+std::vector<double> InSinglePrecision(std::vector<double> nodes) {
+  for (double& node : nodes) node = static_cast<float>(node);
+  return nodes;
+}
+
+// The least float at or above `x`.
+double FloatNotBelow(double x) {
+  const float nearest = static_cast<float>(x);
+  return nearest >= x ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+// `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
+// there the seas of all winds are, and beyond it nothing changes.
+absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
+                          const std::vector<double>& wind_speed) {
+  if (fetch.empty() || fetch.back() != kInfinity) {
+    return absl::InvalidArgumentError(
+        "the last node of 'axes.fetch' must be inf, the fully developed sea: beyond it nothing changes");
+  }
+  const double strongest = *std::max_element(wind_speed.begin(), wind_speed.end());
+  // A calm is the same at any fetch.
+  const double developed = strongest > 0 ? FloatNotBelow(model.fully_developed_fetch(strongest)) : 1;
+  fetch.back() = developed;
+  if (fetch.size() > 1 && !(fetch[fetch.size() - 2] < developed)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("node ", fetch.size() - 2, " of 'axes.fetch', ", fetch[fetch.size() - 2],
+                     " m, is beyond full development of the strongest wind (", developed,
+                     " m): leave it out, the last node is that sea"));
+  }
+  return absl::OkStatus();
+}
+
+// In the order of AxisId.
+constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindSpeed, campaign_keys::kFetch,
+                                                           campaign_keys::kIncidence, campaign_keys::kAzimuth,
+                                                           campaign_keys::kFootprint, campaign_keys::kDepth};
+
+// Whether the sea of a file takes the place of the axis.
+bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
+
+// In the order of WaterAxis.
+constexpr std::array kWaterAxisKeys = {
+    campaign_keys::kBackscatterFraction, campaign_keys::kScatteringOverAbsorption,
+    campaign_keys::kIncidenceOnWater,    campaign_keys::kOpticalDepth,
+    campaign_keys::kFieldOfView,         campaign_keys::kPulseLength};
+static_assert(kWaterAxisKeys.size() == kAxisCount);
+
+absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const Nodes& nodes) {
+  std::vector<Axis> axes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    absl::StatusOr<Axis> axis = Axis::Create(kind.axes[i], nodes[i]);
+    if (!axis.ok()) return axis.status();
+    axes.push_back(*std::move(axis));
+  }
+  return UncertaintyTable::Axes{axes[0], axes[1], axes[2], axes[3], axes[4], axes[5]};
+}
+
+}  // namespace
+
+Nodes ReadNodesOfSea(TomlReader& toml, bool has_sea_file) {
+  Nodes nodes;
+  for (const AxisId axis : kAxes) {
+    const CampaignKey& key = kAxisKeys[Index(axis)];
+    if (!has_sea_file || !IsOfWindSea(axis)) {
+      nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, key));
+    } else if (toml.Has(key.table, key.name)) {
+      toml.Fail(absl::StrCat("'", FullName(key),
+                             "' has no place beside 'sea.file', which is one sea: leave it out"));
+    }
+  }
+  return nodes;
+}
+
+Nodes ReadNodesOfWater(TomlReader& toml) {
+  Nodes nodes;
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis)
+    nodes[axis] = InSinglePrecision(ReadNodes(toml, kWaterAxisKeys[axis]));
+  return nodes;
+}
+
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes) {
+  for (const AxisId axis : kAxes) {
+    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
+    if (!problem.empty()) return absl::InvalidArgumentError(problem);
+  }
+  const absl::Status fetch =
+      ResolveFetch(model, nodes[Index(AxisId::kFetch)], nodes[Index(AxisId::kWindSpeed)]);
+  if (!fetch.ok()) return fetch;
+
+  return AxesOfKind(kSeaSurface, nodes);
+}
+
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TracedSea& sea, Nodes nodes) {
+  for (const AxisId axis : kAxes) {
+    if (IsOfWindSea(axis) || axis == AxisId::kAzimuth) continue;
+    const std::string problem = NodesProblem(kAxisKeys[Index(axis)], nodes[Index(axis)]);
+    if (!problem.empty()) return absl::InvalidArgumentError(problem);
+  }
+  const std::vector<double>& azimuth = nodes[Index(AxisId::kAzimuth)];
+  if (azimuth.size() < 2 || azimuth.front() != 0 || azimuth.back() != 180) {
+    return absl::InvalidArgumentError(
+        "'axes.azimuth' of the sea of a file must begin at 0 and end at 180 (a sea looks alike after half a "
+        "turn, "
+        "and need not in a mirror); add the missing nodes");
+  }
+  nodes[Index(AxisId::kWindSpeed)] = InSinglePrecision({sea.described.wind_speed_10m});
+  nodes[Index(AxisId::kFetch)] = {1};
+  return AxesOfKind(kOneSea, nodes);
+}
+
+absl::StatusOr<UncertaintyTable::Axes> MakeWaterAxes(const Nodes& nodes) {
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    const std::string problem = NodesProblem(kWaterAxisKeys[axis], nodes[axis]);
+    if (!problem.empty()) return absl::InvalidArgumentError(problem);
+  }
+  return AxesOfKind(kWaterColumn, nodes);
+}
+
+}  // namespace albtpu

@@ -1,0 +1,29 @@
+// The nodes of a campaign file, and the axes that they make.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "generator/campaign/toml_reader.h"
+#include "generator/campaign/traced_sea.h"
+#include "sea/wave_state.h"
+#include "tables/uncertainty_table.h"
+
+namespace albtpu {
+
+// In the order of the axes of the kind.
+using Nodes = std::array<std::vector<double>, kAxisCount>;
+
+// The sea of a file has no axes of wind and fetch. Problems are remembered by `toml`.
+Nodes ReadNodesOfSea(TomlReader& toml, bool has_sea_file);
+Nodes ReadNodesOfWater(TomlReader& toml);
+
+// Checks the rules for a sea that can be simulated, and then those of all axes. InvalidArgument with the key.
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes);
+// The same of one sea, whose axes of wind and fetch have the one node that its tables have.
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TracedSea& sea, Nodes nodes);
+// The same of the water column.
+absl::StatusOr<UncertaintyTable::Axes> MakeWaterAxes(const Nodes& nodes);
+
+}  // namespace albtpu

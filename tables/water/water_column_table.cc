@@ -1,0 +1,155 @@
+#include "tables/water/water_column_table.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu {
+namespace {
+
+// The nodes from `first` on and what each counts.
+struct Weights {
+  std::size_t first = 0, count = 0;
+  std::array<double, 4> of = {};
+};
+
+double Scaled(const Axis& axis, double x) { return axis.scale() == Scale::kLog ? std::log(x) : x; }
+
+// Lagrange's polynomial through the four nodes around `coordinate`, which is within the nodes; through all of fewer.
+Weights CubicWeights(const Axis& axis, double coordinate) {
+  const std::vector<double>& nodes = axis.nodes();
+  Weights weights;
+  weights.count = std::min<std::size_t>(4, nodes.size());
+  const auto above = std::upper_bound(nodes.begin(), nodes.end(), coordinate) - nodes.begin();
+  const auto last = static_cast<std::ptrdiff_t>(nodes.size() - weights.count);
+  weights.first = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 2, 0, last));
+  const double x = Scaled(axis, coordinate);
+  for (std::size_t i = 0; i < weights.count; ++i) {
+    double weight = 1;
+    const double own = Scaled(axis, nodes[weights.first + i]);
+    for (std::size_t j = 0; j < weights.count; ++j) {
+      if (j == i) continue;
+      const double other = Scaled(axis, nodes[weights.first + j]);
+      weight *= (x - other) / (own - other);
+    }
+    weights.of[i] = weight;
+  }
+  return weights;
+}
+
+double Held(const Axis& axis, double x) { return std::clamp(x, axis.nodes().front(), axis.nodes().back()); }
+
+const Axis& AxisOf(const std::vector<Axis>& axes, WaterAxis axis) { return axes[Index(axis)]; }
+
+// Whether a quantity is kept over the optical depth, to which it is in proportion in shallow water.
+bool IsOverOpticalDepth(std::size_t quantity) {
+  return quantity != Index(WaterQuantity::kStretch) && quantity != Index(WaterQuantity::kSpot);
+}
+
+}  // namespace
+
+std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
+  const Axis &incidence = AxisOf(*axes_, WaterAxis::kIncidence),
+             &optical_depth = AxisOf(*axes_, WaterAxis::kOpticalDepth),
+             &view = AxisOf(*axes_, WaterAxis::kFieldOfView),
+             &pulse = AxisOf(*axes_, WaterAxis::kPulseLength);
+  const auto within = [](const Axis& axis, double x) {
+    return x >= axis.nodes().front() && x <= axis.nodes().back();
+  };
+  if (!within(incidence, beam.incidence)) return std::nullopt;
+  if (!(beam.optical_depth >= 0 && beam.optical_depth <= optical_depth.nodes().back())) return std::nullopt;
+  if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front()))
+    return std::nullopt;
+  const Weights theta = CubicWeights(incidence, beam.incidence);
+  const Weights tau = CubicWeights(optical_depth, Held(optical_depth, beam.optical_depth));
+  const Weights f = CubicWeights(view, Held(view, beam.field_of_view));
+  const Weights p = CubicWeights(pulse, Held(pulse, beam.pulse_length));
+  const std::size_t taus = optical_depth.size(), views = view.size(), pulses = pulse.size();
+  WaterAnswer answer = {};
+  for (std::size_t i = 0; i < theta.count; ++i) {
+    for (std::size_t j = 0; j < tau.count; ++j) {
+      for (std::size_t k = 0; k < f.count; ++k) {
+        const double weight = theta.of[i] * tau.of[j] * f.of[k];
+        const std::size_t at = ((theta.first + i) * taus + tau.first + j) * views + f.first + k;
+        for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+          const float* const values = values_[q].data();
+          if (!kWaterColumn.quantities[q].over_last_axis) {
+            answer[q] += weight * values[at];
+            continue;
+          }
+          const float* const row = values + at * pulses + p.first;
+          double sum = 0;
+          for (std::size_t l = 0; l < p.count; ++l) sum += p.of[l] * row[l];
+          answer[q] += weight * sum;
+        }
+      }
+    }
+  }
+  for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
+    if (IsOverOpticalDepth(q)) answer[q] *= beam.optical_depth;
+  answer[Index(WaterQuantity::kEnergy)] = std::exp(answer[Index(WaterQuantity::kEnergy)]);
+  return answer;
+}
+
+absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
+  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+    if (table.variable(q) != nullptr) continue;
+    return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[q].name),
+                                                   "' is missing; a table of the water column has all of them"));
+  }
+  const std::vector<float>& energies = table.variable(Index(WaterQuantity::kEnergy))->values;
+  if (!std::all_of(energies.begin(), energies.end(), [](float energy) { return energy > 0; }))
+    return absl::InvalidArgumentError("variable 'energy' has a value of 0; an echo has energy");
+  if (!(AxisOf(table.axes(), WaterAxis::kOpticalDepth).nodes().front() > 0))
+    return absl::InvalidArgumentError("axis 'optical_depth' begins at 0; its first node must be above");
+  return WaterColumnTable(std::move(table));
+}
+
+WaterColumnTable::WaterColumnTable(Table table) : table_(std::move(table)) {
+  assert(&table_.schema() == &kWaterColumn);
+  const std::vector<double>& taus = axis(WaterAxis::kOpticalDepth).nodes();
+  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+    values_[q] = table_.variable(q)->values;
+    // Nodes of the optical depth take turns after each run of the faster axes.
+    std::size_t run = axis(WaterAxis::kFieldOfView).size();
+    if (kWaterColumn.quantities[q].over_last_axis) run *= axis(WaterAxis::kPulseLength).size();
+    for (std::size_t i = 0; i < values_[q].size(); ++i) {
+      double value = values_[q][i];
+      if (q == Index(WaterQuantity::kEnergy)) value = std::log(value);
+      if (IsOverOpticalDepth(q)) value /= taus[i / run % taus.size()];
+      values_[q][i] = static_cast<float>(value);
+    }
+  }
+}
+
+std::pair<double, double> WaterColumnTable::Range(WaterAxis axis) const {
+  const std::vector<double>& nodes = this->axis(axis).nodes();
+  return {nodes.front(), nodes.back()};
+}
+
+OneWater WaterColumnTable::Of(double backscatter_fraction, double scattering_over_absorption) const {
+  const Axis &fraction = axis(WaterAxis::kBackscatterFraction),
+             &ratio = axis(WaterAxis::kScatteringOverAbsorption);
+  const Weights i = CubicWeights(fraction, Held(fraction, backscatter_fraction));
+  const Weights j = CubicWeights(ratio, Held(ratio, scattering_over_absorption));
+  OneWater water;
+  water.axes_ = &table_.axes();
+  for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+    const std::size_t size = values_[q].size() / fraction.size() / ratio.size();
+    water.values_[q].assign(size, 0);
+    for (std::size_t m = 0; m < i.count; ++m) {
+      for (std::size_t n = 0; n < j.count; ++n) {
+        const auto weight = static_cast<float>(i.of[m] * j.of[n]);
+        const float* const from = values_[q].data() + ((i.first + m) * ratio.size() + j.first + n) * size;
+        for (std::size_t k = 0; k < size; ++k) water.values_[q][k] += weight * from[k];
+      }
+    }
+  }
+  return water;
+}
+
+}  // namespace albtpu
