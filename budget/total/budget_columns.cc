@@ -31,7 +31,7 @@ struct alignas(64) CovarianceBlock {
 
 struct alignas(64) Block {
   Column input[kBudgetInputCount];
-  CovarianceBlock pulse, line, survey, air, sea, total;
+  CovarianceBlock pulse, line, survey, air, sea, water, total;
 };
 
 }  // namespace
@@ -97,6 +97,19 @@ HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wa
   return c;
 }
 
+// The part of the water column that all pulses of a survey share. Too shallow is up.
+HWY_INLINE NedCovariance WaterShareOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
+  const F along2 = along * along, up = correlation * (along * vertical);
+  return {along2 * (beam.north * beam.north), along2 * (beam.east * beam.east), vertical * vertical,
+          along2 * (beam.north * beam.east),  hn::Neg(up * beam.north),         hn::Neg(up * beam.east)};
+}
+
+// A range in water whose vertical part is 1 m too short.
+HWY_INLINE Ned ShortRange(const BeamNumbers& beam) {
+  const F back = hn::Neg(beam.sine_refracted / beam.cosine_refracted);
+  return {back * beam.north, back * beam.east, Constant(-1)};
+}
+
 void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
   const Floats d;
   for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
@@ -126,12 +139,19 @@ void ComputeBlock(const AirConstants& is, float datum_variance, Block& block) {
                                          in(BudgetInput::kSeaAxis), in(BudgetInput::kWaveHeight), air.beam);
     NedCovariance survey = air.survey;
     survey.dd = survey.dd + Constant(datum_variance);
-    const NedCovariance own = air.pulse + sea;
+    const NedCovariance water =
+        WaterShareOf(in(BudgetInput::kWaterSigmaAlong), in(BudgetInput::kWaterSigmaVertical),
+                     in(BudgetInput::kWaterCorrelation), air.beam);
+    NedCovariance noise = NoCovariance();
+    noise.Add(in(BudgetInput::kWaterNoise)*ShortRange(air.beam));
+    survey = survey + water;
+    const NedCovariance own = air.pulse + sea + noise;
     Store(own, block.pulse, i);
     Store(air.line, block.line, i);
     Store(survey, block.survey, i);
     Store(air.pulse + air.line + air.survey, block.air, i);
     Store(sea, block.sea, i);
+    Store(water + noise, block.water, i);
     Store(own + air.line + survey, block.total, i);
   }
 }
@@ -243,9 +263,11 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
     };
     state(block.air, outputs.thu_air, outputs.tvu_air);
     state(block.sea, outputs.thu_sea, outputs.tvu_sea);
+    state(block.water, outputs.thu_water, outputs.tvu_water);
     state(block.total, outputs.thu, outputs.tvu);
     Write(block.air, begin, count, outputs.air);
     Write(block.sea, begin, count, outputs.sea);
+    Write(block.water, begin, count, outputs.water);
     Write(block.total, begin, count, outputs.total);
     const CovarianceBlock* const groups[] = {&block.pulse, &block.line, &block.survey};
     for (std::size_t g = 0; g < kErrorGroups; ++g) Write(*groups[g], begin, count, outputs.groups[g]);

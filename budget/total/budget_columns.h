@@ -1,5 +1,5 @@
-// The total uncertainty of many pulses: the shares of the air side, the sea surface and the datum, added as
-// covariances.
+// The total uncertainty of many pulses: the shares of the air side, the sea surface, the water column and the datum,
+// added as covariances.
 #pragma once
 
 #include <array>
@@ -47,13 +47,21 @@ enum class BudgetInput : std::uint8_t {
   kBiasVertical,     // m. None: not known, taken as 0.
   kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
   kWaveHeight,  // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
+  // The share of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
+  kWaterSigmaAlong,     // m, along the beam, of all pulses of a survey alike.
+  kWaterSigmaVertical,  // m, the same, vertical.
+  kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1.
+  kWaterNoise,          // m, vertical, of the photons of this echo alone.
 };
-inline constexpr std::size_t kBudgetInputCount = 27;
+inline constexpr std::size_t kBudgetInputCount = 31;
+// clang-format off
 inline constexpr std::array<std::string_view, kBudgetInputCount> kBudgetInputNames = {
     "incidence", "beam_azimuth", "altitude", "depth", "roll", "pitch", "heading", "velocity_north", "velocity_east",
     "velocity_down", "roll_rate", "pitch_rate", "yaw_rate", "position_sigma_north", "position_sigma_east",
     "position_sigma_down", "roll_sigma", "pitch_sigma", "heading_sigma", "sea_thu", "sea_tvu", "refraction_along",
-    "refraction_cross", "bias_along_beam", "bias_vertical", "sea_axis", "wave_height"};
+    "refraction_cross", "bias_along_beam", "bias_vertical", "sea_axis", "wave_height", "water_sigma_along",
+    "water_sigma_vertical", "water_correlation", "water_noise"};
+// clang-format on
 
 struct BudgetInputs {
   std::size_t size = 0;
@@ -86,11 +94,12 @@ inline constexpr std::array<std::string_view, 6> kCovarianceNames = {"NN", "EE",
 // the radius that holds 95 % of the two-dimensional normal distribution with this covariance, and 1.96 standard
 // deviations. At 1 sigma half of 2 sigma.
 struct BudgetOutputs {
-  std::span<float> thu = {}, tvu = {};                      // m, of all shares.
-  std::span<float> thu_air = {}, tvu_air = {};              // m, of the air side alone.
-  std::span<float> thu_sea = {}, tvu_sea = {};              // m, of sea surface and unseen waves.
-  CovarianceColumns air = {}, sea = {}, total = {};         // Of shares and their sum.
-  std::array<CovarianceColumns, kErrorGroups> groups = {};  // Of the same sum by ErrorGroup.
+  std::span<float> thu = {}, tvu = {};                           // m, of all shares.
+  std::span<float> thu_air = {}, tvu_air = {};                   // m, of the air side alone.
+  std::span<float> thu_sea = {}, tvu_sea = {};                   // m, of sea surface and unseen waves.
+  std::span<float> thu_water = {}, tvu_water = {};               // m, of the water column.
+  CovarianceColumns air = {}, sea = {}, water = {}, total = {};  // Of shares and their sum.
+  std::array<CovarianceColumns, kErrorGroups> groups = {};       // Of the same sum by ErrorGroup.
   // 0: none; otherwise 1 plus the number of the strictest order of S-44 (kS44Orders) whose limits exceed the total at
   // 95 % plus the magnitude of the bias, horizontally and vertically.
   std::span<std::uint8_t> best_orders = {};
@@ -99,14 +108,15 @@ struct BudgetOutputs {
 // Computes `outputs` for all pulses. Allocates nothing. Each pulse depends on its own numbers alone, and has the same
 // bits on every processor.
 //
-//     C = C_air + C_sea + diag(0, 0, datum^2)
+//     C = C_air + C_sea + C_water + diag(0, 0, datum^2)
 //
 // C_air as in budget/air. Horizontally, C_sea has the trace (THU/2)^2, variances along and across the axis of the sea
 // in the proportion of the squared refractions, and the covariance of the two that Snell's law makes of uncorrelated
 // slopes (docs/budget.md); its covariance with up is sin r cos r (r: the angle in water) times the covariance with the
 // direction of the beam, because the table's errors are those of a spot that moves on a level bottom; vertically
-// (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height. Biases are in no
-// covariance.
+// (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height. C_water
+// is in the plane of the beam: the ignorance of the water's bias, shared by all pulses, and the noise of a range along
+// the refracted ray. Biases are in no covariance.
 //
 // Errors of rounding are below 1e-5 of the standard deviations.
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);

@@ -7,16 +7,25 @@ namespace albtpu {
 inline constexpr double kGreenWavelength = 532;  // nm
 
 struct WaterIndex {
-  double phase =
-      0;  // Refracts, and is the ratio of the lengths of a path in air and in water of equal phase.
+  double phase = 0;  // Refracts.
   double group = 0;  // Delays a pulse: the speed of light in air over that of the pulse.
 };
 
-// Quan and Fry (1995), doi:10.1364/AO.34.003477, Eq. 3: relative to air, for 400 to 700 nm, 0 to 30 degrees C and
-// salinities of 0 to 35. Smooth, and taken as good, up to 40 degrees and a salinity of 45. The group index is
-// n - wavelength dn/dwavelength of the same equation.
+// Quan and Fry (1995), doi:10.1364/AO.34.003477, Eq. 3: relative to air. They measured from 400 to 700 nm, 0 to 30
+// degrees C and a salinity of up to 35; we use it up to 40 degrees and 45 as well, where it stays smooth. The group
+// index is n - wavelength dn/dwavelength of the same equation.
 //
 //     SeaWaterIndex(15, 35).phase  // 1.34199
 WaterIndex SeaWaterIndex(double temperature, double salinity, double wavelength = kGreenWavelength);
+
+// What it does to a point that its processing bent and ranged by one index `used`, for the phase and the group alike.
+// Over the reported depth; reported minus true: positive is too shallow, and too far along the beam. `incidence` is in
+// air [radian]. Exact over a level bottom.
+//
+//     BiasOfIndex(0, SeaWaterIndex(15, 35), 1.33).vertical  // -0.0252: 25 cm too deep at 10 m
+struct IndexBias {
+  double vertical = 0, along = 0;
+};
+IndexBias BiasOfIndex(double incidence, const WaterIndex& water, double used);
 
 }  // namespace albtpu

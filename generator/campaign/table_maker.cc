@@ -119,7 +119,7 @@ absl::Status TableBuilder::Add(UnitId unit, std::string_view bytes) {
     absl::StatusOr<std::vector<Estimate>> estimates = DecodeEstimates(*content);
     if (!estimates.ok()) return estimates.status();
     const bool checks = unit.kind == UnitKind::kPulse;
-    if (checks && estimates->size() != (parts_->campaign.water ? kCheckedBiases : kChecked.size()))
+    if (checks && estimates->size() != (parts_->campaign.water ? kCheckedEstimates : kChecked.size()))
       return WrongShape();
     (checks ? parts_->direct : parts_->water)[unit.index] = *std::move(estimates);
     return absl::OkStatus();

@@ -66,13 +66,15 @@ void Append(const DetectedBias& bias, std::vector<Estimate>& estimates) {
 
 // Of one bias over all checked beams [m]; `within` is the share that errs as little as is allowed.
 struct CheckedError {
-  double rms = 0, within = 0, greatest = 0, noise = 0;
+  double rms = 0, within = 0, greatest = 0, noise = 0, beams = 0;
 };
 
 CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
                      const std::vector<std::vector<Estimate>>& direct, std::size_t bias) {
   CheckedError error;
   for (std::size_t i = 0; i < direct.size(); ++i) {
+    if (direct[i][kCheckedBiases].value < kLeastEchoEnergy) continue;
+    ++error.beams;
     const CheckedBeam checked = CheckedBeamOf(campaign, i);
     const OneWater water = table.Of(checked.backscatter_fraction, checked.scattering_over_absorption);
     const double off = (*water.At(checked.beam))[bias] * checked.depth - direct[i][bias].value;
@@ -81,8 +83,9 @@ CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
     error.greatest = std::max(error.greatest, std::abs(off));
     error.within += std::abs(off) <= std::max(kAllowed, kAllowedShare * std::abs(direct[i][bias].value));
   }
-  const auto count = static_cast<double>(direct.size());
-  return {std::sqrt(error.rms / count), error.within / count, error.greatest, std::sqrt(error.noise / count)};
+  const double count = std::max(1.0, error.beams);
+  return {std::sqrt(error.rms / count), error.within / count, error.greatest, std::sqrt(error.noise / count),
+          error.beams};
 }
 
 Provenance ProvenanceOf(const Campaign& campaign) {
@@ -122,8 +125,7 @@ void DescribeErrors(const WaterColumnTable& table, const Campaign& campaign,
   for (std::size_t bias = 0; bias < kCheckedBiases; ++bias) {
     const CheckedError error = ErrorOf(table, campaign, direct, bias);
     provenance.attributes["interpolation_error_" + std::string(kWaterColumn.quantities[bias].name)] =
-        std::vector<double>{error.rms, error.within, error.greatest, error.noise,
-                            static_cast<double>(direct.size())};
+        std::vector<double>{error.rms, error.within, error.greatest, error.noise, error.beams};
   }
 }
 
@@ -253,6 +255,7 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBea
     estimate.value *= checked.depth;
     estimate.standard_error *= checked.depth;
   }
+  estimates.push_back(bias.energy);
   return estimates;
 }
 

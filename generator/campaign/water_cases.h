@@ -29,9 +29,10 @@ struct CheckedBeam {
 };
 CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index);
 
-// The biases of a checked beam in m, by the random numbers of the table's cases: vertical and along, each by Detector.
+// The biases of a checked beam in m, by the random numbers of the table's cases: vertical and along, each by Detector;
+// and the energy of its echo.
 std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const CheckedBeam& checked);
-inline constexpr std::size_t kCheckedBiases = 6;
+inline constexpr std::size_t kCheckedBiases = 6, kCheckedEstimates = kCheckedBiases + 1;
 
 // `cases` and `direct` are what the functions above return for all indices. DataLoss if one has another size.
 absl::StatusOr<Table> BuildWaterTable(const Campaign& campaign,

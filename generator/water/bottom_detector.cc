@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace albtpu {
 namespace {
@@ -111,13 +112,29 @@ std::vector<double> Coarser(const std::vector<double>& samples, std::size_t fact
   return coarse;
 }
 
+// Where `excess`, of which the first member is a value and the second its slope, is 0 between two times, at one of which
+// it is below 0 and at the other above: Newton's steps, halving the interval where they leave it.
+template <typename Excess>
+double Root(const Excess& excess, double below, double above, double close) {
+  double time = (below + above) / 2;
+  for (int i = 0; i < 60; ++i) {
+    const auto [value, slope] = excess(time);
+    (value < 0 ? below : above) = time;
+    double next = slope != 0 ? time - value / slope : below;
+    if (!(next > std::min(below, above) && next < std::max(below, above))) next = (below + above) / 2;
+    if (std::abs(next - time) < close) return next;
+    time = next;
+  }
+  return time;
+}
+
 // Where `wave` crosses `level` between two times on opposite sides of it.
 double Crossing(const Waveform& wave, double level, double below, double above) {
-  for (int i = 0; i < 40 && std::abs(above - below) > 1e-9 * wave.sigma(); ++i) {
-    const double middle = (below + above) / 2;
-    (wave.At(middle).value < level ? below : above) = middle;
-  }
-  return (below + above) / 2;
+  const auto excess = [&](double time) {
+    const Wave at = wave.At(time);
+    return std::pair(at.value - level, at.slope);
+  };
+  return Root(excess, below, above, 1e-9 * wave.sigma());
 }
 
 struct Shape {
@@ -134,12 +151,11 @@ std::optional<Shape> ShapeOf(const Waveform& wave) {
   const auto time = [&](std::size_t i) { return wave.first() + step * static_cast<double>(i); };
 
   Shape shape{};
-  double before = time(top - 1), after = time(top + 1);
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (before + after) / 2;
-    (wave.At(middle).slope > 0 ? before : after) = middle;
-  }
-  shape.peak = (before + after) / 2;
+  const auto slope = [&](double at) {
+    const Wave there = wave.At(at);
+    return std::pair(there.slope, there.curvature);
+  };
+  shape.peak = Root(slope, time(top + 1), time(top - 1), 1e-9 * wave.sigma());
   shape.height = wave.At(shape.peak).value;
   const auto first_above = [&](double level) -> double {
     std::size_t i = 0;

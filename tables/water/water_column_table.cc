@@ -41,13 +41,40 @@ Weights CubicWeights(const Axis& axis, double coordinate) {
   return weights;
 }
 
+// The same near an incidence of 0, with the mirror image of the second node before the first, which is 0: the first of
+// three nodes, and what the second counts for quantities that a mirror keeps, and turns.
+struct MirroredWeights {
+  Weights even, odd;
+};
+MirroredWeights WeightsOfIncidence(const Axis& axis, double coordinate) {
+  const std::vector<double>& nodes = axis.nodes();
+  if (nodes.size() < 3 || nodes.front() != 0 || coordinate >= nodes[1]) {
+    const Weights weights = CubicWeights(axis, coordinate);
+    return {weights, weights};
+  }
+  const std::array<double, 4> at = {-nodes[1], 0, nodes[1], nodes[2]};
+  std::array<double, 4> of = {1, 1, 1, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) of[i] *= (coordinate - at[j]) / (at[i] - at[j]);
+  }
+  return {{.first = 0, .count = 3, .of = {of[1], of[2] + of[0], of[3], 0}},
+          {.first = 0, .count = 3, .of = {of[1], of[2] - of[0], of[3], 0}}};
+}
+
 double Held(const Axis& axis, double x) { return std::clamp(x, axis.nodes().front(), axis.nodes().back()); }
 
 const Axis& AxisOf(const std::vector<Axis>& axes, WaterAxis axis) { return axes[Index(axis)]; }
 
-// Whether a quantity is kept over the optical depth, to which it is in proportion in shallow water.
-bool IsOverOpticalDepth(std::size_t quantity) {
+// Whether a quantity is kept over b z, to which it is in proportion where light is scattered once at most.
+bool IsOverScattering(std::size_t quantity) {
   return quantity != Index(WaterQuantity::kStretch) && quantity != Index(WaterQuantity::kSpot);
+}
+
+// Whether it changes its sign in a mirror.
+bool IsOdd(std::size_t quantity) {
+  return quantity >= Index(WaterQuantity::kBiasAlongPeak) &&
+         quantity <= Index(WaterQuantity::kBiasAlongCentroid);
 }
 
 }  // namespace
@@ -64,18 +91,18 @@ std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
   if (!(beam.optical_depth >= 0 && beam.optical_depth <= optical_depth.nodes().back())) return std::nullopt;
   if (!(beam.field_of_view >= view.nodes().front() && beam.pulse_length >= pulse.nodes().front()))
     return std::nullopt;
-  const Weights theta = CubicWeights(incidence, beam.incidence);
+  const auto [even, odd] = WeightsOfIncidence(incidence, beam.incidence);
   const Weights tau = CubicWeights(optical_depth, Held(optical_depth, beam.optical_depth));
   const Weights f = CubicWeights(view, Held(view, beam.field_of_view));
   const Weights p = CubicWeights(pulse, Held(pulse, beam.pulse_length));
   const std::size_t taus = optical_depth.size(), views = view.size(), pulses = pulse.size();
   WaterAnswer answer = {};
-  for (std::size_t i = 0; i < theta.count; ++i) {
+  for (std::size_t i = 0; i < even.count; ++i) {
     for (std::size_t j = 0; j < tau.count; ++j) {
       for (std::size_t k = 0; k < f.count; ++k) {
-        const double weight = theta.of[i] * tau.of[j] * f.of[k];
-        const std::size_t at = ((theta.first + i) * taus + tau.first + j) * views + f.first + k;
+        const std::size_t at = ((even.first + i) * taus + tau.first + j) * views + f.first + k;
         for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
+          const double weight = (IsOdd(q) ? odd : even).of[i] * tau.of[j] * f.of[k];
           const float* const values = values_[q].data();
           if (!kWaterColumn.quantities[q].over_last_axis) {
             answer[q] += weight * values[at];
@@ -90,7 +117,7 @@ std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
     }
   }
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q)
-    if (IsOverOpticalDepth(q)) answer[q] *= beam.optical_depth;
+    if (IsOverScattering(q)) answer[q] *= scattering_ * beam.optical_depth;
   answer[Index(WaterQuantity::kEnergy)] = std::exp(answer[Index(WaterQuantity::kEnergy)]);
   return answer;
 }
@@ -98,8 +125,9 @@ std::optional<WaterAnswer> OneWater::At(const WaterBeam& beam) const {
 absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
     if (table.variable(q) != nullptr) continue;
-    return absl::InvalidArgumentError(absl::StrCat("variable '", std::string(kWaterColumn.quantities[q].name),
-                                                   "' is missing; a table of the water column has all of them"));
+    return absl::InvalidArgumentError(
+        absl::StrCat("variable '", std::string(kWaterColumn.quantities[q].name),
+                     "' is missing; a table of the water column has all of them"));
   }
   const std::vector<float>& energies = table.variable(Index(WaterQuantity::kEnergy))->values;
   if (!std::all_of(energies.begin(), energies.end(), [](float energy) { return energy > 0; }))
@@ -111,16 +139,22 @@ absl::StatusOr<WaterColumnTable> WaterColumnTable::Create(Table table) {
 
 WaterColumnTable::WaterColumnTable(Table table) : table_(std::move(table)) {
   assert(&table_.schema() == &kWaterColumn);
+  const std::vector<double>& fractions = axis(WaterAxis::kBackscatterFraction).nodes();
+  const std::vector<double>& ratios = axis(WaterAxis::kScatteringOverAbsorption).nodes();
   const std::vector<double>& taus = axis(WaterAxis::kOpticalDepth).nodes();
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
     values_[q] = table_.variable(q)->values;
-    // Nodes of the optical depth take turns after each run of the faster axes.
-    std::size_t run = axis(WaterAxis::kFieldOfView).size();
-    if (kWaterColumn.quantities[q].over_last_axis) run *= axis(WaterAxis::kPulseLength).size();
+    if (!IsOverScattering(q)) continue;
+    // Nodes of an axis take turns after each run of the faster axes.
+    std::size_t of_tau = axis(WaterAxis::kFieldOfView).size();
+    if (kWaterColumn.quantities[q].over_last_axis) of_tau *= axis(WaterAxis::kPulseLength).size();
+    const std::size_t of_ratio = of_tau * taus.size() * axis(WaterAxis::kIncidence).size();
     for (std::size_t i = 0; i < values_[q].size(); ++i) {
       double value = values_[q][i];
       if (q == Index(WaterQuantity::kEnergy)) value = std::log(value);
-      if (IsOverOpticalDepth(q)) value /= taus[i / run % taus.size()];
+      const double ratio = ratios[i / of_ratio % ratios.size()],
+                   fraction = fractions[i / of_ratio / ratios.size()];
+      value *= OpticalDepthPerScattering(ratio, fraction) / taus[i / of_tau % taus.size()];
       values_[q][i] = static_cast<float>(value);
     }
   }
@@ -134,9 +168,12 @@ std::pair<double, double> WaterColumnTable::Range(WaterAxis axis) const {
 OneWater WaterColumnTable::Of(double backscatter_fraction, double scattering_over_absorption) const {
   const Axis &fraction = axis(WaterAxis::kBackscatterFraction),
              &ratio = axis(WaterAxis::kScatteringOverAbsorption);
-  const Weights i = CubicWeights(fraction, Held(fraction, backscatter_fraction));
-  const Weights j = CubicWeights(ratio, Held(ratio, scattering_over_absorption));
+  const double held_fraction = Held(fraction, backscatter_fraction),
+               held_ratio = Held(ratio, scattering_over_absorption);
+  const Weights i = CubicWeights(fraction, held_fraction);
+  const Weights j = CubicWeights(ratio, held_ratio);
   OneWater water;
+  water.scattering_ = 1 / OpticalDepthPerScattering(held_ratio, held_fraction);
   water.axes_ = &table_.axes();
   for (std::size_t q = 0; q < kWaterQuantityCount; ++q) {
     const std::size_t size = values_[q].size() / fraction.size() / ratio.size();

@@ -26,8 +26,9 @@ using WaterAnswer = std::array<double, kWaterQuantityCount>;
 // One water: a table with its first two axes interpolated.
 class OneWater {
  public:
-  // Interpolates by cubic polynomials through the four nodes around each coordinate. Biases grow as the optical depth
-  // from 0; below its first node they are in proportion to it, as once-scattered light has them. A field of view above
+  // Interpolates by cubic polynomials through the four nodes around each coordinate; around an incidence near 0, one of
+  // them is the mirror image of another. Biases are interpolated over the number of scatterings b z. Below the first
+  // optical depth they are in proportion to it, as once-scattered light has them. A field of view above
   // the last node counts as all, a pulse above the last node as that: its echo is the pulse itself. Nothing if the
   // incidence or the optical depth is above the last node, the field of view or the pulse below the first, or a
   // coordinate is negative or NaN.
@@ -37,7 +38,8 @@ class OneWater {
   friend class WaterColumnTable;
 
   const std::vector<Axis>* axes_;  // of the table
-  // Over the remaining axes; biases over the optical depth, the energy as its logarithm over it.
+  double scattering_ = 0;          // b z over the optical depth
+  // Over the remaining axes; biases over b z, the energy as its logarithm over it.
   std::array<std::vector<float>, kWaterQuantityCount> values_;
 };
 

@@ -1,0 +1,336 @@
+#include "budget/water/water_share.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu {
+namespace {
+
+constexpr double kLightSpeed = 0.299792458;  // m/ns
+constexpr double kIncidenceStep = 1.5;       // degree
+constexpr std::size_t kDepths = 65;          // even in the root of the depth
+constexpr double kFootprintsInView = 2.5;
+const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::log(2.0)));
+// Of draws whose bias at the depth of a calibration has the other sign.
+constexpr double kMostOfOtherSign = 0.02;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Draw {
+  double attenuation, ratio, fraction;
+};
+
+// The inverse of the standard normal distribution, by Newton's steps.
+double NormalQuantile(double p) {
+  if (p < 0.5) return -NormalQuantile(1 - p);
+  double x = std::sqrt(-2 * std::log(2 * (1 - p)) + 1e-300) * 0.8;
+  for (int i = 0; i < 60; ++i) {
+    const double below = 0.5 * std::erfc(-x / std::sqrt(2.0));
+    const double density = std::exp(-x * x / 2) / std::sqrt(2 * std::acos(-1.0));
+    x -= std::clamp((below - p) / density, -0.5, 0.5);
+  }
+  return x;
+}
+
+// Number i of van der Corput's sequence.
+double Radical(std::size_t i, std::size_t base) {
+  double value = 0, digit = 1.0 / static_cast<double>(base);
+  for (; i > 0; i /= base, digit /= static_cast<double>(base)) value += digit * static_cast<double>(i % base);
+  return value;
+}
+
+// Even over the three distributions: Halton's points.
+std::vector<Draw> DrawWaters(const WaterOptics& optics) {
+  std::vector<Draw> draws;
+  for (std::size_t i = 0; i < WaterShare::kDraws; ++i) {
+    const double even = (static_cast<double>(i) + 0.5) / WaterShare::kDraws;
+    Draw draw{};
+    draw.fraction =
+        optics.least_fraction * std::pow(optics.most_fraction / optics.least_fraction, Radical(i + 1, 3));
+    draw.attenuation = std::max(
+        1.001 * kPureWaterAbsorption,
+        optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
+    draw.ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * NormalQuantile(even));
+    draw.ratio = std::min(draw.ratio, WaterOptics::GreatestRatio(draw.attenuation, draw.fraction));
+    draws.push_back(draw);
+  }
+  return draws;
+}
+
+// The vertical bias, that along the beam, and spot, stretch and energy: all over the depth.
+struct Looked {
+  double vertical = 0, along = 0, spot = 0, stretch = 0, energy = 0;
+};
+
+class Lookup {
+ public:
+  Lookup(const WaterColumnTable& table, const WaterReceiver& receiver, const Draw& draw)
+      : receiver_(receiver),
+        draw_(draw),
+        least_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
+        last_(table.Range(WaterAxis::kOpticalDepth).second),
+        water_(table.Of(draw.fraction, draw.ratio)) {}
+
+  // The depth is above 0. Beyond the last optical depth, biases over the optical depth stay.
+  Looked At(double incidence, double depth) const {
+    const double tau = draw_.attenuation * depth;
+    const std::optional<WaterAnswer> answer = water_.At(
+        {.incidence = incidence,
+         .optical_depth = std::min(tau, last_),
+         .field_of_view = receiver_.field_of_view / depth,
+         .pulse_length = kLightSpeed * receiver_.pulse_length / (2 * receiver_.group_index * depth)});
+    assert(answer.has_value());
+    // Water that scatters less than the table's least does so in proportion.
+    const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / least_ratio_);
+    const std::size_t detector = static_cast<std::size_t>(receiver_.detector);
+    return {.vertical = (*answer)[Index(WaterQuantity::kBiasVerticalPeak) + detector] * beyond,
+            .along = (*answer)[Index(WaterQuantity::kBiasAlongPeak) + detector] * beyond,
+            .spot = (*answer)[Index(WaterQuantity::kSpot)],
+            .stretch = (*answer)[Index(WaterQuantity::kStretch)],
+            .energy = (*answer)[Index(WaterQuantity::kEnergy)]};
+  }
+
+ private:
+  WaterReceiver receiver_;
+  Draw draw_;
+  double least_ratio_, last_;
+  OneWater water_;
+};
+
+absl::Status CheckTreatment(const BiasTreatment& treatment, double greatest_depth) {
+  if (treatment.handling == BiasHandling::kVendor &&
+      !(treatment.residual_fraction >= 0 && treatment.residual_fraction <= 1))
+    return absl::InvalidArgumentError(
+        absl::StrCat("residual_fraction ", treatment.residual_fraction,
+                     " is no fraction; give 0 (nothing remains) to 1 (all does)"));
+  if (treatment.handling != BiasHandling::kCalibrated) return absl::OkStatus();
+  if (!(treatment.calibration_depth > 0 && treatment.calibration_depth <= greatest_depth))
+    return absl::InvalidArgumentError(absl::StrCat("the calibration at ", treatment.calibration_depth,
+                                                   " m is beyond the table; give a depth above 0, up to ",
+                                                   greatest_depth, " m"));
+  return absl::OkStatus();
+}
+
+// Mean and covariance of the vertical and the along part.
+struct Moments {
+  double vertical = 0, along = 0, vertical2 = 0, along2 = 0, both = 0;
+  double count = 0;
+
+  void Add(double v, double a) {
+    vertical += v;
+    along += a;
+    vertical2 += v * v;
+    along2 += a * a;
+    both += v * a;
+    ++count;
+  }
+  double mean_vertical() const { return vertical / count; }
+  double mean_along() const { return along / count; }
+  double variance_vertical() const {
+    return std::max(0.0, vertical2 / count - mean_vertical() * mean_vertical());
+  }
+  double variance_along() const { return std::max(0.0, along2 / count - mean_along() * mean_along()); }
+  double covariance() const { return both / count - mean_vertical() * mean_along(); }
+};
+
+double QuantileOf(std::vector<double>& values, double fraction) {
+  const double place = fraction * static_cast<double>(values.size() - 1);
+  const auto lower = static_cast<std::size_t>(place);
+  std::sort(values.begin(), values.end());
+  const double part = place - static_cast<double>(lower);
+  return values[lower] * (1 - part) + values[std::min(lower + 1, values.size() - 1)] * part;
+}
+
+}  // namespace
+
+absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, const WaterOptics& optics,
+                                              const WaterReceiver& receiver, const BiasTreatment& treatment) {
+  WaterShare share;
+  share.receiver_ = receiver;
+  share.greatest_incidence_ = table.Range(WaterAxis::kIncidence).second;
+  share.greatest_footprint_ = receiver.field_of_view / kFootprintsInView;
+  const double by_turbidity = table.Range(WaterAxis::kOpticalDepth).second /
+                              (optics.attenuation * std::exp(optics.attenuation_log_sigma));
+  const double by_view = receiver.field_of_view / table.Range(WaterAxis::kFieldOfView).first;
+  const double by_pulse = kLightSpeed * receiver.pulse_length / (2 * receiver.group_index) /
+                          table.Range(WaterAxis::kPulseLength).first;
+  share.greatest_depth_ = std::min({by_turbidity, by_view, by_pulse});
+  if (!(share.greatest_depth_ > 0)) {
+    return absl::InvalidArgumentError(
+        "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
+  }
+  if (absl::Status status = CheckTreatment(treatment, share.greatest_depth_); !status.ok()) return status;
+
+  const std::vector<Draw> draws = DrawWaters(optics);
+  std::vector<Lookup> lookups;
+  lookups.reserve(draws.size());
+  for (const Draw& draw : draws) lookups.emplace_back(table, receiver, draw);
+  const double first = table.Range(WaterAxis::kIncidence).first;
+  share.incidences_ = static_cast<std::size_t>((share.greatest_incidence_ - first) / kIncidenceStep) + 1;
+  share.incidence_step_ =
+      share.incidences_ > 1 ? (share.greatest_incidence_ - first) / static_cast<double>(share.incidences_ - 1)
+                            : 1;
+  share.nodes_.resize(share.incidences_ * kDepths);
+  std::vector<char> disagrees(share.incidences_, 0);
+  tbb::parallel_for(std::size_t{0}, share.incidences_, [&](std::size_t i) {
+    const double incidence =
+        std::min(first + static_cast<double>(i) * share.incidence_step_, share.greatest_incidence_);
+    // What each water's bias has to be multiplied with to be the one that was measured.
+    std::vector<double> scales(draws.size(), 1.0);
+    double noise = 0;
+    if (treatment.handling == BiasHandling::kCalibrated) {
+      Moments there;
+      std::size_t other_sign = 0;
+      for (const Lookup& lookup : lookups)
+        there.Add(lookup.At(incidence, treatment.calibration_depth).vertical, 0);
+      for (std::size_t j = 0; j < draws.size(); ++j) {
+        const double bias = lookups[j].At(incidence, treatment.calibration_depth).vertical;
+        other_sign += bias * there.mean_vertical() <= 0;
+        scales[j] = treatment.calibration_offset / (bias * treatment.calibration_depth);
+      }
+      disagrees[i] = static_cast<double>(other_sign) > kMostOfOtherSign * static_cast<double>(draws.size());
+      noise = treatment.calibration_sigma / (std::abs(there.mean_vertical()) * treatment.calibration_depth);
+    }
+    std::vector<double> verticals(draws.size());
+    for (std::size_t k = 0; k < kDepths; ++k) {
+      const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
+      const double depth = share.greatest_depth_ * root * root;
+      Moments before, scaled;
+      Looked sums;
+      for (std::size_t j = 0; j < draws.size(); ++j) {
+        const Looked looked = lookups[j].At(incidence, depth);
+        before.Add(looked.vertical, looked.along);
+        scaled.Add(scales[j] * looked.vertical, scales[j] * looked.along);
+        verticals[j] = looked.vertical;
+        sums.spot += looked.spot;
+        sums.stretch += looked.stretch;
+        sums.energy += looked.energy;
+      }
+      std::array<double, kNumbers> node = {};
+      node[kMeanVertical] = before.mean_vertical();
+      node[kMeanAlong] = before.mean_along();
+      node[kVarianceVertical] = node[kLeftVertical] = before.variance_vertical();
+      node[kVarianceAlong] = node[kLeftAlong] = before.variance_along();
+      node[kCovariance] = node[kLeftCovariance] = before.covariance();
+      node[kLow] = QuantileOf(verticals, 0.025);
+      node[kHigh] = QuantileOf(verticals, 0.975);
+      node[kSpot] = sums.spot / before.count;
+      node[kStretch] = sums.stretch / before.count;
+      node[kEnergy] = sums.energy / before.count;
+      switch (treatment.handling) {
+        case BiasHandling::kNone:
+          node[kBiasVertical] = node[kMeanVertical];
+          node[kBiasAlong] = node[kMeanAlong];
+          break;
+        case BiasHandling::kCorrect:
+          break;
+        case BiasHandling::kVendor: {
+          const double f2 = treatment.residual_fraction * treatment.residual_fraction;
+          node[kLeftVertical] = f2 * before.vertical2 / before.count;
+          node[kLeftAlong] = f2 * before.along2 / before.count;
+          node[kLeftCovariance] = f2 * before.both / before.count;
+          break;
+        }
+        case BiasHandling::kCalibrated: {
+          const double v = noise * before.mean_vertical(), a = noise * before.mean_along();
+          node[kLeftVertical] = scaled.variance_vertical() + v * v;
+          node[kLeftAlong] = scaled.variance_along() + a * a;
+          node[kLeftCovariance] = scaled.covariance() + v * a;
+          break;
+        }
+      }
+      Node& kept = share.nodes_[i * kDepths + k];
+      for (std::size_t n = 0; n < kNumbers; ++n) kept[n] = static_cast<float>(node[n]);
+    }
+  });
+  if (std::find(disagrees.begin(), disagrees.end(), 1) != disagrees.end()) {
+    return absl::InvalidArgumentError(absl::StrCat("a calibration at ", treatment.calibration_depth,
+                                                   " m cannot be scaled (there the bias passes through zero, "
+                                                   "with other signs in other waters); calibrate at "
+                                                   "another depth, or by another detector"));
+  }
+  return share;
+}
+
+WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
+  const double x =
+      incidences_ > 1
+          ? std::clamp(
+                (incidence - (greatest_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
+                    incidence_step_,
+                0.0, static_cast<double>(incidences_ - 1))
+          : 0;
+  const double y = std::sqrt(std::min(1.0, depth / greatest_depth_)) * static_cast<double>(kDepths - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(x), std::max<std::size_t>(incidences_, 2) - 2);
+  const std::size_t k = std::min(static_cast<std::size_t>(y), kDepths - 2);
+  const auto u = static_cast<float>(x - static_cast<double>(i)),
+             v = static_cast<float>(y - static_cast<double>(k));
+  const std::size_t next = incidences_ > 1 ? kDepths : 0;
+  const Node* const corner = nodes_.data() + i * kDepths + k;
+  Node blend;
+  for (std::size_t n = 0; n < kNumbers; ++n) {
+    const float near = corner[0][n] + v * (corner[1][n] - corner[0][n]);
+    const float far = corner[next][n] + v * (corner[next + 1][n] - corner[next][n]);
+    blend[n] = near + u * (far - near);
+  }
+  return blend;
+}
+
+std::optional<WaterAnswerOfSurvey> WaterShare::At(double incidence, double depth) const {
+  if (!(incidence >= 0 && incidence <= greatest_incidence_ && depth >= 0 && depth <= greatest_depth_))
+    return std::nullopt;
+  const Node node = Blend(incidence, depth);
+  const auto root = [&](Number n) { return depth * std::sqrt(std::max(0.0f, node[n])); };
+  WaterAnswerOfSurvey answer{.mean_vertical = depth * node[kMeanVertical],
+                             .sigma_vertical = root(kVarianceVertical),
+                             .low_vertical = depth * node[kLow],
+                             .high_vertical = depth * node[kHigh],
+                             .mean_along = depth * node[kMeanAlong],
+                             .sigma_along = root(kVarianceAlong),
+                             .spot = depth * node[kSpot],
+                             .stretch = node[kStretch],
+                             .energy = node[kEnergy],
+                             .bias_vertical = depth * node[kBiasVertical],
+                             .bias_along = depth * node[kBiasAlong],
+                             .left_vertical = root(kLeftVertical),
+                             .left_along = root(kLeftAlong)};
+  const float product = std::sqrt(node[kLeftVertical] * node[kLeftAlong]);
+  answer.correlation = product > 0 ? std::clamp(node[kLeftCovariance] / product, -1.0f, 1.0f) : 0;
+  return answer;
+}
+
+void WaterShare::Compute(std::span<const float> incidence, std::span<const float> depth,
+                         const WaterColumns& columns) const {
+  const std::size_t size = std::max(incidence.size(), depth.size());
+  const auto put = [](std::span<float> column, std::size_t i, double value) {
+    if (!column.empty()) column[i] = static_cast<float>(value);
+  };
+  for (std::size_t i = 0; i < size; ++i) {
+    const double theta = incidence[incidence.size() == 1 ? 0 : i], z = depth[depth.size() == 1 ? 0 : i];
+    const bool known = theta >= 0 && theta <= greatest_incidence_ && z >= 0 && z <= greatest_depth_;
+    const Node node = Blend(known ? theta : 0, known ? z : 0);
+    const double length = known ? z : kNan;
+    put(columns.bias_vertical, i, length * node[kBiasVertical]);
+    put(columns.bias_along, i, length * node[kBiasAlong]);
+    const float vertical = std::sqrt(std::max(0.0f, node[kLeftVertical])),
+                along = std::sqrt(std::max(0.0f, node[kLeftAlong]));
+    put(columns.sigma_vertical, i, length * vertical);
+    put(columns.sigma_along, i, length * along);
+    const float product = vertical * along;
+    put(columns.correlation, i, product > 0 ? std::clamp(node[kLeftCovariance] / product, -1.0f, 1.0f) : 0);
+    put(columns.stretch, i, node[kStretch]);
+  }
+}
+
+double WaterShare::PhotonNoise(double photons, double stretch, double cosine_refracted) const {
+  const double sigma_time = receiver_.pulse_length * stretch * kSigmaOfWidth;
+  return cosine_refracted * kLightSpeed * sigma_time / (2 * receiver_.group_index * std::sqrt(photons));
+}
+
+}  // namespace albtpu

@@ -1,0 +1,130 @@
+// The share of the water column in a survey: the bias of the bottom by scattering, for all that the water may be.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "budget/water/water_optics.h"
+#include "tables/water/water_column_table.h"
+
+namespace albtpu {
+
+// How the receiver reads a time from the echo.
+enum class EchoDetector { kPeak, kHalf, kCentroid };
+inline constexpr std::array<std::string_view, 3> kEchoDetectorNames = {"peak", "half", "centroid"};
+
+struct WaterReceiver {
+  EchoDetector detector = EchoDetector::kPeak;
+  double field_of_view = 0;  // m, diameter on the surface, across the beam; infinity: all
+  double pulse_length = 0;   // ns, full width at half maximum
+  double group_index = 1.3643;
+};
+
+// What the processing of the survey did about the bias.
+enum class BiasHandling {
+  kNone,       // Nothing: it is in the points.
+  kCorrect,    // Took away what this table says: its mean.
+  kVendor,     // Took away what the vendor knows; a fraction of the bias remains.
+  kCalibrated  // Took away this table's mean, scaled to a bias that was measured.
+};
+inline constexpr std::array<std::string_view, 4> kBiasHandlingNames = {"none", "correct", "vendor",
+                                                                       "calibrated"};
+
+struct BiasTreatment {
+  BiasHandling handling = BiasHandling::kNone;
+  double residual_fraction = 0;  // kVendor: 0 to 1
+  // kCalibrated: the vertical bias that was measured, positive if too shallow, at one depth, and how well. m.
+  double calibration_depth = 0, calibration_offset = 0, calibration_sigma = 0;
+};
+
+// At one incidence and depth. Lengths in m; reported minus true.
+struct WaterAnswerOfSurvey {
+  // Of the bias before any treatment, over what the water may be.
+  double mean_vertical = 0, sigma_vertical = 0;  // positive: too shallow
+  double low_vertical = 0, high_vertical = 0;    // its 2.5 and 97.5 % points
+  double mean_along = 0, sigma_along = 0;        // positive: too far along the beam
+  double spot = 0, stretch = 0, energy = 0;      // means; no uncertainties
+  // After the treatment: what is still in the points, and its ignorance.
+  double bias_vertical = 0, bias_along = 0;
+  double left_vertical = 0, left_along = 0;  // 1 sigma
+  double correlation = 0;                    // of the two
+};
+
+// Where to write the share of each pulse; an empty column is not written. NaN where there is no answer.
+struct WaterColumns {
+  std::span<float> bias_along, bias_vertical;    // m, still in the points
+  std::span<float> sigma_along, sigma_vertical;  // m, 1 sigma; the same of all pulses of a survey
+  std::span<float> correlation;                  // of the two errors
+  std::span<float> stretch;                      // of the echo
+};
+
+class WaterShare {
+ public:
+  // Draws waters (Guide to the Expression of Uncertainty in Measurement, Supplement 1: JCGM 101:2008), looks each up in
+  // the table, and keeps mean and spread over incidence and depth. About half a second of one core.
+  //
+  // InvalidArgument with what would be right: a receiver beyond the table at all depths, a residual fraction outside 0
+  // to 1, a calibration beyond the table or at a depth where the waters do not agree on the sign of the bias.
+  static absl::StatusOr<WaterShare> Create(const WaterColumnTable& table, const WaterOptics& optics,
+                                           const WaterReceiver& receiver, const BiasTreatment& treatment);
+
+  // Greatest incidence [degree], and depth [m] down to which the share is known. There, the median water reaches the
+  // greatest optical depth of the table less one standard deviation; more turbid draws go on in proportion to it.
+  double greatest_incidence() const { return greatest_incidence_; }
+  double greatest_depth() const { return greatest_depth_; }
+  // m; a wider beam would be cut by the field of view, which the table does not know.
+  double greatest_footprint() const { return greatest_footprint_; }
+
+  // Nothing if the pulse is beyond; incidence in degree, depth in m, 0 or more.
+  std::optional<WaterAnswerOfSurvey> At(double incidence, double depth) const;
+
+  // The same of many pulses. Columns of one number are of all pulses.
+  void Compute(std::span<const float> incidence, std::span<const float> depth,
+               const WaterColumns& columns) const;
+
+  // m, 1 sigma, of the vertical error by the noise of `photons` that were counted in an echo of this stretch:
+  // cos(refracted) c sigma_t / (2 n_group sqrt(photons)).
+  double PhotonNoise(double photons, double stretch, double cosine_refracted) const;
+
+  // JCGM 101 asks for what is enough: twice as many move u by less than 2 %.
+  static constexpr std::size_t kDraws = 256;
+
+ private:
+  // Over the depth. In the order of kNumbers.
+  enum Number {
+    kMeanVertical,
+    kMeanAlong,
+    kVarianceVertical,
+    kVarianceAlong,
+    kCovariance,
+    kLow,
+    kHigh,
+    kSpot,
+    kStretch,
+    kEnergy,
+    kBiasVertical,
+    kBiasAlong,
+    kLeftVertical,
+    kLeftAlong,
+    kLeftCovariance
+  };
+  static constexpr std::size_t kNumbers = 15;
+  using Node = std::array<float, kNumbers>;
+
+  WaterShare() = default;
+  Node Blend(double incidence, double depth) const;
+
+  WaterReceiver receiver_;
+  double greatest_incidence_ = 0, greatest_depth_ = 0, greatest_footprint_ = 0;
+  double incidence_step_ = 1;
+  std::size_t incidences_ = 0;
+  std::vector<Node> nodes_;  // by incidence, then by the root of the depth
+};
+
+}  // namespace albtpu
