@@ -118,10 +118,9 @@ void DescribeErrors(const WaterColumnTable& table, const Campaign& campaign,
                     const std::vector<std::vector<Estimate>>& direct, Provenance& provenance) {
   provenance.attributes["interpolation_error"] =
       "Of the interpolated table against direct computation by the random numbers of the nodes, for random "
-      "coastal "
-      "waters, depths and systems: root mean square (m), share within 3 mm or 4 %, greatest (m), rms "
-      "standard error "
-      "of the direct values (m), number of beams";
+      "coastal waters, depths and systems whose echo has 0.3 % of the energy of unscattered light: root mean "
+      "square (m), share within 3 mm or 4 %, greatest (m), rms standard error of the direct values (m), number "
+      "of beams";
   for (std::size_t bias = 0; bias < kCheckedBiases; ++bias) {
     const CheckedError error = ErrorOf(table, campaign, direct, bias);
     provenance.attributes["interpolation_error_" + std::string(kWaterColumn.quantities[bias].name)] =
