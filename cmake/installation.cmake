@@ -2,6 +2,7 @@
 set(data ${CMAKE_INSTALL_DATADIR}/albtpu)
 file(GLOB shipped_tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tables/shipped/*.h5)
 install(FILES ${shipped_tables} DESTINATION ${data}/tables)
+install(FILES ${PROJECT_SOURCE_DIR}/tables/water/shipped/water_column.h5 DESTINATION ${data}/water)
 file(GLOB shipped_sensors CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/survey/sensors/shipped/*.toml)
 install(FILES ${shipped_sensors} DESTINATION ${data}/sensors)
 install(FILES CONTRIBUTING.md LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

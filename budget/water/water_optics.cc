@@ -119,6 +119,10 @@ absl::StatusOr<WaterOptics> OpticsOf(const ToldOptics& told) {
   }
   const double albedo = ratio / (1 + ratio);
   optics.scattering_over_absorption = direct ? ratio : std::min(ratio, greatest);
+  if (!direct && !told.omega0.has_value()) {
+    optics.least_ratio = std::min(kLeastAlbedo / (1 - kLeastAlbedo), optics.scattering_over_absorption);
+    optics.most_ratio = kGreatestAlbedo / (1 - kGreatestAlbedo);
+  }
   const double sigma = told.omega0_sigma.value_or(direct ? 0 : kDefaultOmega0Sigma);
   // d ln(w / (1 - w)) = dw / (w (1 - w)); measured coefficients are as good as an attenuation.
   optics.ratio_log_sigma = direct ? std::hypot(kMeasured, kMeasured) : sigma / (albedo * (1 - albedo));

@@ -26,23 +26,26 @@ inline constexpr std::array<std::string_view, 10> kJerlovTypes = {"I",  "IA", "I
 
 // What is told: exactly one of `kd` with its kind, `secchi`, `jerlov`, or `absorption` with `scattering`.
 struct ToldOptics {
-  std::optional<double> kd;  // 1/m
-  std::optional<KdKind> kd_kind;
-  std::optional<double> secchi;                  // m
-  std::optional<std::string_view> jerlov;        // one of kJerlovTypes
-  std::optional<double> absorption, scattering;  // 1/m at 532 nm
-  std::optional<double>
-      kd_sigma;  // 1/m, 1 sigma, of the attenuation that is told or derived; absent: by its kind
-  std::optional<double> omega0;                // single-scattering albedo
-  std::optional<double> omega0_sigma;          // 1 sigma
-  std::optional<double> backscatter_fraction;  // absent: 0.01 to 0.03
+  std::optional<double> kd = {};  // 1/m
+  std::optional<KdKind> kd_kind = {};
+  std::optional<double> secchi = {};                       // m
+  std::optional<std::string_view> jerlov = {};             // one of kJerlovTypes
+  std::optional<double> absorption = {}, scattering = {};  // 1/m at 532 nm
+  std::optional<double> kd_sigma = {};      // 1/m, 1 sigma, of what is told or derived; absent: by its kind
+  std::optional<double> omega0 = {};        // single-scattering albedo
+  std::optional<double> omega0_sigma = {};  // 1 sigma
+  std::optional<double> backscatter_fraction = {};  // absent: 0.01 to 0.03
 };
+
+// Albedos of natural water: an albedo that is not told is one of these.
+inline constexpr double kLeastAlbedo = 0.5, kGreatestAlbedo = 0.95;
 
 // What is known of K = sqrt(a^2 + 6 B a b), of b / a and of the backscatter fraction B. The first two have log-normal
 // distributions, which of b / a is a logit-normal one of the albedo; B has a log-uniform one. All independent.
 struct WaterOptics {
   double attenuation = 0, attenuation_log_sigma = 0;  // 1/m: median of K
   double scattering_over_absorption = 0, ratio_log_sigma = 0;
+  double least_ratio = 0, most_ratio = 1e9;  // b / a: what lies outside is not drawn
   double least_fraction = 0, most_fraction = 0;
 
   // No water absorbs less than pure water: the greatest b / a that an attenuation leaves.

@@ -48,8 +48,16 @@ double Radical(std::size_t i, std::size_t base) {
 // Even over the three distributions: Halton's points.
 std::vector<Draw> DrawWaters(const WaterOptics& optics) {
   std::vector<Draw> draws;
+  // Where the limits of b / a lie in its distribution.
+  const auto place = [&](double ratio) {
+    if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0.0 : 1.0;
+    const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
+    return 0.5 * std::erfc(-x / std::sqrt(2.0));
+  };
+  const double least = optics.least_ratio > 0 ? place(optics.least_ratio) : 0,
+               most = place(optics.most_ratio);
   for (std::size_t i = 0; i < WaterShare::kDraws; ++i) {
-    const double even = (static_cast<double>(i) + 0.5) / WaterShare::kDraws;
+    const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / WaterShare::kDraws;
     Draw draw{};
     draw.fraction =
         optics.least_fraction * std::pow(optics.most_fraction / optics.least_fraction, Radical(i + 1, 3));
@@ -165,12 +173,25 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
     return absl::InvalidArgumentError(
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
-  if (absl::Status status = CheckTreatment(treatment, share.greatest_depth_); !status.ok()) return status;
-
   const std::vector<Draw> draws = DrawWaters(optics);
   std::vector<Lookup> lookups;
   lookups.reserve(draws.size());
   for (const Draw& draw : draws) lookups.emplace_back(table, receiver, draw);
+  // A point was reported: its water is one of those that let an echo back. At the greatest depth, half of them do.
+  const auto sees = [&](double depth) {
+    const auto seeing = std::count_if(lookups.begin(), lookups.end(), [&](const Lookup& lookup) {
+      return lookup.At(0, depth).energy >= kLeastEchoEnergy;
+    });
+    return 2 * static_cast<std::size_t>(seeing) >= lookups.size();
+  };
+  if (!sees(share.greatest_depth_)) {
+    double seen = 0;
+    for (int step = 0; step < 30; ++step) {
+      const double middle = (seen + share.greatest_depth_) / 2;
+      (sees(middle) ? seen : share.greatest_depth_) = middle;
+    }
+  }
+  if (absl::Status status = CheckTreatment(treatment, share.greatest_depth_); !status.ok()) return status;
   const double first = table.Range(WaterAxis::kIncidence).first;
   share.incidences_ = static_cast<std::size_t>((share.greatest_incidence_ - first) / kIncidenceStep) + 1;
   share.incidence_step_ =
@@ -197,22 +218,29 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
       disagrees[i] = static_cast<double>(other_sign) > kMostOfOtherSign * static_cast<double>(draws.size());
       noise = treatment.calibration_sigma / (std::abs(there.mean_vertical()) * treatment.calibration_depth);
     }
-    std::vector<double> verticals(draws.size());
+    std::vector<double> verticals;
     for (std::size_t k = 0; k < kDepths; ++k) {
       const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
       const double depth = share.greatest_depth_ * root * root;
       Moments before, scaled;
       Looked sums;
+      verticals.clear();
       for (std::size_t j = 0; j < draws.size(); ++j) {
         const Looked looked = lookups[j].At(incidence, depth);
+        if (looked.energy < kLeastEchoEnergy) continue;
         before.Add(looked.vertical, looked.along);
         scaled.Add(scales[j] * looked.vertical, scales[j] * looked.along);
-        verticals[j] = looked.vertical;
+        verticals.push_back(looked.vertical);
         sums.spot += looked.spot;
         sums.stretch += looked.stretch;
         sums.energy += looked.energy;
       }
       std::array<double, kNumbers> node = {};
+      if (verticals.empty()) {
+        for (std::size_t n = 0; n < kNumbers; ++n)
+          share.nodes_[i * kDepths + k][n] = static_cast<float>(kNan);
+        continue;
+      }
       node[kMeanVertical] = before.mean_vertical();
       node[kMeanAlong] = before.mean_along();
       node[kVarianceVertical] = node[kLeftVertical] = before.variance_vertical();

@@ -74,8 +74,9 @@ class WaterShare {
   static absl::StatusOr<WaterShare> Create(const WaterColumnTable& table, const WaterOptics& optics,
                                            const WaterReceiver& receiver, const BiasTreatment& treatment);
 
-  // Greatest incidence [degree], and depth [m] down to which the share is known. There, the median water reaches the
-  // greatest optical depth of the table less one standard deviation; more turbid draws go on in proportion to it.
+  // Greatest incidence [degree], and depth [m] down to which the share is known: where the median water reaches the
+  // greatest optical depth of the table less one standard deviation (more turbid draws go on in proportion to it), or
+  // where half of the draws let an echo back (kLeastEchoEnergy). Draws that do not are left out at their depth.
   double greatest_incidence() const { return greatest_incidence_; }
   double greatest_depth() const { return greatest_depth_; }
   // m; a wider beam would be cut by the field of view, which the table does not know.

@@ -74,9 +74,12 @@ struct AnswerSelection {
   bool sea_frame = false;  // Of a sea that is not known by a table of winds.
 };
 
+// The outcome of a pulse that has an answer of the sea, and none of the water column.
+inline constexpr std::uint8_t kNoWater = 4;
+
 // Element i of each column belongs to pulse i. Columns that are not selected are empty.
 struct AnswerBatch {
-  std::vector<std::uint8_t> outcomes, outcome_axes;
+  std::vector<std::uint8_t> outcomes, outcome_axes;  // outcomes: Outcome plus 1, or kNoWater
   std::vector<std::uint8_t> sides;  // Side + 1 of a pulse out of domain; 0 of any other, and on the azimuth.
   std::array<std::vector<float>, kQuantityCount> values, standard_errors;
   std::vector<std::uint8_t> best_s44_orders;

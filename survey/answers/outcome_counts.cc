@@ -14,7 +14,8 @@ using Names = std::array<std::string, OutcomeCounts::kAskedCount>;
 Names MakeNames() {
   Names names;
   names.front() = "INTERPOLATED";
-  names.back() = "INVALID";
+  names[OutcomeCounts::kAskedCount - 2] = "INVALID";
+  names.back() = "NO_WATER";
   const std::string sides[] = {"", absl::StrCat(":", std::string(albtpu::Name(Side::kBelow))),
                                absl::StrCat(":", std::string(albtpu::Name(Side::kAbove)))};
   for (std::size_t i = 0; i < OutcomeCounts::kOutOfDomainCount; ++i) {

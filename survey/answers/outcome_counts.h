@@ -23,7 +23,7 @@ inline constexpr std::size_t kNoPulseCount = 5;
 
 std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 
-// "INTERPOLATED", "OUT_OF_DOMAIN:depth:above" or "INVALID", as CSV files and messages state it.
+// "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID" or "NO_WATER", as CSV files and messages state it.
 std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i);
 
 // What an answer without azimuth is: by a table of winds, and by one of a sea.
@@ -55,13 +55,14 @@ class OutcomeCounts {
   std::uint64_t without_azimuth() const { return without_azimuth_; }
 
   // Outcomes of pulses that were asked, numbered in the order of Json(): interpolated, out of domain by axis and
-  // side, invalid.
+  // side, invalid, without a share of the water.
   static constexpr std::size_t kOutOfDomainCount = (kAxisCount + 1) * 3;  // No axis, no side.
-  static constexpr std::size_t kAskedCount = kOutOfDomainCount + 2;
+  static constexpr std::size_t kAskedCount = kOutOfDomainCount + 3;
   static std::size_t Number(const AnswerBatch& answers, std::size_t i) {
     const std::uint8_t outcome = answers.outcomes[i];
     if (outcome == 1) return 0;
-    return outcome == 2 ? 1 + 3 * std::size_t{answers.outcome_axes[i]} + answers.sides[i] : kAskedCount - 1;
+    if (outcome == 2) return 1 + 3 * std::size_t{answers.outcome_axes[i]} + answers.sides[i];
+    return outcome == kNoWater ? kAskedCount - 1 : kAskedCount - 2;
   }
   static std::string_view Name(std::size_t number);
 

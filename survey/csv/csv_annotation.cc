@@ -63,8 +63,11 @@ class BlockWork {
   absl::Status operator()(Chunk& chunk) const {
     if (absl::Status status = Decode(chunk); !status.ok()) return status;
     chunk.summary = UncertaintySummary(style_);
-    absl::Status status = QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.summary);
-    if (status.ok()) status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.summary);
+    absl::Status status = QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth,
+                                      chunk.totals_with_azimuth.water, chunk.summary);
+    if (status.ok())
+      status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth,
+                           chunk.totals_without_azimuth.water, chunk.summary);
     if (status.ok() && total_ != nullptr) {
       chunk.totals = {};
       FindTotals(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.aircraft_with_azimuth,
@@ -109,9 +112,10 @@ class BlockWork {
     return absl::OkStatus();
   }
 
-  absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers,
+  absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water,
                            UncertaintySummary& summary) const {
     absl::Status status = AnswerPulses(source_, style_.query(), pulses, selection_, answers);
+    if (status.ok() && total_ != nullptr) AddWater(total_->plan.water, pulses, answers, water);
     if (status.ok() && pulses.size > 0) summary.Add(pulses, answers);
     return status;
   }
@@ -143,6 +147,10 @@ class BlockWork {
     if (total_->details) {
       for (const auto* column : {&totals.thu_air, &totals.tvu_air, &totals.thu_sea, &totals.tvu_sea})
         number((*column)[i]);
+      if (total_->plan.water.share != nullptr) {
+        number(totals.thu_water[i]);
+        number(totals.tvu_water[i]);
+      }
       const bool answered = std::isfinite(totals.thu[i]);
       for (const std::vector<float>& entry : totals.covariance) number(answered ? entry[i] : NAN);
     }
@@ -250,6 +258,7 @@ std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& st
   std::vector<std::string> names = {"total_thu", "total_tvu"};
   if (total.details) {
     names.insert(names.end(), {"thu_air", "tvu_air", "thu_sea", "tvu_sea"});
+    if (total.plan.water.share != nullptr) names.insert(names.end(), {"thu_water", "tvu_water"});
     for (const std::string_view entry : kCovarianceNames)
       names.push_back(absl::StrCat("covariance_", std::string(entry)));
   }

@@ -23,11 +23,20 @@
 //     waves_from = 225                    # degree, true
 //     spreading = "mitsuyasu"             # or spread = 18, degree
 //     [water]
-//     kd = 0.12                           # 1/m
+//     kd = 0.12                           # 1/m; or secchi (m), jerlov ("1C"), absorption and scattering (1/m)
+//     kd_kind = "diffuse532"              # "satellite490", "system", "secchi", "jerlov"
+//     kd_sigma = 0.02                     # 1/m; also omega0, omega0_sigma, backscatter_fraction
+//     detector = "peak"                   # "half", "centroid"
+//     field_of_view = 3                   # m, diameter on the surface, across the beam
+//     pulse_length = 1.5                  # ns
+//     photons = 500                       # counted in an echo; absent: their noise is in [sigma] bottom_range
+//     bias = "none"                       # "correct", "vendor" with residual_fraction, "calibrated" with
+//     calibration = {depth = 5, offset = -0.04, sigma = 0.01}   # m; positive: too shallow
 //     temperature = 24                    # degree C
 //     salinity = 36
 //     index = 1.3397                      # absent: by temperature and salinity
-//     column = "none"                     # the share of the water column is left out
+//     processed_with = 1.33               # the index that the ranges were computed with
+//     column = "none"                     # in place of bias: the share of the water column is left out
 //     [datum]
 //     sigma = 0.08                        # m
 //     geoid_separation = -25.1            # m

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "budget/water/water_share.h"
 #include "sea/sea_time.h"
 #include "survey/sensors/installed_sensors.h"
 #include "tables/s44.h"
@@ -103,6 +104,14 @@ ToldWater ReadWater(TomlKeys& keys) {
   ToldWater water;
   ReadNumbers(keys, kWaterNumbers, water);
   water.without_column = keys.OneOf("column", {"none"}).has_value();
+  water.kd_kind = keys.OneOf("kd_kind", Texts(kKdKindNames));
+  water.jerlov = keys.OneOf("jerlov", Texts(kJerlovTypes));
+  water.detector = keys.OneOf("detector", Texts(kEchoDetectorNames));
+  water.bias = keys.OneOf("bias", Texts(kBiasHandlingNames));
+  for (TomlKeys& table : keys.Table("calibration")) {
+    ReadNumbers(table, kCalibrationNumbers, water.calibration.emplace());
+    table.Finish();
+  }
   keys.Finish();
   return water;
 }

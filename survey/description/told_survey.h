@@ -32,9 +32,24 @@ struct ToldSurface {                   // [surface]
   std::optional<std::string> level_file;
 };
 
+// A bias of the water column that was measured against what is known of the bottom.
+struct ToldCalibration {                          // [water.calibration], or calibration = {...}
+  std::optional<double> depth, offset, sigma;  // m; the offset is positive if the points were too shallow
+};
+
 struct ToldWater {                                         // [water]
   std::optional<double> index, kd, temperature, salinity;  // 1, 1/m, degree C, 1
   bool without_column = false;  // column = "none": the share of the water is left out.
+  // The optics (water_optics.h).
+  std::optional<std::string> kd_kind, jerlov;
+  std::optional<double> kd_sigma, secchi, absorption, scattering;  // 1/m, m, 1/m, 1/m
+  std::optional<double> omega0, omega0_sigma, backscatter_fraction;
+  // The receiver, and what the processing did (water_share.h).
+  std::optional<std::string> detector, bias;
+  std::optional<double> field_of_view, pulse_length, photons;  // m, ns, 1
+  std::optional<double> residual_fraction;
+  std::optional<ToldCalibration> calibration;
+  std::optional<double> processed_with;  // The index that the ranges were computed with.
 };
 
 struct ToldDatum {                                // [datum]
@@ -74,11 +89,29 @@ inline constexpr std::array<ToldNumber<ToldDatum>, 2> kDatumNumbers = {{
 }};
 // Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
 // and the salt of the ocean 45 at most; it freezes above -2.
-inline constexpr std::array<ToldNumber<ToldWater>, 4> kWaterNumbers = {{
+inline constexpr std::array<ToldNumber<ToldWater>, 16> kWaterNumbers = {{
     {"index", "--water-index", "1", 1, 1.5, &ToldWater::index, ""},
     {"kd", "", "1/m", 0.001, 10, &ToldWater::kd, ""},
     {"temperature", "", "degree C", -2, 40, &ToldWater::temperature, ""},
     {"salinity", "", "1", 0, 45, &ToldWater::salinity, ""},
+    {"kd_sigma", "", "1/m", 0, 10, &ToldWater::kd_sigma, ""},
+    {"secchi", "", "m", 0.1, 80, &ToldWater::secchi, ""},
+    {"absorption", "", "1/m", 0.001, 10, &ToldWater::absorption, ""},
+    {"scattering", "", "1/m", 0.001, 50, &ToldWater::scattering, ""},
+    {"omega0", "", "1", 0.05, 0.98, &ToldWater::omega0, ""},
+    {"omega0_sigma", "", "1", 0, 0.3, &ToldWater::omega0_sigma, ""},
+    {"backscatter_fraction", "", "1", 0.005, 0.05, &ToldWater::backscatter_fraction, ""},
+    {"field_of_view", "", "m", 0.1, 1000, &ToldWater::field_of_view, ""},
+    {"pulse_length", "", "ns", 0.1, 20, &ToldWater::pulse_length, ""},
+    {"photons", "", "1", 1, 1e9, &ToldWater::photons, ""},
+    {"residual_fraction", "", "1", 0, 1, &ToldWater::residual_fraction, ""},
+    {"processed_with", "", "1", 1, 1.5, &ToldWater::processed_with, ""},
+}};
+// The offset of a calibration may be negative; none that a survey had was beyond metres.
+inline constexpr std::array<ToldNumber<ToldCalibration>, 3> kCalibrationNumbers = {{
+    {"depth", "", "m", 0.1, 100, &ToldCalibration::depth, ""},
+    {"offset", "", "m", -10, 10, &ToldCalibration::offset, ""},
+    {"sigma", "", "m", 0, 10, &ToldCalibration::sigma, ""},
 }};
 
 template <typename Value>

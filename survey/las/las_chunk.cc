@@ -58,7 +58,10 @@ absl::Status LasChunkWork::operator()(Chunk& chunk) const {
   }
   absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
   if (!status.ok()) return status;
-  if (total_ != nullptr) FindTotals(chunk);
+  if (total_ != nullptr) {
+    AddWater(total_->water, chunk.pulses, chunk.answers, chunk.total.water);
+    FindTotals(chunk);
+  }
   Summarize(chunk);
   Encode(chunk);
   if (!replaced_.empty()) Replace(chunk);
@@ -246,8 +249,8 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
   if (!appended_.details) return;
   for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea})
     put((*column)[i]);
-  put(kNoNumber);  // The water column.
-  put(kNoNumber);
+  for (const auto* column : {&total.thu_water, &total.tvu_water})
+    put(total_->water.share != nullptr ? (*column)[i] : kNoNumber);
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);
   put(chunk.answers[Quantity::kBiasVertical][i]);
   for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.aircraft.convergence[chunk.rows[i]]))

@@ -121,8 +121,10 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
   const std::string_view length = at("2 sigma, m", "1 sigma, m", "95 %, m");
   std::vector<AppendedFloat> floats;
   if (appended.total) {
-    const std::string_view what = at("all but water column, 2 sigma, m", "all but water column, 1 sigma, m",
-                                     "all but water column, 95 %, m");
+    const std::string_view what =
+        appended.water ? at("all shares, 2 sigma, m", "all shares, 1 sigma, m", "all shares, 95 %, m")
+                       : at("all but water column, 2 sigma, m", "all but water column, 1 sigma, m",
+                            "all but water column, 95 %, m");
     floats = {{"total_thu", what, kNoNumber}, {"total_tvu", what, kNoNumber}};
   } else {
     const std::string_view what =
@@ -133,7 +135,7 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
     for (const std::string_view name : {"thu_air", "tvu_air", "thu_sea", "tvu_sea"})
       floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"thu_water", "tvu_water"})
-      floats.push_back({name, "left out", kNoNumber});
+      floats.push_back({name, appended.water ? length : "left out", kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
     floats.push_back({"bias_vertical", "too shallow, m", kNan});
     for (const std::string_view name :

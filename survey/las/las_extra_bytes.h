@@ -23,6 +23,7 @@ inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of
 struct Appended {
   Coverage coverage = Coverage::kTwoSigma;
   bool total = false;    // The total uncertainty, not the share of the sea surface alone.
+  bool water = false;    // The total has a share of the water column.
   bool details = false;  // The geometry of each beam, too; of a total also its shares, biases and covariance.
 };
 

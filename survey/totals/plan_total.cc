@@ -7,7 +7,6 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "budget/water/refractive_index.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "sea/wave_state.h"
 #include "survey/exit_status.h"
@@ -107,11 +106,14 @@ absl::Status CheckDecided(const SurveyDescription& survey) {
         "[datum] sigma "
         "in m, 1 sigma (0 for ellipsoidal heights)");
   }
-  if (survey.water.has_value() && survey.water->without_column) return absl::OkStatus();
+  if (survey.water.has_value() && (survey.water->without_column || survey.water->bias.has_value()))
+    return absl::OkStatus();
   return UsageError(
-      "the share of the water column is not decided, so that no number may be called total; it cannot be "
-      "computed yet: give "
-      "[water] column = \"none\" to leave it out");
+      "the share of the water column is not decided, so that no number may be called total; give [water] "
+      "bias = "
+      "\"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics of the "
+      "water and "
+      "the receiver, or column = \"none\" to leave it out");
 }
 
 }  // namespace
@@ -198,14 +200,10 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
   options.datum = datum_told ? *survey.datum->sigma : 0;
   state("datum", absl::StrCat(options.datum, " m"),
         datum_told ? "[datum]" : "assumed: none, ellipsoidal heights", !datum_told);
-  state("water_column", "left out", water.without_column ? "[water]" : "not decided", !water.without_column);
+  absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
+  if (!planned.ok()) return planned.status();
+  plan.water = *std::move(planned);
   return plan;
-}
-
-std::optional<double> IndexOf(const ToldWater& water) {
-  if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value())
-    return water.index;
-  return SeaWaterIndex(*water.temperature, *water.salinity).phase;
 }
 
 float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum) {

@@ -17,17 +17,16 @@ struct TotalContext {
   std::optional<std::array<double, 3>> lever_arm = {};  // The same.
   bool has_surface_returns = false;                     // Classes of returns from the surface are told.
   bool has_level = false;                               // A water level is told.
-  std::string trajectory_errors = {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
-  // All parts of a total must be decided, so that its name is true: the datum, and that the water column is left out.
+  std::string trajectory_errors =
+      {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
+  // All parts of a total must be decided, so that its name is true: the datum, and the water column or that it is left
+  // out.
   bool decided = true;
 };
 
 // UsageError where a number is missing that nothing gives, where what is told contradicts itself, and where a part of
 // the total is not decided. `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context);
-
-// The index that the user tells, or that of the temperature and salinity if both are told (refractive_index.h).
-std::optional<double> IndexOf(const ToldWater& water);
 
 // The wind sea by which a table of winds was made, for the height of waves that the location of the surface does not
 // see. `spectrum` is the attribute of the table.

@@ -68,6 +68,25 @@ Json SourcesJson(const PulseTotal& total) {
   return json;
 }
 
+// What the water column does before any treatment, and what is left; null beyond the table.
+Json WaterJson(const WaterPlan& plan, const PulseBatch& pulse) {
+  const std::optional<WaterAnswerOfSurvey> answer =
+      plan.share->At(pulse.coordinate(AxisId::kIncidence, 0), pulse.coordinate(AxisId::kDepth, 0));
+  if (!answer.has_value()) return {{"greatest_depth", plan.share->greatest_depth()}};
+  return {{"water_bias_vertical", answer->mean_vertical},
+          {"water_bias_vertical_sigma", answer->sigma_vertical},
+          {"water_bias_vertical_interval", {answer->low_vertical, answer->high_vertical}},
+          {"water_bias_along_beam", answer->mean_along},
+          {"water_bias_along_beam_sigma", answer->sigma_along},
+          {"left_in_bias_vertical", answer->bias_vertical},
+          {"left_in_bias_along_beam", answer->bias_along},
+          {"spot", answer->spot},
+          {"stretch", answer->stretch},
+          {"energy", answer->energy},
+          {"greatest_depth", plan.share->greatest_depth()},
+          {"greatest_incidence", plan.share->greatest_incidence()}};
+}
+
 }  // namespace
 
 absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& source) {
@@ -76,14 +95,17 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
   AnswerBatch sea;
   absl::Status status = AnswerPulses(source, {}, total.pulse, selection, sea);
   if (!status.ok()) return status;
+  WaterBatch water;
+  AddWater(total.plan.water, total.pulse, sea, water);
   AircraftColumns aircraft;
   aircraft.altitude = {total.altitude};
   if (total.beam_azimuth.has_value()) aircraft.beam_azimuth = {*total.beam_azimuth};
   SetMotion(total.motion, aircraft);
-  const TotalInputs inputs(total.plan, total.pulse, sea, aircraft);
-  float thu = 0, tvu = 0, thu_air = 0, tvu_air = 0, thu_sea = 0, tvu_sea = 0;
+  const TotalInputs inputs(total.plan, total.pulse, sea, water, aircraft);
+  float thu = 0, tvu = 0, thu_air = 0, tvu_air = 0, thu_sea = 0, tvu_sea = 0, thu_water = 0, tvu_water = 0;
   std::uint8_t best = 0;
   std::array<Numbers, 3 + kErrorGroups> numbers;  // Air, sea, total, groups.
+  Numbers of_water = {};
   const auto one = [](float& number) { return std::span<float>(&number, 1); };
   BudgetOutputs outputs{.thu = one(thu),
                         .tvu = one(tvu),
@@ -91,29 +113,34 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
                         .tvu_air = one(tvu_air),
                         .thu_sea = one(thu_sea),
                         .tvu_sea = one(tvu_sea),
+                        .thu_water = one(thu_water),
+                        .tvu_water = one(tvu_water),
                         .best_orders = std::span<std::uint8_t>(&best, 1)};
   const auto entries = [&](Numbers& of, CovarianceColumns& columns) {
     for (std::size_t i = 0; i < of.size(); ++i) columns[i] = one(of[i]);
   };
   entries(numbers[0], outputs.air);
   entries(numbers[1], outputs.sea);
+  entries(of_water, outputs.water);
   entries(numbers[2], outputs.total);
   for (std::size_t g = 0; g < kErrorGroups; ++g) entries(numbers[3 + g], outputs.groups[g]);
   ComputeBudget(inputs.columns(), total.plan.options, outputs);
 
-  const bool directed = total.beam_azimuth.has_value();
+  const bool directed = total.beam_azimuth.has_value(), with_water = total.plan.water.share != nullptr;
   Json json = {{"thu", NumberOrNull(thu)},
                {"tvu", NumberOrNull(tvu)},
                {"coverage", CoverageName(total.plan.options.coverage)},
                {"outcome", std::string(OutcomeName(sea, 0))},
                {"covariance_air", CovarianceJson(numbers[0], directed)},
                {"covariance_sea", CovarianceJson(numbers[1], directed)},
-               {"covariance_water", nullptr},
+               {"covariance_water", with_water ? CovarianceJson(of_water, directed) : Json()},
                {"covariance_total", CovarianceJson(numbers[2], directed)},
                {"thu_air", NumberOrNull(thu_air)},
                {"tvu_air", NumberOrNull(tvu_air)},
                {"thu_sea", NumberOrNull(thu_sea)},
-               {"tvu_sea", NumberOrNull(tvu_sea)}};
+               {"tvu_sea", NumberOrNull(tvu_sea)},
+               {"thu_water", with_water ? NumberOrNull(thu_water) : Json()},
+               {"tvu_water", with_water ? NumberOrNull(tvu_water) : Json()}};
   const Numbers& all = numbers[2];
   const HorizontalEllipse ellipse = EllipseOf(all[0], all[1], all[3]);
   json["semi_major"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_major)) : Json();
@@ -128,6 +155,18 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
   json["sources"]["sea"] = {{"horizontal", NumberOrNull(numbers[1][0] + numbers[1][1])},
                             {"vertical", NumberOrNull(numbers[1][2])},
                             {"group", "pulse"}};
+  if (with_water) {
+    const double noise = std::pow(water.noise[0], 2);
+    json["sources"]["water"] = {{"horizontal", NumberOrNull(water.sigma_along[0] * water.sigma_along[0])},
+                                {"vertical", NumberOrNull(water.sigma_vertical[0] * water.sigma_vertical[0])},
+                                {"group", "survey"}};
+    if (total.plan.water.photons.has_value())
+      json["sources"]["photons"] = {
+          {"horizontal", of_water[0] + of_water[1] - water.sigma_along[0] * water.sigma_along[0]},
+          {"vertical", noise},
+          {"group", "pulse"}};
+    json["water"] = WaterJson(total.plan.water, total.pulse);
+  }
   for (std::size_t g = 0; g < kErrorGroups; ++g)
     json["groups"][std::string(kErrorGroupNames[g])] = CovarianceJson(numbers[3 + g], directed);
   json["plan"] = Parameters(total.plan);
@@ -152,6 +191,14 @@ std::string TotalText(const Json& total) {
                   " (at 95 %, biases added)\n");
   absl::StrAppend(&text, absl::StrFormat("bias along the beam %s m, vertical %s m\n",
                                          number(total["bias_along_beam"]), number(total["bias_vertical"])));
+  if (const auto water = total.find("water"); water != total.end() && water->contains("spot")) {
+    absl::StrAppend(
+        &text,
+        absl::StrFormat(
+            "water column: bias vertical %s m, %s to %s m with 95 %%; along the beam %s m\n",
+            number((*water)["water_bias_vertical"]), number((*water)["water_bias_vertical_interval"][0]),
+            number((*water)["water_bias_vertical_interval"][1]), number((*water)["water_bias_along_beam"])));
+  }
   absl::StrAppend(&text, absl::StrFormat("\n%-16s %-8s %18s %18s\n", "source", "group", "horizontal, m",
                                          "vertical, m (1 sigma)"));
   for (const auto& [name, source] : total["sources"].items()) {

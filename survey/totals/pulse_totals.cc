@@ -25,7 +25,7 @@ void SelectForTotals(AnswerSelection& selection) {
 }
 
 TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
-                         AircraftColumns& aircraft)
+                         const WaterBatch& water, AircraftColumns& aircraft)
     : sea_axis_(plan.sea_axis.value_or(NAN)),
       wave_height_(plan.wave_height),
       directed_(!aircraft.beam_azimuth.empty()) {
@@ -66,6 +66,10 @@ TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const 
   };
   columns_[BudgetInput::kBiasAlongBeam] = known(Quantity::kBiasAlongBeam, bias_along_);
   columns_[BudgetInput::kBiasVertical] = known(Quantity::kBiasVertical, bias_vertical_);
+  columns_[BudgetInput::kWaterSigmaAlong] = water.sigma_along;
+  columns_[BudgetInput::kWaterSigmaVertical] = water.sigma_vertical;
+  columns_[BudgetInput::kWaterCorrelation] = water.correlation;
+  columns_[BudgetInput::kWaterNoise] = water.noise;
   if (directed_) {
     columns_[BudgetInput::kSeaAxis] =
         sea.sea_axes.empty() ? std::span<const float>(&sea_axis_, 1) : std::span<const float>(sea.sea_axes);
@@ -79,12 +83,17 @@ TotalInputs::TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const 
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
                    AircraftColumns& aircraft, TotalBatch& totals) {
   const std::size_t size = pulses.size;
-  const TotalInputs inputs(plan, pulses, sea, aircraft);
+  const TotalInputs inputs(plan, pulses, sea, totals.water, aircraft);
   totals.sigmas_assumed = inputs.sigmas_assumed();
   BudgetOutputs outputs;
   const auto column = [&](std::vector<float>& numbers) {
     numbers.resize(size);
     return std::span<float>(numbers);
+  };
+  const auto variances = [&](TotalBatch::Variances& of, CovarianceColumns& columns) {
+    columns[0] = column(of.north);
+    columns[1] = column(of.east);
+    columns[2] = column(of.down);
   };
   outputs.thu = column(totals.thu);
   outputs.tvu = column(totals.tvu);
@@ -92,12 +101,12 @@ void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const Answer
   outputs.tvu_air = column(totals.tvu_air);
   outputs.thu_sea = column(totals.thu_sea);
   outputs.tvu_sea = column(totals.tvu_sea);
+  if (!totals.water.noise.empty()) {
+    outputs.thu_water = column(totals.thu_water);
+    outputs.tvu_water = column(totals.tvu_water);
+    variances(totals.of_water, outputs.water);
+  }
   for (std::size_t i = 0; i < totals.covariance.size(); ++i) outputs.total[i] = column(totals.covariance[i]);
-  const auto variances = [&](TotalBatch::Variances& of, CovarianceColumns& columns) {
-    columns[0] = column(of.north);
-    columns[1] = column(of.east);
-    columns[2] = column(of.down);
-  };
   variances(totals.air, outputs.air);
   variances(totals.sea, outputs.sea);
   for (std::size_t g = 0; g < kErrorGroups; ++g) variances(totals.groups[g], outputs.groups[g]);

@@ -29,16 +29,17 @@ static_assert(static_cast<std::size_t>(BudgetInput::kHeadingSigma) ==
 
 // Element i of each column belongs to pulse i; NaN where the sea has no answer.
 struct TotalBatch {
-  std::vector<float> thu, tvu;                            // m, at the coverage of the plan.
-  std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea;  // The same of shares.
-  std::array<std::vector<float>, 6> covariance;           // m^2: kCovarianceNames, of the total.
+  std::vector<float> thu, tvu;  // m, at the coverage of the plan.
+  std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea, thu_water, tvu_water;  // The same of shares.
+  std::array<std::vector<float>, 6> covariance;  // m^2: kCovarianceNames, of the total.
   // Variances, m^2: horizontal (north and east) and vertical.
   struct Variances {
     std::vector<float> north, east, down;
   };
-  Variances air, sea;
+  Variances air, sea, of_water;
   std::array<Variances, kErrorGroups> groups;
   std::vector<std::uint8_t> best_orders;
+  WaterBatch water;  // By AddWater, before all else. Empty: the water column is left out.
   std::uint64_t sigmas_assumed =
       0;  // Pulses at whose time no error file states how well the trajectory is known.
 
@@ -53,7 +54,7 @@ class TotalInputs {
  public:
   // `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
   TotalInputs(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
-              AircraftColumns& aircraft);
+              const WaterBatch& water, AircraftColumns& aircraft);
   TotalInputs(const TotalInputs&) = delete;
   TotalInputs& operator=(const TotalInputs&) = delete;
 
@@ -69,7 +70,8 @@ class TotalInputs {
   std::uint64_t sigmas_assumed_ = 0;
 };
 
-// `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan.
+// `aircraft` is changed: sigmas that are not known, or not wanted by pulse, become those of the plan. `totals.water` is
+// taken, and `sea` has its biases.
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
                    AircraftColumns& aircraft, TotalBatch& totals);
 

@@ -8,18 +8,15 @@
 #include <vector>
 
 #include "budget/total/budget_columns.h"
+#include "survey/totals/stated_number.h"
+#include "survey/totals/water_column.h"
 
 namespace albtpu::client {
-
-// A number of the plan and where it comes from.
-struct StatedNumber {
-  std::string name, value, source;  // "scan", "0.02 degree", "riegl-vq-880-g: cBLUE 4.2"
-  bool assumed = false;             // By albtpu, where neither the user nor the sensor's file says it.
-};
 
 struct TotalPlan {
   BudgetOptions options;
   std::vector<StatedNumber> numbers;
+  WaterPlan water;
   // The standard deviations of position and attitude are those of each pulse, where its trajectory states them.
   bool position_by_pulse = false, attitude_by_pulse = false;
   // The axis of a sea that is known by its wind, degree clockwise from true north; absent: not known, or another sea.

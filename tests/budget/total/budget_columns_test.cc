@@ -241,6 +241,52 @@ TEST(ComputeBudget, RepeatsConstantsAndTakesSigmasByPulse) {
   EXPECT_EQ(ours.numbers, others.numbers);
 }
 
+TEST(ComputeBudget, AddsTheWaterColumnInThePlaneOfTheBeam) {
+  Pulses pulses = RandomPulses(500, 5);
+  const BudgetOptions options = {.errors = kErrors, .located = SurfaceLocation::kLocal, .datum = 0.08};
+  Answers without(500), with(500);
+  ComputeBudget(pulses.inputs(), options, without.outputs());
+  std::mt19937 random(9);
+  const auto draw = [&](BudgetInput input, double least, double most) {
+    std::uniform_real_distribution<double> between(least, most);
+    for (std::size_t i = 0; i < 500; ++i) pulses[input].push_back(static_cast<float>(between(random)));
+  };
+  draw(BudgetInput::kWaterSigmaAlong, 0, 0.4);
+  draw(BudgetInput::kWaterSigmaVertical, 0, 0.3);
+  draw(BudgetInput::kWaterCorrelation, -1, 1);
+  draw(BudgetInput::kWaterNoise, 0, 0.05);
+  std::array<std::vector<float>, 8> water;
+  for (auto& column : water) column.resize(500);
+  BudgetOutputs outputs = with.outputs();
+  outputs.thu_water = water[6];
+  outputs.tvu_water = water[7];
+  for (std::size_t entry = 0; entry < 6; ++entry) outputs.water[entry] = water[entry];
+  ComputeBudget(pulses.inputs(), options, outputs);
+  for (std::size_t i = 0; i < 500; ++i) {
+    const auto at = [&](BudgetInput input) { return pulses.at(input, i); };
+    const double azimuth = at(BudgetInput::kBeamAzimuth) * kDegree;
+    const double refracted = std::asin(std::sin(at(BudgetInput::kIncidence) * kDegree) / options.index);
+    const double along = at(BudgetInput::kWaterSigmaAlong), up = at(BudgetInput::kWaterSigmaVertical);
+    // Along the beam and up, on the axes north, east, down.
+    Eigen::Matrix<double, 3, 2> axes;
+    axes << std::cos(azimuth), 0, std::sin(azimuth), 0, 0, -1;
+    Eigen::Matrix2d shared;
+    const double both = at(BudgetInput::kWaterCorrelation) * along * up;
+    shared << along * along, both, both, up * up;
+    const Matrix3d survey = axes * shared * axes.transpose();
+    const Vector3d range = axes * Eigen::Vector2d(-std::tan(refracted), 1) * at(BudgetInput::kWaterNoise);
+    const Matrix3d all = survey + range * range.transpose();
+    const auto w = [&](std::size_t entry) { return static_cast<double>(water[entry][i]); };
+    ExpectSame((Matrix3d() << w(0), w(3), w(4), w(3), w(1), w(5), w(4), w(5), w(2)).finished(), all, "water");
+    ExpectSame(with.Covariance(2, i), without.Covariance(2, i) + all, "total");
+    ExpectSame(with.Covariance(3, i), without.Covariance(3, i) + range * range.transpose(), "pulse");
+    ExpectSame(with.Covariance(4, i), without.Covariance(4, i), "line");
+    ExpectSame(with.Covariance(5, i), without.Covariance(5, i) + survey, "survey");
+    EXPECT_NEAR(w(6), 2 * std::sqrt(all(0, 0) + all(1, 1)), 1e-5 * w(6) + 1e-9);
+    EXPECT_NEAR(w(7), 2 * std::sqrt(all(2, 2)), 1e-5 * w(7) + 1e-9);
+  }
+}
+
 TEST(ComputeBudget, HasNoTotalWithoutTheSea) {
   Pulses pulses = RandomPulses(2, 6);
   pulses[BudgetInput::kSeaThu][1] = NAN;
