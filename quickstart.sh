@@ -39,8 +39,18 @@ address=${BASH_REMATCH[1]}
 
 echo "== Annotating a flight line through the service"
 # Heights are above the ellipsoid, so that no vertical datum adds to the uncertainty.
-conditions=(--sensor riegl-vq-880-g --datum-sigma 0 --water-column none --wind-speed 5 --s44-order 1b --coverage p95
-            --details)
+# What is known of the water and of the receiver; a survey has its own numbers.
+cat > out/survey.toml <<'END'
+[water]
+kd = 0.12                  # 1/m
+kd_kind = "diffuse532"
+detector = "peak"
+field_of_view = 3          # m on the surface
+pulse_length = 1.5         # ns
+bias = "none"              # what scattering does to the bottom is in the points
+END
+conditions=(--survey out/survey.toml --sensor riegl-vq-880-g --datum-sigma 0 --wind-speed 5 --s44-order 1b
+            --coverage p95 --details)
 if [[ -r $sample ]]; then
   input=$sample
   conditions+=(--trajectory-from-returns --classes 26 --water-level -23.09)
@@ -57,7 +67,7 @@ out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions
 
 echo "== Done"
 echo "$annotated has total_thu and total_tvu at each bathymetric point, at 95 %, in m: of the air side, the location"
-echo "of the surface, the sea surface and the datum, without the water column; its shares, biases and covariance; and"
+echo "of the surface, the sea surface, the water column and the datum; its shares, biases and covariance; and"
 echo "the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
 echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

@@ -24,14 +24,18 @@ struct Scratch {
 };
 
 bool IsSigma(BudgetInput input) {
-  return input == BudgetInput::kWaveHeight ||
+  return input == BudgetInput::kWaveHeight || input == BudgetInput::kWaterSigmaAlong ||
+         input == BudgetInput::kWaterSigmaVertical || input == BudgetInput::kWaterNoise ||
          (input >= BudgetInput::kPositionSigmaNorth && input <= BudgetInput::kHeadingSigma);
 }
 
-// The numbers that a column of the aircraft may have are above this one, up to kGreatestBudgetNumber.
+// The numbers that a column of the aircraft may have are above this one, up to the other.
+float Greatest(BudgetInput input) {
+  return input == BudgetInput::kWaterCorrelation ? 1 : static_cast<float>(kGreatestBudgetNumber);
+}
 float Below(BudgetInput input) {
   if (input == BudgetInput::kAltitude) return 0;
-  const float least = IsSigma(input) ? 0 : -static_cast<float>(kGreatestBudgetNumber);
+  const float least = IsSigma(input) ? 0 : -Greatest(input);
   return std::nextafter(least, -std::numeric_limits<float>::infinity());
 }
 
@@ -41,8 +45,7 @@ void Refuse(const BudgetInputs& aircraft, std::uint8_t* refused) {
   for (const BudgetInput input : kAircraftInputs) {
     const std::span<const float> column = aircraft[input];
     if (column.empty()) continue;
-    const float below = Below(input);
-    const auto greatest = static_cast<float>(kGreatestBudgetNumber);
+    const float below = Below(input), greatest = Greatest(input);
     const auto is_refused = [=](float x) {
       return static_cast<std::uint8_t>((static_cast<int>(x > below) & static_cast<int>(x <= greatest)) ^ 1);
     };
@@ -73,12 +76,23 @@ BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::si
       .tvu_air = number(kTvuAir),
       .thu_sea = number(kThuSea),
       .tvu_sea = number(kTvuSea),
+      .thu_water = number(kThuWater),
+      .tvu_water = number(kTvuWater),
       .air = covariance(kCovarianceAir),
       .sea = covariance(kCovarianceSea),
+      .water = covariance(kCovarianceWater),
       .total = covariance(kCovarianceTotal),
       .groups = {covariance(kCovariancePulse), covariance(kCovarianceLine), covariance(kCovarianceSurvey)}};
   if (answers.best_s44_orders != nullptr) outputs.best_orders = {answers.best_s44_orders + begin, count};
   return outputs;
+}
+
+// The biases of the sea and of the water, which may be a constant or absent, into the rows from `begin` on.
+void Sum(const float* sea, std::span<const float> water, std::size_t begin, std::size_t count,
+         float* column) {
+  if (column == nullptr) return;
+  for (std::size_t i = 0; i < count; ++i)
+    column[begin + i] = sea[i] + (water.empty() ? 0 : water[water.size() == 1 ? 0 : i]);
 }
 
 // Answers up to kGrain pulses from `begin` on.
@@ -103,8 +117,8 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
   if (asks_order || bias_vertical != nullptr)
     sea.values[Index(Quantity::kBiasVertical)] = scratch.bias_vertical;
   interpolator.Interpolate({.coverage = Coverage::kTwoSigma, .s44_order = {}}, piece.pulses, 0, count, sea);
-  if (bias_along_beam != nullptr) std::copy_n(scratch.bias_along_beam, count, bias_along_beam + begin);
-  if (bias_vertical != nullptr) std::copy_n(scratch.bias_vertical, count, bias_vertical + begin);
+  Sum(scratch.bias_along_beam, piece.aircraft[BudgetInput::kWaterBiasAlong], begin, count, bias_along_beam);
+  Sum(scratch.bias_vertical, piece.aircraft[BudgetInput::kWaterBiasVertical], begin, count, bias_vertical);
 
   Refuse(piece.aircraft, scratch.refused);
   for (std::size_t i = 0; i < count; ++i) {

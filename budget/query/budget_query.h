@@ -21,7 +21,7 @@ enum class BudgetQuantity : std::uint8_t {
   kTvuAir,            // m
   kThuSea,            // m, of sea surface and unseen waves.
   kTvuSea,            // m
-  kBiasAlongBeam,     // m; in no covariance. NaN if the table does not hold it.
+  kBiasAlongBeam,     // m, that of the water included; in no covariance. NaN if the table does not hold it.
   kBiasVertical,      // m
   kCovarianceTotal,   // m^2, 1 sigma: six columns in the order of kCovarianceNames.
   kCovarianceAir,     // As BudgetOutputs::air.
@@ -30,19 +30,37 @@ enum class BudgetQuantity : std::uint8_t {
   kCovarianceLine,    // As BudgetOutputs::groups.
   kCovarianceSurvey,  // As BudgetOutputs::groups.
   kBestS44Order,      // BudgetAnswers::best_s44_orders
+  kThuWater,          // m, of the water column.
+  kTvuWater,          // m
+  kCovarianceWater,   // As BudgetOutputs::water.
 };
-inline constexpr std::size_t kBudgetQuantityCount = 15;
+inline constexpr std::size_t kBudgetQuantityCount = 18;
 
 // Which columns of single-precision numbers a quantity has: one, the six of a covariance, or none for the best order.
-inline constexpr std::size_t kBudgetColumnCount = 8 + 6 * 6;
-constexpr std::size_t FirstColumn(BudgetQuantity quantity) {
-  const auto q = static_cast<std::size_t>(quantity);
-  return q < 8 ? q : 8 + 6 * (q - 8);
-}
+inline constexpr std::size_t kBudgetColumnCount = 8 + 6 * 6 + 2 + 6;
 constexpr std::size_t ColumnCount(BudgetQuantity quantity) {
-  if (quantity == BudgetQuantity::kBestS44Order) return 0;
-  return quantity < BudgetQuantity::kCovarianceTotal ? 1 : 6;
+  switch (quantity) {
+    case BudgetQuantity::kBestS44Order:
+      return 0;
+    case BudgetQuantity::kCovarianceTotal:
+    case BudgetQuantity::kCovarianceAir:
+    case BudgetQuantity::kCovarianceSea:
+    case BudgetQuantity::kCovariancePulse:
+    case BudgetQuantity::kCovarianceLine:
+    case BudgetQuantity::kCovarianceSurvey:
+    case BudgetQuantity::kCovarianceWater:
+      return 6;
+    default:
+      return 1;
+  }
 }
+constexpr std::size_t FirstColumn(BudgetQuantity quantity) {
+  std::size_t first = 0;
+  for (std::size_t q = 0; q < static_cast<std::size_t>(quantity); ++q)
+    first += ColumnCount(static_cast<BudgetQuantity>(q));
+  return first;
+}
+static_assert(FirstColumn(BudgetQuantity::kCovarianceWater) + 6 == kBudgetColumnCount);
 
 // Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted.
 struct BudgetAnswers {
@@ -61,8 +79,8 @@ struct BudgetPulses {
   std::optional<double> sea_axis = {};
 };
 
-// The inputs that are the aircraft's, in the order of the wire. Altitude and beam azimuth are required.
-inline constexpr std::array<BudgetInput, 18> kAircraftInputs = {BudgetInput::kAltitude,
+// The inputs that are the aircraft's and the water's, in the order of the wire. Altitude and beam azimuth are required.
+inline constexpr std::array<BudgetInput, 24> kAircraftInputs = {BudgetInput::kAltitude,
                                                                 BudgetInput::kBeamAzimuth,
                                                                 BudgetInput::kRoll,
                                                                 BudgetInput::kPitch,
@@ -79,7 +97,13 @@ inline constexpr std::array<BudgetInput, 18> kAircraftInputs = {BudgetInput::kAl
                                                                 BudgetInput::kRollSigma,
                                                                 BudgetInput::kPitchSigma,
                                                                 BudgetInput::kHeadingSigma,
-                                                                BudgetInput::kWaveHeight};
+                                                                BudgetInput::kWaveHeight,
+                                                                BudgetInput::kWaterSigmaAlong,
+                                                                BudgetInput::kWaterSigmaVertical,
+                                                                BudgetInput::kWaterCorrelation,
+                                                                BudgetInput::kWaterNoise,
+                                                                BudgetInput::kWaterBiasAlong,
+                                                                BudgetInput::kWaterBiasVertical};
 constexpr bool IsRequired(BudgetInput input) {
   return input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth;
 }
@@ -96,7 +120,7 @@ inline constexpr double kGreatestBudgetNumber = 1e6;
 //
 // A pulse without an answer of the table has the table's outcome and no number. A pulse is invalid if a number of the
 // aircraft is NaN or beyond kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height
-// negative.
+// negative, a correlation outside -1 to 1.
 void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
                            const BudgetOptions& options, const BudgetAnswers& answers);
 

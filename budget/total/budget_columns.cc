@@ -275,9 +275,10 @@ void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, con
     AtP95(block.total, thu, tvu);
     const auto in = [&](BudgetInput input) { return block.input[static_cast<std::size_t>(input)]; };
     for (std::size_t i = 0; i < count; ++i) {
-      outputs.best_orders[begin + i] =
-          BestOrderMet(thu[i], tvu[i], in(BudgetInput::kBiasAlongBeam)[i], in(BudgetInput::kBiasVertical)[i],
-                       in(BudgetInput::kDepth)[i]);
+      outputs.best_orders[begin + i] = BestOrderMet(
+          thu[i], tvu[i], in(BudgetInput::kBiasAlongBeam)[i] + in(BudgetInput::kWaterBiasAlong)[i],
+          in(BudgetInput::kBiasVertical)[i] + in(BudgetInput::kWaterBiasVertical)[i],
+          in(BudgetInput::kDepth)[i]);
     }
   }
 }

@@ -52,15 +52,17 @@ enum class BudgetInput : std::uint8_t {
   kWaterSigmaVertical,  // m, the same, vertical.
   kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1.
   kWaterNoise,          // m, vertical, of the photons of this echo alone.
+  kWaterBiasAlong,      // m, as kBiasAlongBeam, to which it is added.
+  kWaterBiasVertical,   // m, as kBiasVertical, to which it is added.
 };
-inline constexpr std::size_t kBudgetInputCount = 31;
+inline constexpr std::size_t kBudgetInputCount = 33;
 // clang-format off
 inline constexpr std::array<std::string_view, kBudgetInputCount> kBudgetInputNames = {
     "incidence", "beam_azimuth", "altitude", "depth", "roll", "pitch", "heading", "velocity_north", "velocity_east",
     "velocity_down", "roll_rate", "pitch_rate", "yaw_rate", "position_sigma_north", "position_sigma_east",
     "position_sigma_down", "roll_sigma", "pitch_sigma", "heading_sigma", "sea_thu", "sea_tvu", "refraction_along",
     "refraction_cross", "bias_along_beam", "bias_vertical", "sea_axis", "wave_height", "water_sigma_along",
-    "water_sigma_vertical", "water_correlation", "water_noise"};
+    "water_sigma_vertical", "water_correlation", "water_noise", "water_bias_along", "water_bias_vertical"};
 // clang-format on
 
 struct BudgetInputs {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "budget/water/water_draws.h"
 
 namespace albtpu {
 namespace {
@@ -22,55 +23,6 @@ const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::log(2.0)));
 constexpr double kMostOfOtherSign = 0.02;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-struct Draw {
-  double attenuation, ratio, fraction;
-};
-
-// The inverse of the standard normal distribution, by Newton's steps.
-double NormalQuantile(double p) {
-  if (p < 0.5) return -NormalQuantile(1 - p);
-  double x = std::sqrt(-2 * std::log(2 * (1 - p)) + 1e-300) * 0.8;
-  for (int i = 0; i < 60; ++i) {
-    const double below = 0.5 * std::erfc(-x / std::sqrt(2.0));
-    const double density = std::exp(-x * x / 2) / std::sqrt(2 * std::acos(-1.0));
-    x -= std::clamp((below - p) / density, -0.5, 0.5);
-  }
-  return x;
-}
-
-// Number i of van der Corput's sequence.
-double Radical(std::size_t i, std::size_t base) {
-  double value = 0, digit = 1.0 / static_cast<double>(base);
-  for (; i > 0; i /= base, digit /= static_cast<double>(base)) value += digit * static_cast<double>(i % base);
-  return value;
-}
-
-// Even over the three distributions: Halton's points.
-std::vector<Draw> DrawWaters(const WaterOptics& optics) {
-  std::vector<Draw> draws;
-  // Where the limits of b / a lie in its distribution.
-  const auto place = [&](double ratio) {
-    if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0.0 : 1.0;
-    const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
-    return 0.5 * std::erfc(-x / std::sqrt(2.0));
-  };
-  const double least = optics.least_ratio > 0 ? place(optics.least_ratio) : 0,
-               most = place(optics.most_ratio);
-  for (std::size_t i = 0; i < WaterShare::kDraws; ++i) {
-    const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / WaterShare::kDraws;
-    Draw draw{};
-    draw.fraction =
-        optics.least_fraction * std::pow(optics.most_fraction / optics.least_fraction, Radical(i + 1, 3));
-    draw.attenuation = std::max(
-        1.001 * kPureWaterAbsorption,
-        optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
-    draw.ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * NormalQuantile(even));
-    draw.ratio = std::min(draw.ratio, WaterOptics::GreatestRatio(draw.attenuation, draw.fraction));
-    draws.push_back(draw);
-  }
-  return draws;
-}
-
 // The vertical bias, that along the beam, and spot, stretch and energy: all over the depth.
 struct Looked {
   double vertical = 0, along = 0, spot = 0, stretch = 0, energy = 0;
@@ -78,7 +30,7 @@ struct Looked {
 
 class Lookup {
  public:
-  Lookup(const WaterColumnTable& table, const WaterReceiver& receiver, const Draw& draw)
+  Lookup(const WaterColumnTable& table, const WaterReceiver& receiver, const DrawnWater& draw)
       : receiver_(receiver),
         draw_(draw),
         least_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
@@ -106,10 +58,27 @@ class Lookup {
 
  private:
   WaterReceiver receiver_;
-  Draw draw_;
+  DrawnWater draw_;
   double least_ratio_, last_;
   OneWater water_;
 };
+
+// What the table knows of waters.
+absl::Status CheckOptics(const WaterColumnTable& table, const WaterOptics& optics) {
+  const auto [least, most] = table.Range(WaterAxis::kBackscatterFraction);
+  // The ends of the table are floats.
+  if (optics.least_fraction < least * (1 - 1e-6) || optics.most_fraction > most * (1 + 1e-6)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("backscatter_fraction is outside the table of the water column; give ",
+                     static_cast<float>(least), " to ", static_cast<float>(most)));
+  }
+  const double greatest = table.Range(WaterAxis::kScatteringOverAbsorption).second;
+  if (optics.scattering_over_absorption <= greatest) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "the water scatters ", optics.scattering_over_absorption,
+      " times as much as it absorbs, which is outside the table of the water column; give at most ", greatest,
+      ", an albedo of ", greatest / (1 + greatest)));
+}
 
 absl::Status CheckTreatment(const BiasTreatment& treatment, double greatest_depth) {
   if (treatment.handling == BiasHandling::kVendor &&
@@ -159,6 +128,7 @@ double QuantileOf(std::vector<double>& values, double fraction) {
 
 absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, const WaterOptics& optics,
                                               const WaterReceiver& receiver, const BiasTreatment& treatment) {
+  if (absl::Status status = CheckOptics(table, optics); !status.ok()) return status;
   WaterShare share;
   share.receiver_ = receiver;
   share.greatest_incidence_ = table.Range(WaterAxis::kIncidence).second;
@@ -173,10 +143,10 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
     return absl::InvalidArgumentError(
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
-  const std::vector<Draw> draws = DrawWaters(optics);
+  const std::vector<DrawnWater> draws = DrawWaters(optics, kDraws);
   std::vector<Lookup> lookups;
   lookups.reserve(draws.size());
-  for (const Draw& draw : draws) lookups.emplace_back(table, receiver, draw);
+  for (const DrawnWater& draw : draws) lookups.emplace_back(table, receiver, draw);
   // A point was reported: its water is one of those that let an echo back. At the greatest depth, half of them do.
   const auto sees = [&](double depth) {
     const auto seeing = std::count_if(lookups.begin(), lookups.end(), [&](const Lookup& lookup) {

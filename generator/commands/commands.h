@@ -68,6 +68,7 @@ inline constexpr double kLightSpeed = 0.299792458;  // m/ns
 
 struct WaterPointOptions {
   double incidence = 0;                   // degree, in air
+  double kd = 0, omega0 = 0;              // In place of the next two, which the flags then set.
   double absorption = 0, scattering = 0;  // 1/m
   double backscatter_fraction = 0.0183;
   double depth = 0, field_of_view = 0;  // m; the field of view may be infinite

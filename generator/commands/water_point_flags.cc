@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
 #include "generator/commands/flags.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 // The echo of clear water is known in closed form only where the field of view takes in the whole footprint.
 constexpr double kLeastFootprints = 2.5;
 
-// Of the pulse in water over twice the depth: an echo is kept in steps of a thirtieth of the pulse, from two depths
-// above the bottom to five below it.
+// Lengths of the pulse in water over twice the depth. An echo is kept in steps of a thirtieth of the pulse, from two
+// depths above the bottom to five below it.
 constexpr double kShortestPulse = 5e-4, kLongestPulse = 1.5;
 
 CLI::Validator FieldOfView() {
@@ -30,12 +31,22 @@ CLI::Validator FieldOfView() {
 }  // namespace
 
 void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
-  point.add_option("--absorption", options.absorption, "Absorption of the water [1/m]")
-      ->required()
-      ->check(NumberIn(0.001, 100));
-  point.add_option("--scattering", options.scattering, "Scattering of the water [1/m]")
-      ->required()
-      ->check(NumberIn(1e-6, 100));
+  CLI::Option* const absorption =
+      point.add_option("--absorption", options.absorption, "Absorption of the water [1/m]")
+          ->check(NumberIn(0.001, 100));
+  CLI::Option* const scattering =
+      point.add_option("--scattering", options.scattering, "Scattering of the water [1/m]")
+          ->check(NumberIn(1e-6, 100));
+  CLI::Option* const kd =
+      point
+          .add_option(
+              "--kd", options.kd,
+              "In their place: diffuse attenuation of light from straight above, sqrt(a^2 + 6 B a b) of "
+              "absorption a, scattering b and backscatter fraction B [1/m]")
+          ->check(NumberIn(0.001, 100));
+  CLI::Option* const omega0 =
+      point.add_option("--omega0", options.omega0, "Single-scattering albedo, with --kd")
+          ->check(NumberIn(1e-4, 0.99));
   point
       .add_option("--backscatter-fraction", options.backscatter_fraction,
                   "Share of scattered light that turns back (default: 0.0183)")
@@ -74,7 +85,19 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
       ->check(Seed());
   point.add_flag("--json", options.json, "Print one JSON object");
   AddThreads(point, threads);
-  point.callback([&options] {
+  point.callback([&options, absorption, scattering, kd, omega0] {
+    const bool direct = *absorption && *scattering && !*kd && !*omega0;
+    if (!direct && (!*kd || !*omega0 || *absorption || *scattering)) {
+      throw CLI::ValidationError(
+          "--absorption",
+          "the water is told by two numbers; give --absorption and --scattering, or --kd and "
+          "--omega0");
+    }
+    if (!direct) {
+      const double ratio = options.omega0 / (1 - options.omega0);
+      options.scattering = options.kd / OpticalDepthPerScattering(ratio, options.backscatter_fraction);
+      options.absorption = options.scattering / ratio;
+    }
     if (options.field_of_view < kLeastFootprints * options.footprint) {
       throw CLI::ValidationError(
           "--field-of-view", absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
@@ -89,8 +112,8 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
     }
   });
   Group(point, "The water",
-        {"--absorption", "--scattering", "--backscatter-fraction", "--depth", "--refractive-index",
-         "--group-index"});
+        {"--absorption", "--scattering", "--kd", "--omega0", "--backscatter-fraction", "--depth",
+         "--refractive-index", "--group-index"});
   Group(point, "The system", {"--incidence", "--field-of-view", "--pulse-length", "--footprint"});
   Group(point, kWork, {"--photons", "--seed", "--threads"});
   Group(point, "Output", {"--json"});

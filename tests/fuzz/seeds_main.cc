@@ -17,6 +17,7 @@
 #include "service/client/sea_wire.h"
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
+#include "tables/water/water_schema.h"
 #include "tests/fuzz/laz/laz_seeds.h"
 #include "tests/fuzz/sea/sea_seeds.h"
 #include "tests/service/known_seas.h"
@@ -39,6 +40,21 @@ depth = [0, 10]
 )";
   return {"id = \"small\"\nversion = \"1\"\ntitle = \"Two seas\"\nseed = 7\n" + axes +
               "[effort]\nrealizations = 50\n",
+          R"(id = "w"
+kind = "water_column"
+version = "1"
+title = "Water"
+[axes]
+backscatter_fraction = [0.01, 0.03]
+scattering_over_absorption = [2, 6]
+incidence = [0, 15]
+optical_depth = [0.1, 1.5]
+field_of_view = [0.1, 3]
+pulse_length = [0.01, 0.3]
+[effort]
+photons = 4000
+pairs_per_photon = 2
+)",
           "id = \"a\"\nversion = \"1\"\ntitle = \"b\"\n" + axes + R"([beam]
 profile = "gaussian"
 source_height = 4.0
@@ -173,12 +189,28 @@ std::vector<std::string> BudgetSeeds() {
   return seeds;
 }
 
+// Two nodes and one value on every axis.
+Table SmallWaterTable() {
+  Table::Axes axes;
+  for (const AxisSchema& axis : kWaterColumn.axes) axes.push_back(*Axis::Create(axis, {0.25, 2}));
+  Table::Variables variables;
+  for (const QuantitySchema& quantity : kWaterColumn.quantities)
+    variables.push_back(
+        Variable{.values = std::vector<float>(ValueCount(axes, quantity), 0.5f), .standard_errors = {}});
+  Provenance provenance;
+  provenance.id = std::string("water");
+  provenance.version = std::string("1.0");
+  provenance.title = std::string("small");
+  return *Table::Create(kWaterColumn, axes, variables, provenance);
+}
+
 std::vector<std::string> TableSeeds() {
   std::vector<std::string> seeds;
   for (const UncertaintyTable& table :
        {testing::TinyTable(), testing::TinyTable(Scale::kLog), testing::TinyTable(Scale::kLinear, kOneSea)}) {
     seeds.push_back(EncodeTable(table).value());
   }
+  seeds.push_back(EncodeTable(SmallWaterTable()).value());
   return seeds;
 }
 

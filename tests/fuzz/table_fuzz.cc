@@ -3,6 +3,8 @@
 #include <hdf5.h>
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
 #include "tables/query/column_query.h"
+#include "tables/water/water_column_table.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/twin.h"
 #include "tests/tables/synthetic_table.h"
@@ -55,6 +58,35 @@ void CheckAnswers(const UncertaintyTable& table) {
   }
 }
 
+// The second kind: rejected with a reason, or finite within its nodes.
+void CheckWater(absl::string_view file) {
+  absl::StatusOr<Table> table = DecodeTable(file, kWaterColumn);
+  if (!table.ok()) {
+    ALBTPU_MUST(absl::IsDataLoss(table.status()) || absl::IsInvalidArgument(table.status()));
+    return;
+  }
+  for (const QuantitySchema& quantity : kWaterColumn.quantities)
+    if (ValueCount(table->axes(), quantity) > kMostValues) return;
+  const absl::StatusOr<WaterColumnTable> water = WaterColumnTable::Create(*std::move(table));
+  if (!water.ok()) {
+    ALBTPU_MUST(absl::IsInvalidArgument(water.status()));
+    return;
+  }
+  const auto first = [&](WaterAxis axis) { return water->Range(axis).first; };
+  const auto last = [&](WaterAxis axis) { return water->Range(axis).second; };
+  for (const bool at_last : {false, true}) {
+    const auto node = [&](WaterAxis axis) { return at_last ? last(axis) : first(axis); };
+    const std::optional<WaterAnswer> answer =
+        water->Of(node(WaterAxis::kBackscatterFraction), node(WaterAxis::kScatteringOverAbsorption))
+            .At({.incidence = node(WaterAxis::kIncidence),
+                 .optical_depth = node(WaterAxis::kOpticalDepth),
+                 .field_of_view = node(WaterAxis::kFieldOfView),
+                 .pulse_length = node(WaterAxis::kPulseLength)});
+    ALBTPU_MUST(answer.has_value());
+    for (const double value : *answer) ALBTPU_MUST(!std::isnan(value));
+  }
+}
+
 // HDF5 keeps nothing of a rejected file that affects the next one: another table is read correctly.
 void ReadAnother() {
   static const UncertaintyTable table = testing::TinyTable();
@@ -79,6 +111,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!table.ok()) {
     ALBTPU_MUST(absl::IsDataLoss(table.status()) || absl::IsInvalidArgument(table.status()));
     ALBTPU_MUST(!table.status().message().empty());
+    CheckWater(file);
+    ALBTPU_MUST(OpenInHdf5() == open_before);
     if (seal::Check(file).ok()) ReadAnother();
     return 0;
   }

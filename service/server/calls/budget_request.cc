@@ -72,7 +72,13 @@ std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftCo
                                                                         &aircraft.roll_sigma(),
                                                                         &aircraft.pitch_sigma(),
                                                                         &aircraft.heading_sigma(),
-                                                                        &aircraft.wave_height()};
+                                                                        &aircraft.wave_height(),
+                                                                        &aircraft.water_sigma_along(),
+                                                                        &aircraft.water_sigma_vertical(),
+                                                                        &aircraft.water_correlation(),
+                                                                        &aircraft.water_noise(),
+                                                                        &aircraft.water_bias_along(),
+                                                                        &aircraft.water_bias_vertical()};
   std::array<RequestColumn, kAircraftInputs.size()> columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const BudgetInput input = kAircraftInputs[i];

@@ -227,6 +227,13 @@ TEST(WaterShare, RefusesWhatItCannotCompute) {
               HasSubstr("0 (nothing"));
   EXPECT_THAT(problem(kWide, {.handling = BiasHandling::kCalibrated, .calibration_depth = 100}),
               HasSubstr("beyond"));
+  WaterOptics bright = Coastal();
+  bright.scattering_over_absorption = 50;
+  EXPECT_THAT(WaterShare::Create(Shipped(), bright, kWide, {}).status().message(),
+              HasSubstr("albedo of 0.96"));
+  WaterOptics fine = Coastal();
+  fine.least_fraction = 0.002;
+  EXPECT_THAT(WaterShare::Create(Shipped(), fine, kWide, {}).status().message(), HasSubstr("0.01 to 0.03"));
   WaterReceiver half = kNarrow;
   half.detector = EchoDetector::kHalf;
   EXPECT_THAT(

@@ -64,10 +64,13 @@ AIRCRAFT: dict[str, str] = {
     "velocity_north": "m s-1", "velocity_east": "m s-1", "velocity_down": "m s-1",
     "roll_rate": "degree s-1", "pitch_rate": "degree s-1", "yaw_rate": "degree s-1",
     "position_sigma_north": "m", "position_sigma_east": "m", "position_sigma_down": "m",
-    "roll_sigma": "degree", "pitch_sigma": "degree", "heading_sigma": "degree", "wave_height": "m"}
+    "roll_sigma": "degree", "pitch_sigma": "degree", "heading_sigma": "degree", "wave_height": "m",
+    "water_sigma_along": "m", "water_sigma_vertical": "m", "water_correlation": "1", "water_noise": "m",
+    "water_bias_along": "m", "water_bias_vertical": "m"}
 # How the surface was located, and the quantities of the budget. On the wire, each is its position here, counted from 1.
 LOCATIONS = ("pulse", "local", "level")
 COVARIANCES = ("covariance_total", "covariance_air", "covariance_sea", "covariance_pulse", "covariance_line",
-               "covariance_survey")
+               "covariance_survey", "covariance_water")
 BUDGET_QUANTITIES = ("total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea", "bias_along_beam",
-                     "bias_vertical", *COVARIANCES, "best_s44_orders")
+                     "bias_vertical", *COVARIANCES[:-1], "best_s44_orders", "thu_water", "tvu_water",
+                     "covariance_water")

@@ -94,7 +94,7 @@ class Service(UncertaintySource):
                      datum: float = 0.0, sea_axis: float | None = None, table: str | None = None,
                      coverage: str = "2sigma", quantities: Iterable[str] = ("total_thu", "total_tvu"),
                      progress: bool = False) -> Budget:
-        """The whole uncertainty of each pulse: of the air side, the sea surface and the vertical datum.
+        """The whole uncertainty of each pulse: of air side, sea surface, water column and vertical datum.
 
         wind_speed, fetch, incidence, azimuth, footprint, depth, sea, table, progress: as in `query`.
         altitude:     m, of the sensor above the water.
@@ -105,7 +105,9 @@ class Service(UncertaintySource):
                       velocity_down in m/s; roll_rate, pitch_rate, yaw_rate in degrees per s; the standard deviations
                       position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
                       heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
-                      of the elevation that the location of the surface does not see.
+                      of the elevation that the location of the surface does not see; and the share of the water column,
+                      which `albtpu-query pulse` states: water_sigma_along, water_sigma_vertical and water_noise in m,
+                      water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
         errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
                       and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,
                       range_offset, bottom_range, surface_range and surface_height in m, index. Omitted ones are 0.

@@ -13,12 +13,15 @@ BUDGET_QUANTITY_COVARIANCE_PULSE: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_SEA: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_SURVEY: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_TOTAL: BudgetQuantity
+BUDGET_QUANTITY_COVARIANCE_WATER: BudgetQuantity
 BUDGET_QUANTITY_THU_AIR: BudgetQuantity
 BUDGET_QUANTITY_THU_SEA: BudgetQuantity
+BUDGET_QUANTITY_THU_WATER: BudgetQuantity
 BUDGET_QUANTITY_TOTAL_THU: BudgetQuantity
 BUDGET_QUANTITY_TOTAL_TVU: BudgetQuantity
 BUDGET_QUANTITY_TVU_AIR: BudgetQuantity
 BUDGET_QUANTITY_TVU_SEA: BudgetQuantity
+BUDGET_QUANTITY_TVU_WATER: BudgetQuantity
 BUDGET_QUANTITY_UNSPECIFIED: BudgetQuantity
 DESCRIPTOR: _descriptor.FileDescriptor
 SURFACE_LOCATION_LEVEL: SurfaceLocation
@@ -53,7 +56,7 @@ class AirErrors(_message.Message):
     def __init__(self, position: _Optional[_Union[NorthEastDown, _Mapping]] = ..., attitude: _Optional[_Union[RollPitchHeading, _Mapping]] = ..., boresight: _Optional[_Union[ForwardRightDown, _Mapping]] = ..., lever_arm: _Optional[float] = ..., scan: _Optional[float] = ..., time: _Optional[float] = ..., range_offset: _Optional[float] = ..., bottom_range: _Optional[float] = ..., surface_height: _Optional[float] = ..., index: _Optional[float] = ..., surface_range: _Optional[float] = ...) -> None: ...
 
 class AircraftColumns(_message.Message):
-    __slots__ = ["altitude", "beam_azimuth", "heading", "heading_sigma", "pitch", "pitch_rate", "pitch_sigma", "position_sigma_down", "position_sigma_east", "position_sigma_north", "roll", "roll_rate", "roll_sigma", "velocity_down", "velocity_east", "velocity_north", "wave_height", "yaw_rate"]
+    __slots__ = ["altitude", "beam_azimuth", "heading", "heading_sigma", "pitch", "pitch_rate", "pitch_sigma", "position_sigma_down", "position_sigma_east", "position_sigma_north", "roll", "roll_rate", "roll_sigma", "velocity_down", "velocity_east", "velocity_north", "water_bias_along", "water_bias_vertical", "water_correlation", "water_noise", "water_sigma_along", "water_sigma_vertical", "wave_height", "yaw_rate"]
     ALTITUDE_FIELD_NUMBER: _ClassVar[int]
     BEAM_AZIMUTH_FIELD_NUMBER: _ClassVar[int]
     HEADING_FIELD_NUMBER: _ClassVar[int]
@@ -70,6 +73,12 @@ class AircraftColumns(_message.Message):
     VELOCITY_DOWN_FIELD_NUMBER: _ClassVar[int]
     VELOCITY_EAST_FIELD_NUMBER: _ClassVar[int]
     VELOCITY_NORTH_FIELD_NUMBER: _ClassVar[int]
+    WATER_BIAS_ALONG_FIELD_NUMBER: _ClassVar[int]
+    WATER_BIAS_VERTICAL_FIELD_NUMBER: _ClassVar[int]
+    WATER_CORRELATION_FIELD_NUMBER: _ClassVar[int]
+    WATER_NOISE_FIELD_NUMBER: _ClassVar[int]
+    WATER_SIGMA_ALONG_FIELD_NUMBER: _ClassVar[int]
+    WATER_SIGMA_VERTICAL_FIELD_NUMBER: _ClassVar[int]
     WAVE_HEIGHT_FIELD_NUMBER: _ClassVar[int]
     YAW_RATE_FIELD_NUMBER: _ClassVar[int]
     altitude: bytes
@@ -88,12 +97,18 @@ class AircraftColumns(_message.Message):
     velocity_down: bytes
     velocity_east: bytes
     velocity_north: bytes
+    water_bias_along: bytes
+    water_bias_vertical: bytes
+    water_correlation: bytes
+    water_noise: bytes
+    water_sigma_along: bytes
+    water_sigma_vertical: bytes
     wave_height: bytes
     yaw_rate: bytes
-    def __init__(self, altitude: _Optional[bytes] = ..., beam_azimuth: _Optional[bytes] = ..., roll: _Optional[bytes] = ..., pitch: _Optional[bytes] = ..., heading: _Optional[bytes] = ..., velocity_north: _Optional[bytes] = ..., velocity_east: _Optional[bytes] = ..., velocity_down: _Optional[bytes] = ..., roll_rate: _Optional[bytes] = ..., pitch_rate: _Optional[bytes] = ..., yaw_rate: _Optional[bytes] = ..., position_sigma_north: _Optional[bytes] = ..., position_sigma_east: _Optional[bytes] = ..., position_sigma_down: _Optional[bytes] = ..., roll_sigma: _Optional[bytes] = ..., pitch_sigma: _Optional[bytes] = ..., heading_sigma: _Optional[bytes] = ..., wave_height: _Optional[bytes] = ...) -> None: ...
+    def __init__(self, altitude: _Optional[bytes] = ..., beam_azimuth: _Optional[bytes] = ..., roll: _Optional[bytes] = ..., pitch: _Optional[bytes] = ..., heading: _Optional[bytes] = ..., velocity_north: _Optional[bytes] = ..., velocity_east: _Optional[bytes] = ..., velocity_down: _Optional[bytes] = ..., roll_rate: _Optional[bytes] = ..., pitch_rate: _Optional[bytes] = ..., yaw_rate: _Optional[bytes] = ..., position_sigma_north: _Optional[bytes] = ..., position_sigma_east: _Optional[bytes] = ..., position_sigma_down: _Optional[bytes] = ..., roll_sigma: _Optional[bytes] = ..., pitch_sigma: _Optional[bytes] = ..., heading_sigma: _Optional[bytes] = ..., wave_height: _Optional[bytes] = ..., water_sigma_along: _Optional[bytes] = ..., water_sigma_vertical: _Optional[bytes] = ..., water_correlation: _Optional[bytes] = ..., water_noise: _Optional[bytes] = ..., water_bias_along: _Optional[bytes] = ..., water_bias_vertical: _Optional[bytes] = ...) -> None: ...
 
 class BudgetColumns(_message.Message):
-    __slots__ = ["best_s44_orders", "bias_along_beam", "bias_vertical", "covariance_air", "covariance_line", "covariance_pulse", "covariance_sea", "covariance_survey", "covariance_total", "thu_air", "thu_sea", "total_thu", "total_tvu", "tvu_air", "tvu_sea"]
+    __slots__ = ["best_s44_orders", "bias_along_beam", "bias_vertical", "covariance_air", "covariance_line", "covariance_pulse", "covariance_sea", "covariance_survey", "covariance_total", "covariance_water", "thu_air", "thu_sea", "thu_water", "total_thu", "total_tvu", "tvu_air", "tvu_sea", "tvu_water"]
     BEST_S44_ORDERS_FIELD_NUMBER: _ClassVar[int]
     BIAS_ALONG_BEAM_FIELD_NUMBER: _ClassVar[int]
     BIAS_VERTICAL_FIELD_NUMBER: _ClassVar[int]
@@ -103,12 +118,15 @@ class BudgetColumns(_message.Message):
     COVARIANCE_SEA_FIELD_NUMBER: _ClassVar[int]
     COVARIANCE_SURVEY_FIELD_NUMBER: _ClassVar[int]
     COVARIANCE_TOTAL_FIELD_NUMBER: _ClassVar[int]
+    COVARIANCE_WATER_FIELD_NUMBER: _ClassVar[int]
     THU_AIR_FIELD_NUMBER: _ClassVar[int]
     THU_SEA_FIELD_NUMBER: _ClassVar[int]
+    THU_WATER_FIELD_NUMBER: _ClassVar[int]
     TOTAL_THU_FIELD_NUMBER: _ClassVar[int]
     TOTAL_TVU_FIELD_NUMBER: _ClassVar[int]
     TVU_AIR_FIELD_NUMBER: _ClassVar[int]
     TVU_SEA_FIELD_NUMBER: _ClassVar[int]
+    TVU_WATER_FIELD_NUMBER: _ClassVar[int]
     best_s44_orders: bytes
     bias_along_beam: bytes
     bias_vertical: bytes
@@ -118,13 +136,16 @@ class BudgetColumns(_message.Message):
     covariance_sea: bytes
     covariance_survey: bytes
     covariance_total: bytes
+    covariance_water: bytes
     thu_air: bytes
     thu_sea: bytes
+    thu_water: bytes
     total_thu: bytes
     total_tvu: bytes
     tvu_air: bytes
     tvu_sea: bytes
-    def __init__(self, total_thu: _Optional[bytes] = ..., total_tvu: _Optional[bytes] = ..., thu_air: _Optional[bytes] = ..., tvu_air: _Optional[bytes] = ..., thu_sea: _Optional[bytes] = ..., tvu_sea: _Optional[bytes] = ..., bias_along_beam: _Optional[bytes] = ..., bias_vertical: _Optional[bytes] = ..., covariance_total: _Optional[bytes] = ..., covariance_air: _Optional[bytes] = ..., covariance_sea: _Optional[bytes] = ..., covariance_pulse: _Optional[bytes] = ..., covariance_line: _Optional[bytes] = ..., covariance_survey: _Optional[bytes] = ..., best_s44_orders: _Optional[bytes] = ...) -> None: ...
+    tvu_water: bytes
+    def __init__(self, total_thu: _Optional[bytes] = ..., total_tvu: _Optional[bytes] = ..., thu_air: _Optional[bytes] = ..., tvu_air: _Optional[bytes] = ..., thu_sea: _Optional[bytes] = ..., tvu_sea: _Optional[bytes] = ..., bias_along_beam: _Optional[bytes] = ..., bias_vertical: _Optional[bytes] = ..., covariance_total: _Optional[bytes] = ..., covariance_air: _Optional[bytes] = ..., covariance_sea: _Optional[bytes] = ..., covariance_pulse: _Optional[bytes] = ..., covariance_line: _Optional[bytes] = ..., covariance_survey: _Optional[bytes] = ..., best_s44_orders: _Optional[bytes] = ..., thu_water: _Optional[bytes] = ..., tvu_water: _Optional[bytes] = ..., covariance_water: _Optional[bytes] = ...) -> None: ...
 
 class BudgetOptions(_message.Message):
     __slots__ = ["coverage", "datum", "errors", "lever_arm", "located", "refractive_index", "sea_axis", "table"]

@@ -1,0 +1,19 @@
+// Waters as they may be, by what is known of them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "budget/water/water_optics.h"
+
+namespace albtpu {
+
+struct DrawnWater {
+  double attenuation, ratio, fraction;  // 1/m; scattering over absorption; backscatter fraction
+};
+
+// `count` waters, even over the three distributions of `optics` by Halton's points: the same for the same optics. None
+// absorbs less than pure water.
+std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count);
+
+}  // namespace albtpu

@@ -1,0 +1,111 @@
+"""A table of the water column from outside: threads, shards, and a run that was interrupted give the same bytes.
+
+Usage: water_table_test.py ALBTPU_GENERATE
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+GENERATE = sys.argv[1]
+CAMPAIGN = """
+id = "few_waters"
+kind = "water_column"
+version = "1"
+title = "Few waters"
+[axes]
+backscatter_fraction = [0.0183]
+scattering_over_absorption = [2, 6]
+incidence = [0, 15]
+optical_depth = [0.1, 0.5, 1.5]
+field_of_view = [0.1, 0.5, 3]
+pulse_length = [0.01, 0.05, 0.3]
+[effort]
+photons = 4000
+[interpolation]
+checked_pulses = 3
+"""
+ENVIRONMENT = os.environ | {"SOURCE_DATE_EPOCH": "1700000000"}
+
+
+def generate(*arguments):
+    return subprocess.run([GENERATE, *map(str, arguments)], capture_output=True, text=True, env=ENVIRONMENT,
+                          stdin=subprocess.DEVNULL, timeout=300)
+
+
+class WaterTableTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.campaign = self.folder / "few.toml"
+        self.campaign.write_text(CAMPAIGN)
+
+    def table(self, name, *flags):
+        result = generate("table", "--campaign", self.campaign, "--output", self.folder / name, *flags)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return (self.folder / name).read_bytes(), result.stdout
+
+    def test_is_the_same_however_it_is_made(self):
+        whole, answer = self.table("whole.h5", "--threads", 1)
+        self.assertIn("interpolation_error_bias_vertical_peak", answer)
+        self.assertEqual(self.table("threads.h5", "--threads", 2)[0], whole)
+        work = self.folder / "work"
+        for shard in (0, 1, 2):
+            result = generate("table", "--campaign", self.campaign, "--work", work, "--shard", f"{shard}/3")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        merged = generate("merge", "--work", work, "--output", self.folder / "merged.h5")
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assertEqual((self.folder / "merged.h5").read_bytes(), whole)
+        for unit in sorted(work.glob("*.unit"))[::2]:
+            unit.unlink()
+        self.assertEqual(self.table("resumed.h5", "--work", work, "--resume")[0], whole)
+        names = {unit.name.split("-")[0] for unit in work.glob("*.unit")}
+        self.assertEqual(names, {"water", "pulse"})
+
+    def test_plan_counts_its_cells(self):
+        result = generate("plan", "--campaign", self.campaign)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"waters and incidences +4\n")
+        self.assertRegex(result.stdout, r"cells +108\n")
+
+    def test_refuses_what_is_no_water(self):
+        for old, new, *parts in (
+                ("kind = \"water_column\"", "kind = \"water\"", "'kind'", "water_column"),
+                ("[0.1, 0.5, 1.5]", "[0, 1]", "axes.optical_depth", "0.01"),
+                ("[0.1, 0.5, 1.5]", "[0.1, 50]", "axes.optical_depth", "above 8"),
+                ("[0, 15]", "[0, 80]", "axes.incidence", "above 50"),
+                ("[0.01, 0.05, 0.3]", "[0]", "axes.pulse_length"),
+                ("[2, 6]", "[6, 2]", "scattering_over_absorption"),
+                ("photons = 4000", "photons = 1", "effort.photons"),
+                ("[effort]", "[beam]\nprofile = \"gaussian\"\n[effort]", "beam.profile")):
+            self.campaign.write_text(CAMPAIGN.replace(old, new))
+            result = generate("table", "--campaign", self.campaign, "--output", self.folder / "no.h5")
+            self.assertNotEqual(result.returncode, 0, new)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+            for part in parts:
+                self.assertIn(part, result.stderr)
+            self.assertFalse((self.folder / "no.h5").exists())
+
+    def test_point_takes_an_attenuation_and_an_albedo(self):
+        beam = ("--depth", 7.3, "--incidence", 15, "--field-of-view", 5, "--pulse-length", 2.2, "--footprint", 0.6,
+                "--backscatter-fraction", 0.02, "--photons", 16000, "--json")
+        # K = sqrt(a^2 + 6 B a b), an albedo of 0.72.
+        a, b = 0.108717, 0.279559
+        by_kd = generate("water-point", *beam, "--kd", (a * a + 0.12 * a * b)**0.5, "--omega0", b / (a + b))
+        direct = generate("water-point", *beam, "--absorption", a, "--scattering", b)
+        self.assertEqual(by_kd.returncode, 0, by_kd.stderr)
+        for name, value in json.loads(direct.stdout).items():
+            self.assertAlmostEqual(json.loads(by_kd.stdout)[name], value, delta=1e-4 + 1e-3 * abs(value))
+        for flags in (("--kd", 0.1), ("--absorption", 0.1), ("--kd", 0.1, "--omega0", 0.8, "--absorption", 0.1), ()):
+            result = generate("water-point", *beam, *flags)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("two numbers", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
