@@ -69,8 +69,9 @@ class WaterShare {
   // Draws waters (Guide to the Expression of Uncertainty in Measurement, Supplement 1: JCGM 101:2008), looks each up in
   // the table, and keeps mean and spread over incidence and depth. About half a second of one core.
   //
-  // InvalidArgument with what would be right: a water outside the table, a receiver beyond the table at all depths, a residual fraction outside 0
-  // to 1, a calibration beyond the table or at a depth where the waters do not agree on the sign of the bias.
+  // InvalidArgument with what would be right: a water outside the table, a receiver beyond the table at all depths, a
+  // residual fraction outside 0 to 1, a calibration beyond the table or at a depth where the waters do not agree on the
+  // sign of the bias.
   static absl::StatusOr<WaterShare> Create(const WaterColumnTable& table, const WaterOptics& optics,
                                            const WaterReceiver& receiver, const BiasTreatment& treatment);
 

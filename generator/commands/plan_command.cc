@@ -77,7 +77,7 @@ void PrintTimes(double least, double most, int cores) {
 
 // The same of the water column, whose cases take a time in proportion to their scatterings.
 void PlanWater(const Campaign& campaign, int cores) {
-  constexpr std::size_t kProbes = 6;
+  constexpr std::size_t kProbes = 2;
   const std::size_t cases = WaterCaseCount(campaign), probes = std::min(kProbes, cases);
   double seconds = 0;
   for (std::size_t p = 0; p < probes; ++p) {

@@ -69,6 +69,15 @@ class Installation(unittest.TestCase):
         shipped = pathlib.Path(__file__).resolve().parents[2] / "survey/sensors/shipped"
         self.assertEqual([sensor["name"] for sensor in sensors], sorted(path.stem for path in shipped.glob("*.toml")))
 
+    def test_the_client_finds_the_installed_table_of_the_water_column(self):
+        with tempfile.TemporaryDirectory() as folder:
+            survey = pathlib.Path(folder, "survey.toml")
+            survey.write_text("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nlocated = 'local'\n[water]\njerlov = '1C'\n"
+                              "detector = 'half'\nfield_of_view = 3\npulse_length = 1.5\nbias = 'correct'\n")
+            pulse = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--survey", survey, "--altitude", 400,
+                                                "--beam-azimuth", 0, "--json"))
+        self.assertGreater(pulse["tvu_water"], 0)
+
     def test_the_service_serves_the_installed_tables(self):
         inside = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--json"))
         server = Server(self.prefix / "bin/albtpu-serve", environment={"ALBTPU_TABLES": ""})
@@ -79,7 +88,7 @@ class Installation(unittest.TestCase):
 
     def test_the_generator_plans_every_installed_campaign(self):
         campaigns = sorted((self.prefix / "share/albtpu/campaigns").glob("*.toml"))
-        self.assertEqual([path.stem for path in campaigns], ["paper", "quick", "survey", "survey_apel"])
+        self.assertEqual([path.stem for path in campaigns], ["paper", "quick", "survey", "survey_apel", "water"])
         for campaign in campaigns:
             self.assertTrue(self.run_program("albtpu-generate", "plan", "--campaign", campaign))
 
