@@ -31,15 +31,16 @@ struct Campaign {
   std::string text;  // the whole file
   std::string id, version, title;
   std::uint64_t seed = 1;
-  UncertaintyTable::Axes
-      axes;  // the last fetch, `inf` in the file, is the least at which all winds are fully developed
+  // Of `kind`; the last fetch, `inf` in the file, is the least at which all winds are fully developed.
+  UncertaintyTable::Axes axes;
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();
   double refractive_index = 1.33;
   WindSea wind_sea;  // without wind and fetch, which are axes
-  std::optional<TracedSea>
-      sea;  // in its place, of a table of one sea: its axes of wind and fetch have one node
-  std::optional<WaterWork> water;  // in place of any sea, of a table of the water column (water_cases.h)
+  // In its place, of a table of one sea: its axes of wind and fetch have one node.
+  std::optional<TracedSea> sea;
+  // In place of any sea, of a table of the water column (water_cases.h).
+  std::optional<WaterWork> water;
   double corrected_above = std::numeric_limits<double>::infinity();  // m
   Effort effort;
   std::optional<int> rays;
@@ -64,8 +65,8 @@ absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path);
 // errors, which are those of each value by itself.
 inline constexpr std::uint32_t kCellOfTables = 0;
 
-// A campaign of a sea is computed in sea cases: one sea and one footprint, with all incidences, azimuths and depths. They are
-// ordered by wind, fetch and footprint, which varies fastest.
+// A campaign of a sea is computed in sea cases: one sea and one footprint, with all incidences, azimuths and depths.
+// They are ordered by wind, fetch and footprint, which varies fastest.
 std::size_t SeaCaseCount(const Campaign& campaign);
 SeaCase SeaCaseOf(const Campaign& campaign, std::size_t index);
 

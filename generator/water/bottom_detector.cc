@@ -112,8 +112,8 @@ std::vector<double> Coarser(const std::vector<double>& samples, std::size_t fact
   return coarse;
 }
 
-// Where `excess`, of which the first member is a value and the second its slope, is 0 between two times, at one of which
-// it is below 0 and at the other above: Newton's steps, halving the interval where they leave it.
+// Where `excess`, of which the first member is a value and the second its slope, is 0 between two times, at one of
+// which it is below 0 and at the other above: Newton's steps, halving the interval where they leave it.
 template <typename Excess>
 double Root(const Excess& excess, double below, double above, double close) {
   double time = (below + above) / 2;

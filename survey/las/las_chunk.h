@@ -36,7 +36,9 @@ struct LasAnnotation {
 
   std::set<int> ClassesOf(int point_format) const;
   Appended appended() const {
-    return {.coverage = style.coverage, .total = total.has_value(), .water = total.has_value() && total->water.share != nullptr,
+    return {.coverage = style.coverage,
+            .total = total.has_value(),
+            .water = total.has_value() && total->water.share != nullptr,
             .details = details};
   }
   // How the share of the sea is asked: beside a total at 2 sigma.

@@ -1,5 +1,5 @@
-// Arbitrary text as a campaign is rejected with a reason, or all its sea cases (of the water column: its water cases) can
-// be simulated and its table can be written.
+// Arbitrary text as a campaign is rejected with a reason, or all its sea cases (of the water column: its water cases)
+// can be simulated and its table can be written.
 #include <cmath>
 #include <string_view>
 #include <variant>

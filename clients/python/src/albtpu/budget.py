@@ -102,7 +102,8 @@ class Budget:
 
     total_thu, total_tvu, thu_air, tvu_air, thu_sea, tvu_sea, thu_water, tvu_water, bias_along_beam, bias_vertical:
                      float32, in m. A covariance has six such arrays along a first axis, in m2 at 1 sigma: north-north,
-                     east-east, down-down, north-east, north-down, east-down. best_s44_orders: uint8 as in Uncertainties.
+                     east-east, down-down, north-east, north-down, east-down. best_s44_orders: uint8 as in
+                     Uncertainties.
                      Those that the query did not request raise AttributeError.
     table, sea, coverage, outcomes: as in Uncertainties.
     outcome_axes:    as in Uncertainties; 0 also if a number of the aircraft made the pulse INVALID.
