@@ -72,8 +72,9 @@ class Installation(unittest.TestCase):
     def test_the_client_finds_the_installed_table_of_the_water_column(self):
         with tempfile.TemporaryDirectory() as folder:
             survey = pathlib.Path(folder, "survey.toml")
-            survey.write_text("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nlocated = 'local'\n[water]\njerlov = '1C'\n"
-                              "detector = 'half'\nfield_of_view = 3\npulse_length = 1.5\nbias = 'correct'\n")
+            survey.write_text("[sensor]\nname = 'riegl-vq-880-g'\n[surface]\nlocated = 'local'\n"
+                              "[water]\njerlov = '1C'\ndetector = 'half'\nfield_of_view = 3\n"
+                              "pulse_length = 1.5\nbias = 'correct'\n")
             pulse = json.loads(self.run_program("albtpu-query", "pulse", *PULSE, "--survey", survey, "--altitude", 400,
                                                 "--beam-azimuth", 0, "--json"))
         self.assertGreater(pulse["tvu_water"], 0)
