@@ -29,13 +29,10 @@ bool IsSigma(BudgetInput input) {
          (input >= BudgetInput::kPositionSigmaNorth && input <= BudgetInput::kHeadingSigma);
 }
 
-// The numbers that a column of the aircraft may have are above this one, up to the other.
-float Greatest(BudgetInput input) {
-  return input == BudgetInput::kWaterCorrelation ? 1 : static_cast<float>(kGreatestBudgetNumber);
-}
+// The numbers that a column of the aircraft may have are above this one, up to kGreatestBudgetNumber.
 float Below(BudgetInput input) {
   if (input == BudgetInput::kAltitude) return 0;
-  const float least = IsSigma(input) ? 0 : -Greatest(input);
+  const float least = IsSigma(input) ? 0 : -static_cast<float>(kGreatestBudgetNumber);
   return std::nextafter(least, -std::numeric_limits<float>::infinity());
 }
 
@@ -45,7 +42,8 @@ void Refuse(const BudgetInputs& aircraft, std::uint8_t* refused) {
   for (const BudgetInput input : kAircraftInputs) {
     const std::span<const float> column = aircraft[input];
     if (column.empty()) continue;
-    const float below = Below(input), greatest = Greatest(input);
+    const float below = Below(input);
+    const auto greatest = static_cast<float>(kGreatestBudgetNumber);
     const auto is_refused = [=](float x) {
       return static_cast<std::uint8_t>((static_cast<int>(x > below) & static_cast<int>(x <= greatest)) ^ 1);
     };
@@ -80,7 +78,6 @@ BudgetOutputs OutputsAt(const BudgetAnswers& answers, std::size_t begin, std::si
       .tvu_water = number(kTvuWater),
       .air = covariance(kCovarianceAir),
       .sea = covariance(kCovarianceSea),
-      .water = covariance(kCovarianceWater),
       .total = covariance(kCovarianceTotal),
       .groups = {covariance(kCovariancePulse), covariance(kCovarianceLine), covariance(kCovarianceSurvey)}};
   if (answers.best_s44_orders != nullptr) outputs.best_orders = {answers.best_s44_orders + begin, count};

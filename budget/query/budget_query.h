@@ -32,12 +32,11 @@ enum class BudgetQuantity : std::uint8_t {
   kBestS44Order,      // BudgetAnswers::best_s44_orders
   kThuWater,          // m, of the water column.
   kTvuWater,          // m
-  kCovarianceWater,   // As BudgetOutputs::water.
 };
-inline constexpr std::size_t kBudgetQuantityCount = 18;
+inline constexpr std::size_t kBudgetQuantityCount = 17;
 
 // Which columns of single-precision numbers a quantity has: one, the six of a covariance, or none for the best order.
-inline constexpr std::size_t kBudgetColumnCount = 8 + 6 * 6 + 2 + 6;
+inline constexpr std::size_t kBudgetColumnCount = 8 + 6 * 6 + 2;
 constexpr std::size_t ColumnCount(BudgetQuantity quantity) {
   switch (quantity) {
     case BudgetQuantity::kBestS44Order:
@@ -48,7 +47,6 @@ constexpr std::size_t ColumnCount(BudgetQuantity quantity) {
     case BudgetQuantity::kCovariancePulse:
     case BudgetQuantity::kCovarianceLine:
     case BudgetQuantity::kCovarianceSurvey:
-    case BudgetQuantity::kCovarianceWater:
       return 6;
     default:
       return 1;
@@ -60,7 +58,7 @@ constexpr std::size_t FirstColumn(BudgetQuantity quantity) {
     first += ColumnCount(static_cast<BudgetQuantity>(q));
   return first;
 }
-static_assert(FirstColumn(BudgetQuantity::kCovarianceWater) + 6 == kBudgetColumnCount);
+static_assert(FirstColumn(BudgetQuantity::kTvuWater) + 1 == kBudgetColumnCount);
 
 // Where to write answers: columns of as many elements as there are pulses, or null if an answer is not wanted.
 struct BudgetAnswers {
@@ -120,7 +118,7 @@ inline constexpr double kGreatestBudgetNumber = 1e6;
 //
 // A pulse without an answer of the table has the table's outcome and no number. A pulse is invalid if a number of the
 // aircraft is NaN or beyond kGreatestBudgetNumber, an altitude not above 0, a standard deviation or a wave height
-// negative, a correlation outside -1 to 1.
+// negative.
 void QueryBudgetOnAllCores(const ColumnInterpolator& interpolator, const BudgetPulses& pulses,
                            const BudgetOptions& options, const BudgetAnswers& answers);
 

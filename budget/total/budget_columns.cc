@@ -99,7 +99,8 @@ HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wa
 
 // The part of the water column that all pulses of a survey share. Too shallow is up.
 HWY_INLINE NedCovariance WaterShareOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
-  const F along2 = along * along, up = correlation * (along * vertical);
+  const F held = hn::Max(Constant(-1), hn::Min(correlation, Constant(1)));
+  const F along2 = along * along, up = held * (along * vertical);
   return {along2 * (beam.north * beam.north), along2 * (beam.east * beam.east), vertical * vertical,
           along2 * (beam.north * beam.east),  hn::Neg(up * beam.north),         hn::Neg(up * beam.east)};
 }

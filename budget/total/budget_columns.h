@@ -50,7 +50,7 @@ enum class BudgetInput : std::uint8_t {
   // The share of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
   kWaterSigmaAlong,     // m, along the beam, of all pulses of a survey alike.
   kWaterSigmaVertical,  // m, the same, vertical.
-  kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1.
+  kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1; beyond counts as the nearer end.
   kWaterNoise,          // m, vertical, of the photons of this echo alone.
   kWaterBiasAlong,      // m, as kBiasAlongBeam, to which it is added.
   kWaterBiasVertical,   // m, as kBiasVertical, to which it is added.

@@ -79,7 +79,7 @@ inline constexpr CampaignKey kTitle = {
     "What the table is for, in words."};
 inline constexpr CampaignKey kKind = {
     "", "kind", Choice{kKinds}, "", std::string_view("sea_surface"),
-    "What the table is of. Each kind has keys of its own; those above and `seed` are the same."};
+    "What the table is of. Each kind has keys of its own; `id`, `version`, `title` and `seed` are the same."};
 inline constexpr CampaignKey kSeed = {
     "", "seed", WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", std::int64_t{1},
     "Seed of all random numbers. The same program on the same kind of processor makes the same table from the "
@@ -224,7 +224,6 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kId,
     campaign_keys::kVersion,
     campaign_keys::kTitle,
-    campaign_keys::kKind,
     campaign_keys::kSeed,
     campaign_keys::kWindSpeed,
     campaign_keys::kFetch,
@@ -254,8 +253,9 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kCheckedPulses,
 };
 
-// Those of a table of the water column beside id, version, title, kind and seed.
+// Those of a table of the water column beside id, version, title and seed.
 inline constexpr std::array kWaterCampaignKeys = {
+    campaign_keys::kKind,
     campaign_keys::kBackscatterFraction,
     campaign_keys::kScatteringOverAbsorption,
     campaign_keys::kIncidenceOnWater,

@@ -116,8 +116,8 @@ std::string MarkdownTable(const std::vector<Row>& rows) {
 constexpr char kOfWater[] = R"(
 # Campaigns of the water column
 
-With `kind = "water_column"`, a campaign has these keys beside the first five. All lengths are over the depth of the
-bottom; `generator/campaigns/water.toml` is the one that ships.
+With `kind = "water_column"`, a campaign has these keys beside `id`, `version`, `title` and `seed`. All lengths are over
+the depth of the bottom; `generator/campaigns/water.toml` is the one that ships.
 )";
 
 void AppendTables(std::span<const CampaignKey> keys, std::string& page) {

@@ -57,8 +57,8 @@ static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceSu
               v1::BUDGET_QUANTITY_COVARIANCE_SURVEY);
 static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kBestS44Order) ==
               v1::BUDGET_QUANTITY_BEST_S44_ORDER);
-static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kCovarianceWater) ==
-              v1::BUDGET_QUANTITY_COVARIANCE_WATER);
+static_assert(AfterUnspecified<v1::BudgetQuantity>(BudgetQuantity::kTvuWater) ==
+              v1::BUDGET_QUANTITY_TVU_WATER);
 
 absl::Status NotAValue(std::string_view field, int number, std::string_view enum_name) {
   return FieldViolation(

@@ -215,7 +215,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         WrongKey{"[water]\ncolumn = 'all'\n", "line 2: 'water.column' is 'all' (expected none)", ""},
         WrongKey{"[water]\ncolumn = true\n", "line 2: 'water.column' is true", "none"},
-        WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is no key", ""},
+        WrongKey{"[water]\nbias = 'corrected'\n", "line 2: 'water.bias' is 'corrected'",
+                 "did you mean \"correct\"?"},
         WrongKey{"[water]\ntemperature = 297\n",
                  "line 2: 'water.temperature' is 297 (expected -2 to 40 degree C)", ""},
         WrongKey{"[datum]\nsigma = 8\nsigma_95 = 5\n", "line 3: 'datum.sigma_95' is no key", "sigma"},

@@ -70,7 +70,6 @@ AIRCRAFT: dict[str, str] = {
 # How the surface was located, and the quantities of the budget. On the wire, each is its position here, counted from 1.
 LOCATIONS = ("pulse", "local", "level")
 COVARIANCES = ("covariance_total", "covariance_air", "covariance_sea", "covariance_pulse", "covariance_line",
-               "covariance_survey", "covariance_water")
+               "covariance_survey")
 BUDGET_QUANTITIES = ("total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea", "bias_along_beam",
-                     "bias_vertical", *COVARIANCES[:-1], "best_s44_orders", "thu_water", "tvu_water",
-                     "covariance_water")
+                     "bias_vertical", *COVARIANCES, "best_s44_orders", "thu_water", "tvu_water")

@@ -13,7 +13,6 @@ BUDGET_QUANTITY_COVARIANCE_PULSE: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_SEA: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_SURVEY: BudgetQuantity
 BUDGET_QUANTITY_COVARIANCE_TOTAL: BudgetQuantity
-BUDGET_QUANTITY_COVARIANCE_WATER: BudgetQuantity
 BUDGET_QUANTITY_THU_AIR: BudgetQuantity
 BUDGET_QUANTITY_THU_SEA: BudgetQuantity
 BUDGET_QUANTITY_THU_WATER: BudgetQuantity
@@ -108,7 +107,7 @@ class AircraftColumns(_message.Message):
     def __init__(self, altitude: _Optional[bytes] = ..., beam_azimuth: _Optional[bytes] = ..., roll: _Optional[bytes] = ..., pitch: _Optional[bytes] = ..., heading: _Optional[bytes] = ..., velocity_north: _Optional[bytes] = ..., velocity_east: _Optional[bytes] = ..., velocity_down: _Optional[bytes] = ..., roll_rate: _Optional[bytes] = ..., pitch_rate: _Optional[bytes] = ..., yaw_rate: _Optional[bytes] = ..., position_sigma_north: _Optional[bytes] = ..., position_sigma_east: _Optional[bytes] = ..., position_sigma_down: _Optional[bytes] = ..., roll_sigma: _Optional[bytes] = ..., pitch_sigma: _Optional[bytes] = ..., heading_sigma: _Optional[bytes] = ..., wave_height: _Optional[bytes] = ..., water_sigma_along: _Optional[bytes] = ..., water_sigma_vertical: _Optional[bytes] = ..., water_correlation: _Optional[bytes] = ..., water_noise: _Optional[bytes] = ..., water_bias_along: _Optional[bytes] = ..., water_bias_vertical: _Optional[bytes] = ...) -> None: ...
 
 class BudgetColumns(_message.Message):
-    __slots__ = ["best_s44_orders", "bias_along_beam", "bias_vertical", "covariance_air", "covariance_line", "covariance_pulse", "covariance_sea", "covariance_survey", "covariance_total", "covariance_water", "thu_air", "thu_sea", "thu_water", "total_thu", "total_tvu", "tvu_air", "tvu_sea", "tvu_water"]
+    __slots__ = ["best_s44_orders", "bias_along_beam", "bias_vertical", "covariance_air", "covariance_line", "covariance_pulse", "covariance_sea", "covariance_survey", "covariance_total", "thu_air", "thu_sea", "thu_water", "total_thu", "total_tvu", "tvu_air", "tvu_sea", "tvu_water"]
     BEST_S44_ORDERS_FIELD_NUMBER: _ClassVar[int]
     BIAS_ALONG_BEAM_FIELD_NUMBER: _ClassVar[int]
     BIAS_VERTICAL_FIELD_NUMBER: _ClassVar[int]
@@ -118,7 +117,6 @@ class BudgetColumns(_message.Message):
     COVARIANCE_SEA_FIELD_NUMBER: _ClassVar[int]
     COVARIANCE_SURVEY_FIELD_NUMBER: _ClassVar[int]
     COVARIANCE_TOTAL_FIELD_NUMBER: _ClassVar[int]
-    COVARIANCE_WATER_FIELD_NUMBER: _ClassVar[int]
     THU_AIR_FIELD_NUMBER: _ClassVar[int]
     THU_SEA_FIELD_NUMBER: _ClassVar[int]
     THU_WATER_FIELD_NUMBER: _ClassVar[int]
@@ -136,7 +134,6 @@ class BudgetColumns(_message.Message):
     covariance_sea: bytes
     covariance_survey: bytes
     covariance_total: bytes
-    covariance_water: bytes
     thu_air: bytes
     thu_sea: bytes
     thu_water: bytes
@@ -145,7 +142,7 @@ class BudgetColumns(_message.Message):
     tvu_air: bytes
     tvu_sea: bytes
     tvu_water: bytes
-    def __init__(self, total_thu: _Optional[bytes] = ..., total_tvu: _Optional[bytes] = ..., thu_air: _Optional[bytes] = ..., tvu_air: _Optional[bytes] = ..., thu_sea: _Optional[bytes] = ..., tvu_sea: _Optional[bytes] = ..., bias_along_beam: _Optional[bytes] = ..., bias_vertical: _Optional[bytes] = ..., covariance_total: _Optional[bytes] = ..., covariance_air: _Optional[bytes] = ..., covariance_sea: _Optional[bytes] = ..., covariance_pulse: _Optional[bytes] = ..., covariance_line: _Optional[bytes] = ..., covariance_survey: _Optional[bytes] = ..., best_s44_orders: _Optional[bytes] = ..., thu_water: _Optional[bytes] = ..., tvu_water: _Optional[bytes] = ..., covariance_water: _Optional[bytes] = ...) -> None: ...
+    def __init__(self, total_thu: _Optional[bytes] = ..., total_tvu: _Optional[bytes] = ..., thu_air: _Optional[bytes] = ..., tvu_air: _Optional[bytes] = ..., thu_sea: _Optional[bytes] = ..., tvu_sea: _Optional[bytes] = ..., bias_along_beam: _Optional[bytes] = ..., bias_vertical: _Optional[bytes] = ..., covariance_total: _Optional[bytes] = ..., covariance_air: _Optional[bytes] = ..., covariance_sea: _Optional[bytes] = ..., covariance_pulse: _Optional[bytes] = ..., covariance_line: _Optional[bytes] = ..., covariance_survey: _Optional[bytes] = ..., best_s44_orders: _Optional[bytes] = ..., thu_water: _Optional[bytes] = ..., tvu_water: _Optional[bytes] = ...) -> None: ...
 
 class BudgetOptions(_message.Message):
     __slots__ = ["coverage", "datum", "errors", "lever_arm", "located", "refractive_index", "sea_axis", "table"]
