@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "command_line/one_line.h"
 #include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_keys.h"
 #include "generator/campaign/toml_reader.h"
@@ -93,7 +94,9 @@ absl::Status CheckTable(const Campaign& campaign) {
   provenance.version = campaign.version;
   provenance.title = campaign.title;
   provenance.campaign = campaign.text;
-  return CheckProvenance(provenance);
+  // It quotes texts of the file, which may have line breaks.
+  const absl::Status status = CheckProvenance(provenance);
+  return status.ok() ? status : absl::InvalidArgumentError(OneLine(std::string(status.message())));
 }
 
 // What all kinds begin with.
