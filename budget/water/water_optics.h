@@ -58,12 +58,12 @@ inline constexpr double kPureWaterAbsorption = 0.045;
 // InvalidArgument with what would be right: none or several of the ways to tell the optics, `kd` without its kind, half
 // of absorption and scattering, and water clearer than pure water.
 //
-// Kd of the sun's light to K = Kd mu, with the mean cosine mu of the light in the water: Gordon (1989),
-// doi:10.4319/lo.1989.34.8.1389. mu is 0.85, of a sun 45 degrees above the horizon, and 1 of Jerlov's oceanic types.
-// From 490 to 532 nm: Austin and Petzold (1986), doi:10.1117/12.7973845. Secchi depth Z: Kd = 0.94 / Z in the clearest
-// part of the spectrum, Lee et al. (2015), doi:10.1016/j.rse.2015.08.002, and not less than 532 nm has where 490 nm has
-// this. Jerlov (1976), Table XXVII, linear between 525 and 550 nm. A lidar's own decay is 0.88 to 1.25 times Kd by its
-// field of view: it is divided by 1.05, and 0.175 added to the spread.
+// K is the Kd of sunlight times mu, the mean cosine of its angle in the water: Gordon (1989),
+// doi:10.4319/lo.1989.34.8.1389. We take mu as 0.85, of a sun 45 degrees above the horizon, and 1 of Jerlov's oceanic
+// types. From 490 to 532 nm: Austin and Petzold (1986), doi:10.1117/12.7973845. Secchi depth Z: Kd = 0.94 / Z in the
+// clearest part of the spectrum, Lee et al. (2015), doi:10.1016/j.rse.2015.08.002, and not less than 532 nm has where
+// 490 nm has this. Jerlov (1976), Table XXVII, linear between 525 and 550 nm. The echoes of a lidar decay 0.88 to 1.25
+// times as fast as Kd says, depending on its field of view: it is divided by 1.05, and 0.175 added to the spread.
 //
 //     OpticsOf({.kd = 0.12, .kd_kind = KdKind::kDiffuse532})->attenuation  // 0.102
 absl::StatusOr<WaterOptics> OpticsOf(const ToldOptics& told);

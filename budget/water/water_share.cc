@@ -14,9 +14,8 @@
 namespace albtpu {
 namespace {
 
-constexpr double kLightSpeed = 0.299792458;  // m/ns
-constexpr double kIncidenceStep = 1.5;       // degree
-constexpr std::size_t kDepths = 65;          // even in the root of the depth
+constexpr double kIncidenceStep = 1.5;  // degree
+constexpr std::size_t kDepths = 65;     // even in the root of the depth
 constexpr double kFootprintsInView = 2.5;
 const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::log(2.0)));
 // Of draws whose bias at the depth of a calibration has the other sign.
@@ -44,7 +43,7 @@ class Lookup {
         {.incidence = incidence,
          .optical_depth = std::min(tau, last_),
          .field_of_view = receiver_.field_of_view / depth,
-         .pulse_length = kLightSpeed * receiver_.pulse_length / (2 * receiver_.group_index * depth)});
+         .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
     assert(answer.has_value());
     // Water that scatters less than the table's least does so in proportion.
     const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / least_ratio_);
@@ -136,8 +135,8 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
   const double by_turbidity = table.Range(WaterAxis::kOpticalDepth).second /
                               (optics.attenuation * std::exp(optics.attenuation_log_sigma));
   const double by_view = receiver.field_of_view / table.Range(WaterAxis::kFieldOfView).first;
-  const double by_pulse = kLightSpeed * receiver.pulse_length / (2 * receiver.group_index) /
-                          table.Range(WaterAxis::kPulseLength).first;
+  const double by_pulse = PulseLengthOverDepth(
+      receiver.pulse_length, table.Range(WaterAxis::kPulseLength).first, receiver.group_index);
   share.greatest_depth_ = std::min({by_turbidity, by_view, by_pulse});
   if (!(share.greatest_depth_ > 0)) {
     return absl::InvalidArgumentError(

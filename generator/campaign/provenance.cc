@@ -45,24 +45,27 @@ std::string NameOf(const WaveSpectrum& spectrum, double corrected_above) {
 
 }  // namespace
 
+Provenance CommonProvenance(const Campaign& campaign) {
+  return {.id = campaign.id,
+          .version = campaign.version,
+          .title = campaign.title,
+          .campaign = campaign.text,
+          .attributes = {{"program_version", std::string(Version())},
+                         {"commit", std::string(Commit())},
+                         {"instruction_set", InstructionSet()},
+                         {"date_created", DateCreated()},
+                         {"seed", static_cast<std::int64_t>(campaign.seed)},
+                         {"refractive_index", campaign.refractive_index}}};
+}
+
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results) {
   const SeaCase strongest_wind = SeaCaseOf(campaign, SeaCaseCount(campaign) - 1);
   const std::shared_ptr<const WaveSpectrum> spectrum = MakeSpectrum(strongest_wind.sea.waves);
-  Provenance provenance;
-  provenance.id = campaign.id;
-  provenance.version = campaign.version;
-  provenance.title = campaign.title;
-  provenance.campaign = campaign.text;
-  provenance.attributes = {
+  Provenance provenance = CommonProvenance(campaign);
+  provenance.attributes.insert({
       {"source", "Monte Carlo ray tracing through a random sea surface, albtpu-generate"},
       {"references", "Birkebak et al. (2018), doi:10.3390/rs10030453; " + spectrum->reference()},
       {"component", "sea surface only: no water column, air side, platform or system"},
-      {"program_version", std::string(Version())},
-      {"commit", std::string(Commit())},
-      {"instruction_set", InstructionSet()},
-      {"date_created", DateCreated()},
-      {"seed", static_cast<std::int64_t>(campaign.seed)},
-      {"refractive_index", campaign.refractive_index},
       {"beam_profile", std::string(Name(campaign.profile))},
       {"spectrum", NameOf(*spectrum, campaign.corrected_above)},
       {"spectrum_departures", spectrum->departures()},
@@ -91,7 +94,7 @@ Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseRes
       {"spacing", Range(results, &SeaCaseResult::spacing)},
       {"footprint_slope_variance_fraction", Range(results, &SeaCaseResult::footprint_slope_fraction)},
       {"resolved_slope_variance_fraction", Range(results, &SeaCaseResult::resolved_slope_fraction)},
-  };
+  });
   if (campaign.sea)
     provenance.attributes.insert(campaign.sea->attributes.begin(), campaign.sea->attributes.end());
   return provenance;

@@ -11,6 +11,10 @@
 
 namespace albtpu {
 
+// What tables of every kind state.
+Provenance CommonProvenance(const Campaign& campaign);
+
+// Of a table of the sea.
 Provenance MakeProvenance(const Campaign& campaign, const std::vector<SeaCaseResult>& results);
 
 // Adds the interpolation errors of the table, given for the quantities of kChecked.

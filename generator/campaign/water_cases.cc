@@ -9,19 +9,16 @@
 
 #include "absl/strings/str_cat.h"
 #include "generator/campaign/provenance.h"
-#include "generator/math/instruction_set.h"
 #include "generator/math/random_stream.h"
 #include "generator/math/rounding.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
-#include "tables/version.h"
 
 namespace albtpu {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kCellOfChecks = 0xffffffff;  // of random numbers, used for nothing else
-constexpr double kLightSpeed = 0.299792458;          // m/ns
 
 // What an interpolated bias may err: 3 mm, or 4 % if that is more.
 constexpr double kAllowed = 3e-3, kAllowedShare = 0.04;
@@ -89,28 +86,18 @@ CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
 }
 
 Provenance ProvenanceOf(const Campaign& campaign) {
-  Provenance provenance;
-  provenance.id = campaign.id;
-  provenance.version = campaign.version;
-  provenance.title = campaign.title;
-  provenance.campaign = campaign.text;
-  provenance.attributes = {
+  Provenance provenance = CommonProvenance(campaign);
+  provenance.attributes.insert({
       {"source",
        "Monte Carlo of photons in a homogeneous water over a flat Lambertian bottom, albtpu-generate"},
       {"references",
        "Fournier and Jonasz (1999), doi:10.1117/12.366488; Mobley et al. (2002), doi:10.1364/AO.41.001035"},
       {"component", "water column only: no sea surface, air side, platform or system"},
-      {"program_version", std::string(Version())},
-      {"commit", std::string(Commit())},
-      {"instruction_set", InstructionSet()},
-      {"date_created", DateCreated()},
-      {"seed", static_cast<std::int64_t>(campaign.seed)},
-      {"refractive_index", campaign.refractive_index},
       {"group_index", campaign.water->group_index},
       {"beam_profile", "a line; a pulse of Gaussian shape"},
       {"photons", static_cast<std::int64_t>(campaign.water->photons * WaterEffort().pools)},
       {"pairs_per_photon", static_cast<std::int64_t>(campaign.water->pairs_per_photon)},
-  };
+  });
   return provenance;
 }
 
@@ -223,7 +210,7 @@ CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
         .incidence = incidences.front() + (incidences.back() - incidences.front()) * random.Next(),
         .optical_depth = between(0.05, 0.5) * checked.depth,
         .field_of_view = between(1.5, 20) / checked.depth,
-        .pulse_length = kLightSpeed * between(1, 7) / (2 * campaign.water->group_index * checked.depth)};
+        .pulse_length = PulseLengthOverDepth(between(1, 7), checked.depth, campaign.water->group_index)};
     if (has(WaterAxis::kOpticalDepth, checked.beam.optical_depth) &&
         has(WaterAxis::kFieldOfView, checked.beam.field_of_view) &&
         has(WaterAxis::kPulseLength, checked.beam.pulse_length))

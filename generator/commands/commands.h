@@ -64,8 +64,6 @@ struct PointOptions {
 };
 absl::Status RunPoint(const PointOptions& options);
 
-inline constexpr double kLightSpeed = 0.299792458;  // m/ns
-
 struct WaterPointOptions {
   double incidence = 0;                   // degree, in air
   double kd = 0, omega0 = 0;              // In place of the next two, which the flags then set.

@@ -9,6 +9,7 @@
 #include "generator/commands/commands.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
+#include "tables/water/water_schema.h"
 
 namespace albtpu {
 namespace {
@@ -73,7 +74,7 @@ absl::Status RunWaterPoint(const WaterPointOptions& options) {
                            .absorption = options.absorption / options.scattering,
                            .field_of_view = options.field_of_view / depth,
                            .footprint = options.footprint / depth};
-  const std::array pulse_lengths = {kLightSpeed * options.pulse_length / (2 * options.group_index * depth)};
+  const std::array pulse_lengths = {PulseLengthOverDepth(options.pulse_length, depth, options.group_index)};
   const WaterColumnBias bias =
       ComputeWaterColumn(PhaseFunction::FournierForand(options.backscatter_fraction), column, pulse_lengths,
                          {.photons = options.photons / kPools, .pools = kPools, .seed = options.seed});

@@ -44,9 +44,18 @@ inline constexpr double kLeastEchoEnergy = 0.003;
 constexpr std::size_t Index(WaterAxis axis) { return static_cast<std::size_t>(axis); }
 constexpr std::size_t Index(WaterQuantity quantity) { return static_cast<std::size_t>(quantity); }
 
-// K z over b z: turns between the optical depth of a table and the mean number of scatterings b z on the way down.
-// Kirk (1984), doi:10.4319/lo.1984.29.2.0350, has K = sqrt(a^2 + G a b), G = 0.256 for the one phase function that he
-// traced. G follows the backscatter fraction: 6 B (docs/physics.md).
+// Speed of light, m/ns: exact by the definition of the metre.
+inline constexpr double kLightSpeed = 0.299792458;
+
+// The coordinate on the axis of pulses of a pulse of `nanoseconds` at half its maximum, over a bottom at `depth` [m].
+constexpr double PulseLengthOverDepth(double nanoseconds, double depth, double group_index) {
+  return kLightSpeed * nanoseconds / (2 * group_index * depth);
+}
+
+// K z over b z: the optical depth of a table over the mean number of scatterings on the way down. As the name of an
+// axis, K is exact. Where it stands for a measured attenuation it is an approximation: Kirk (1984),
+// doi:10.4319/lo.1984.29.2.0350, has K = sqrt(a^2 + G a b) with G = 0.256 of the one phase function that he traced; G
+// grows with the light that turns back, and is taken as 6 B here.
 double OpticalDepthPerScattering(double scattering_over_absorption, double backscatter_fraction);
 
 extern const TableSchema kWaterColumn;

@@ -8,13 +8,13 @@
 #include "generator/water/photon_walk.h"
 #include "generator/water/water_column.h"
 #include "sea/angle.h"
+#include "tables/water/water_schema.h"
 #include "validation/studies/studies.h"
 #include "validation/studies/water_round_trip.h"
 
 namespace albtpu {
 namespace {
 
-constexpr double kLightSpeed = 0.299792458;  // m/ns
 constexpr double kRefractiveIndex = 1.34, kGroupIndex = 1.36;
 
 // Petzold's mean ocean particle.
@@ -29,12 +29,13 @@ struct LidarSystem {
 };
 const LidarSystem kNarrow{"narrow", 3, 1.5, 0.5}, kWide{"wide", 16, 5, 2};
 
-// Water of albedo 0.8, by its diffuse attenuation [1/m] with Kirk's factor of 0.256.
+// Water of albedo 0.8 whose diffuse attenuation is this [1/m], by Kirk's formula (tables/water/water_schema.h).
+constexpr double kKirk = 0.256;
 struct Water {
   double absorption, scattering;
 };
 Water OfAttenuation(double attenuation) {
-  const double absorption = attenuation / std::sqrt(1 + 0.256 * 4);
+  const double absorption = attenuation / std::sqrt(1 + kKirk * 4);
   return {absorption, 4 * absorption};
 }
 
@@ -49,7 +50,7 @@ WaterColumn ColumnOf(const LidarSystem& lidar, const Water& water, double incide
 }
 
 double PulseLength(const LidarSystem& lidar, double depth) {
-  return kLightSpeed * lidar.nanoseconds / (2 * kGroupIndex * depth);
+  return PulseLengthOverDepth(lidar.nanoseconds, depth, kGroupIndex);
 }
 
 // What a program apart from this one found by the same definitions, rounded: too deep by peak and half [cm], and the
