@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace albtpu {
@@ -97,8 +98,8 @@ class Waveform {
 };
 
 // `factor` steps to one; each sample is split between its two new neighbours, so that the mean time stays.
-std::vector<double> Coarser(const std::vector<double>& samples, std::size_t factor) {
-  if (factor == 1) return samples;
+std::vector<double> Coarser(std::span<const double> samples, std::size_t factor) {
+  if (factor == 1) return {samples.begin(), samples.end()};
   std::vector<double> coarse(samples.size() / factor + 2, 0.0);
   for (std::size_t begin = 0, to = 0; begin < samples.size(); begin += factor, ++to) {
     double sum = 0, moment = 0;
@@ -142,7 +143,7 @@ struct Shape {
 };
 
 std::optional<Shape> ShapeOf(const Waveform& wave) {
-  const auto stride = static_cast<std::size_t>(std::max(1.0, wave.sigma() / 3 / wave.step()));
+  const auto stride = static_cast<std::size_t>(std::max(1.0, wave.sigma() / 2 / wave.step()));
   const double step = wave.step() * static_cast<double>(stride);
   const std::vector<double> values = wave.Scan(stride);
   const std::size_t count = values.size();
@@ -179,16 +180,34 @@ std::optional<Shape> ShapeOf(const Waveform& wave) {
   return shape;
 }
 
+struct Window {
+  std::size_t begin, count;
+
+  std::span<const double> Of(std::span<const double> samples) const { return samples.subspan(begin, count); }
+};
+
+// The samples from `margin` before the first light to `margin` after the last.
+Window WithLight(const Echo& echo, double margin) {
+  const auto dark = [](double weight) { return weight == 0; };
+  const auto first = std::find_if_not(echo.weights.begin(), echo.weights.end(), dark);
+  const auto last = std::find_if_not(echo.weights.rbegin(), echo.weights.rend(), dark).base();
+  const auto more = static_cast<std::ptrdiff_t>(std::min(margin / echo.step, 1.0 * echo.weights.size()));
+  const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, first - echo.weights.begin() - more);
+  const std::ptrdiff_t end = std::min(std::ssize(echo.weights), last - echo.weights.begin() + more);
+  return {static_cast<std::size_t>(begin), static_cast<std::size_t>(std::max(begin, end) - begin)};
+}
+
 }  // namespace
 
 std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length) {
   const auto factor =
       static_cast<std::size_t>(std::max(1.0, std::floor(pulse_length / (kStepsOfPulse * echo.step))));
-  const std::vector<double> weights = Coarser(echo.weights, factor);
-  const std::vector<double> ahead_weights = Coarser(echo.ahead_weights, factor);
   const double step = echo.step * static_cast<double>(factor), sigma = pulse_length * kSigmaOfWidth;
-  const Waveform wave(Echo::kEarliest, step, weights, sigma),
-      ahead(Echo::kEarliest, step, ahead_weights, sigma);
+  const Window window = WithLight(echo, 2 * kReach * sigma);
+  const std::vector<double> weights = Coarser(window.Of(echo.weights), factor);
+  const std::vector<double> ahead_weights = Coarser(window.Of(echo.ahead_weights), factor);
+  const double first = echo.TimeAt(static_cast<double>(window.begin));
+  const Waveform wave(first, step, weights, sigma), ahead(first, step, ahead_weights, sigma);
   const std::optional<Shape> found = ShapeOf(wave);
   if (!found) return std::nullopt;
   const Shape& at = *found;

@@ -35,50 +35,50 @@ class NearArrivals {
   // Squares are as wide as the greatest distance that is asked for. Everything is near if that is not finite.
   NearArrivals(std::span<const Arrival> arrivals, double width, double height)
       : per_x_(1 / width), per_y_(1 / height) {
-    if (!(per_x_ > 0)) {
+    if (per_x_ > 0) {
+      begins_.assign(kSide * kSide + 1, 0);
+      for (const Arrival& arrival : arrivals) ++begins_[SquareOf(arrival) + 1];
+      for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+      std::vector<std::uint32_t> next = begins_;
+      sorted_.resize(arrivals.size());
+      for (const Arrival& arrival : arrivals) sorted_[next[SquareOf(arrival)]++] = arrival;
+    } else {
       sorted_.assign(arrivals.begin(), arrivals.end());
-      return;
     }
-    begins_.assign(kSide * kSide + 1, 0);
-    for (const Arrival& arrival : arrivals) ++begins_[SquareOf(arrival) + 1];
-    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-    std::vector<std::uint32_t> next = begins_;
-    sorted_.resize(arrivals.size());
-    for (const Arrival& arrival : arrivals) sorted_[next[SquareOf(arrival)]++] = arrival;
+    weights_before_.reserve(sorted_.size() + 1);
+    for (const Arrival& arrival : sorted_) weights_before_.push_back(weights_before_.back() + arrival.weight);
   }
 
-  // The arrivals of nine squares around a point.
-  class Around {
-   public:
-    std::uint32_t count() const { return count_; }
-    const Arrival& operator[](std::uint32_t i) const {
-      for (const std::span<const Arrival> row : rows_) {
-        if (i < row.size()) return row[i];
-        i -= static_cast<std::uint32_t>(row.size());
-      }
-      return rows_.back().back();
-    }
-
-   private:
-    friend NearArrivals;
-    std::array<std::span<const Arrival>, 3> rows_;
-    std::uint32_t count_ = 0;
+  // The arrivals of nine squares around a point: three rows of them.
+  struct Around {
+    std::array<std::pair<std::uint32_t, std::uint32_t>, 3> rows{};
+    double weight = 0;  // of all
   };
 
   Around Near(double x, double y) const {
     Around around;
     if (begins_.empty()) {
-      around.rows_[0] = sorted_;
+      around.rows[0] = {0, static_cast<std::uint32_t>(sorted_.size())};
     } else {
       const int column = Place(x * per_x_), row = Place(y * per_y_);
       const int first = std::max(column - 1, 0), last = std::min(column + 1, kSide - 1);
-      for (int i = std::max(row - 1, 0), k = 0; i <= std::min(row + 1, kSide - 1); ++i, ++k) {
-        const std::uint32_t begin = begins_[i * kSide + first], end = begins_[i * kSide + last + 1];
-        around.rows_[k] = std::span(sorted_).subspan(begin, end - begin);
-      }
+      for (int i = std::max(row - 1, 0), k = 0; i <= std::min(row + 1, kSide - 1); ++i, ++k)
+        around.rows[k] = {begins_[i * kSide + first], begins_[i * kSide + last + 1]};
     }
-    for (const auto& row : around.rows_) around.count_ += static_cast<std::uint32_t>(row.size());
+    for (const auto& row : around.rows) around.weight += WeightOf(row);
     return around;
+  }
+
+  // One of them, as often as its weight says; `pick` is even in [0, 1).
+  const Arrival& Pick(const Around& around, double pick) const {
+    double weight = pick * around.weight;
+    std::size_t row = 0;
+    for (; row < 2 && weight >= WeightOf(around.rows[row]); ++row) weight -= WeightOf(around.rows[row]);
+    while (row > 0 && around.rows[row].first == around.rows[row].second) --row;  // by rounding
+    const auto [begin, end] = around.rows[row];
+    const auto first = weights_before_.begin() + begin + 1;
+    const auto chosen = std::upper_bound(first, first + (end - begin - 1), weights_before_[begin] + weight);
+    return sorted_[begin + (chosen - first)];
   }
 
  private:
@@ -90,11 +90,31 @@ class NearArrivals {
   std::size_t SquareOf(const Arrival& arrival) const {
     return static_cast<std::size_t>(Place(arrival.sideways * per_y_) * kSide + Place(arrival.ahead * per_x_));
   }
+  double WeightOf(const std::pair<std::uint32_t, std::uint32_t>& row) const {
+    return weights_before_[row.second] - weights_before_[row.first];
+  }
 
   double per_x_, per_y_;
   std::vector<Arrival> sorted_;
   std::vector<std::uint32_t> begins_;  // of each square in `sorted_`; empty: everything is near
+  std::vector<double> weights_before_ = {0};
 };
+
+// How many pairs each photon makes on average, `pairs` in all: in proportion to the weight of what it meets. All make
+// some, because the beam's width moves them.
+std::vector<double> PairsOf(const std::vector<Arrival>& lit, const NearArrivals& seen, double pairs) {
+  std::vector<double> met(lit.size());
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    met[i] = seen.Near(lit[i].ahead, lit[i].sideways).weight;
+    sum += met[i] * lit[i].weight;
+    weights += lit[i].weight;
+  }
+  const double least = 0.1 * sum / weights;
+  const double scale = pairs / (sum + least * weights);
+  for (std::size_t i = 0; i < lit.size(); ++i) met[i] = (met[i] + least) * lit[i].weight * scale;
+  return met;
+}
 
 }  // namespace
 
@@ -152,10 +172,14 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
   const double lag = std::sin(setup.incidence) / (2 * setup.group_index);
   const NearArrivals seen(ArrivalsOf(receivers, setup.absorption), radius / cosine, radius);
   const double spread = setup.footprint / 4;
+  const std::vector<double> pairs_of =
+      PairsOf(lit, seen, setup.pairs_per_photon * static_cast<double>(lit.size()));
+  double made = UniformStream(seed, cell, static_cast<std::uint32_t>(lit.size()), kPairs + pool).Next();
   for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (!(pairs_of[i] > 0)) continue;
     UniformStream random(seed, cell, static_cast<std::uint32_t>(i), kPairs + pool);
     const Arrival& source = lit[i];
-    for (int k = 0; k < setup.pairs_per_photon; ++k) {
+    for (made += pairs_of[i]; made >= 1; made -= 1) {
       double entry_x = 0, entry_y = 0;
       if (spread > 0) {
         const double length = spread * std::sqrt(-2 * std::log(random.Next()));
@@ -169,22 +193,21 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
       pick = pick < 1 ? pick : pick - 1;
       const double x = entry_x + source.ahead, y = entry_y + mirror * source.sideways;
       const NearArrivals::Around near = seen.Near(x, y);
-      if (near.count() == 0) continue;
-      const auto chosen = static_cast<std::uint32_t>(pick * near.count());
-      const Arrival& receiver = near[std::min(chosen, near.count() - 1)];
+      if (!(near.weight > 0)) continue;
+      const Arrival& receiver = seen.Pick(near, pick);
       const double exit_x = x - receiver.ahead, exit_y = y - receiver.sideways;
-      const double diameter = 2 * std::hypot(exit_x * cosine, exit_y);
+      const double diameter = 2 * std::sqrt(exit_x * exit_x * cosine * cosine + exit_y * exit_y);
       // The least field of view that sees it; wider ones are summed up below.
       const auto least = std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter);
       if (least == fields_of_view.end()) continue;
       const double time = (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x);
       echoes[static_cast<std::size_t>(least - fields_of_view.begin())].Add(
-          time, x, double{source.weight} * receiver.weight * near.count());
+          time, x, source.weight * near.weight / pairs_of[i]);
     }
   }
   const double pairs = static_cast<double>(sources.launched) * receivers.launched;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
-    echoes[i] *= 1 / (setup.pairs_per_photon * pairs);
+    echoes[i] *= 1 / pairs;
     if (i > 0) echoes[i] += echoes[i - 1];
   }
   return echoes;
