@@ -207,7 +207,7 @@ inline constexpr CampaignKey kGroupIndex = {
     "Index of the group, which delays the pulse."};
 inline constexpr CampaignKey kPhotons = {
     "effort", "photons", WholeRange{1000, 10'000'000}, "", std::int64_t{60'000},
-    "Photons of each of eight pools, whose scatter gives the standard errors."};
+    "Photons of each of eight pools at b/a = 4, and in proportion to b/a from 1.4 to 7.2."};
 inline constexpr CampaignKey kPairs = {
     "effort", "pairs_per_photon", WholeRange{1, 100}, "", std::int64_t{3},
     "Pairs of one photon down and another up, for each photon."};
