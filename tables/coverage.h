@@ -29,6 +29,11 @@ double LargerRadiusOverThu(double thu_a, double radius_over_thu_a, double thu_b,
 // From 2 sigma to 95 % in one dimension: half of the 97.5 % quantile of the standard normal distribution.
 inline constexpr double kFactor95 = 1.959963984540054 / 2;
 
+// The standard deviations in an uncertainty of one dimension, such as TVU, at this coverage.
+constexpr double VerticalFactor(Coverage coverage) {
+  return coverage == Coverage::kOneSigma ? 1 : coverage == Coverage::kTwoSigma ? 2 : 2 * kFactor95;
+}
+
 // Restates the values and standard errors of `uncertainty`, given at 2 sigma; THU by its `radius_over_thu`. Biases
 // are means and do not change.
 PulseUncertainty WithCoverage(PulseUncertainty uncertainty, Coverage coverage);

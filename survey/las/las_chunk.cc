@@ -251,6 +251,9 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
     put((*column)[i]);
   for (const auto* column : {&total.thu_water, &total.tvu_water})
     put(total_->water.share != nullptr ? (*column)[i] : kNoNumber);
+  const double factor = VerticalFactor(total_->options.coverage);
+  for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
+    put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)].down[i])));
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);
   put(chunk.answers[Quantity::kBiasVertical][i]);
   for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.aircraft.convergence[chunk.rows[i]]))

@@ -34,6 +34,15 @@ constexpr std::uint8_t kNoDataIsSet = 0x01;
 constexpr std::array<std::size_t, 10> kTypeSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 constexpr int kTypeCount = 30;
 
+absl::Status Invalid(const std::string& name, const std::string& message) {
+  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
+}
+
+absl::Status MoreThanExist(const std::string& name, std::size_t described, std::size_t extra_bytes) {
+  return Invalid(name, absl::StrCat("describes ", described, " extra bytes, but its points have ",
+                                    extra_bytes, "; correct the description"));
+}
+
 struct Known {
   std::string name;
   int type;
@@ -45,10 +54,6 @@ struct Described {
   std::vector<Known> entries;
   std::set<std::string, std::less<>> names;
 };
-
-absl::Status Invalid(const std::string& name, const std::string& message) {
-  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
-}
 
 absl::StatusOr<Described> Read(const std::string& name, std::string_view record) {
   if (record.size() % kEntrySize != 0) {
@@ -136,6 +141,8 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
       floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"thu_water", "tvu_water"})
       floats.push_back({name, appended.water ? length : "left out", kNoNumber});
+    for (const std::string_view name : {"tvu_pulse", "tvu_line"})  // What is drawn anew for each of them.
+      floats.push_back({name, length, kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
     floats.push_back({"bias_vertical", "too shallow, m", kNan});
     for (const std::string_view name :
@@ -183,10 +190,7 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
     record.replace(place, kEntrySize, FloatEntry(appended[i], static_cast<std::uint8_t>(entry->type)));
     description.replaced.push_back({i, entry->offset, entry->type == kDouble});
   }
-  if (known->bytes > extra_bytes) {
-    return Invalid(name, absl::StrCat("describes ", known->bytes, " extra bytes, but its points have ",
-                                      extra_bytes, "; correct the description"));
-  }
+  if (known->bytes > extra_bytes) return MoreThanExist(name, known->bytes, extra_bytes);
   FreeNames free_names(known->names);
   for (std::size_t left = extra_bytes - known->bytes; left > 0;) {
     const std::size_t bytes = std::min(left, kMostUndocumented);
@@ -202,6 +206,18 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
                            " more descriptions exceed ", kLargestExtraBytesRecord, " bytes; remove some"));
   }
   return description;
+}
+
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
+                                                                             std::string_view described,
+                                                                             std::size_t extra_bytes) {
+  const absl::StatusOr<Described> known = Read(name, described);
+  if (!known.ok()) return known.status();
+  if (known->bytes > extra_bytes) return MoreThanExist(name, known->bytes, extra_bytes);
+  std::map<std::string, std::size_t, std::less<>> offsets;
+  for (const Known& entry : known->entries)
+    if (entry.type == kFloat) offsets.emplace(entry.name, entry.offset);
+  return offsets;
 }
 
 }  // namespace albtpu::client

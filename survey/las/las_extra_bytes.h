@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,8 @@ struct Appended {
 std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
 
 inline constexpr std::size_t kUncertaintyCount = 2;
-// thu_air to tvu_water, two biases, six entries of the covariance.
-inline constexpr std::size_t kTotalDetailCount = 14;
+// thu_air to tvu_water, tvu_pulse, tvu_line, two biases, six entries of the covariance.
+inline constexpr std::size_t kTotalDetailCount = 16;
 inline constexpr std::size_t kGeometryCount =
     5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
 
@@ -64,5 +65,11 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
                                                      std::size_t extra_bytes,
                                                      const std::vector<AppendedFloat>& appended,
                                                      bool replace = false);
+
+// Where the floats (type 9) lie in the extra bytes of a point, by their names. `described` and `extra_bytes` as above;
+// fails when an entry has an unknown type, or when more bytes are described than exist.
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
+                                                                             std::string_view described,
+                                                                             std::size_t extra_bytes);
 
 }  // namespace albtpu::client

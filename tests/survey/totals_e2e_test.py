@@ -115,6 +115,10 @@ class TotalsTest(programs.Test):
         np.testing.assert_allclose(np.hypot(of["thu_air"], of["thu_sea"]), of["total_thu"], rtol=1e-5)
         np.testing.assert_allclose(np.sqrt(of["tvu_air"]**2 + of["tvu_sea"]**2 + (2 * 0.08)**2), of["total_tvu"],
                                    rtol=1e-5)
+        # What neither pulses nor lines draw anew is of the survey: the datum is in it.
+        of_survey = of["total_tvu"]**2 - of["tvu_pulse"]**2 - of["tvu_line"]**2
+        self.assertGreater(of_survey.min(), (2 * 0.08)**2)
+        np.testing.assert_array_less(of["tvu_sea"], of["tvu_pulse"])
         self.assertTrue((of["CovarianceXY"]**2 <= of["VarianceX"] * of["VarianceY"]).all())
         summary = json.loads((self.folder / "out.las.json").read_text())
         total = summary["answers"]["total"]
