@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "command_line/near_match.h"
@@ -26,6 +27,17 @@ CLI::Validator WholeIn(long long least, long long most) {
         if (error == std::errc() && end == last && number >= least && number <= most) return {};
         return absl::StrCat("'", text, "' is not a number in the range; give a whole number from ", least,
                             " to ", most);
+      },
+      "");
+}
+
+CLI::Validator NumberIn(double least, double most, const std::string& unit) {
+  return CLI::Validator(
+      [least, most, unit](const std::string& text) -> std::string {
+        double number = 0;
+        if (absl::SimpleAtod(text, &number) && number >= least && number <= most) return {};
+        return absl::StrCat("'", text, "' is not a number in the range; give one from ", least, " to ", most,
+                            " ", unit);
       },
       "");
 }

@@ -13,6 +13,9 @@ CLI::Validator NotEmpty(const std::string& what);
 // A whole number from `least` to `most`.
 CLI::Validator WholeIn(long long least, long long most);
 
+// A number from `least` to `most` in a `unit`: "m".
+CLI::Validator NumberIn(double least, double most, const std::string& unit);
+
 // One of `words`; a near match is named.
 CLI::Validator OneOf(const std::vector<std::string>& words);
 

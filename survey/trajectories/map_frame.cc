@@ -166,6 +166,8 @@ absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::stri
   const ProjCrs& crs = found->crs;
   std::shared_ptr<MapFrame> frame(new MapFrame());
   frame->crs_name_ = crs.name;
+  if (const char* wkt = proj_as_wkt(context.get(), crs.horizontal.get(), PJ_WKT1_GDAL, nullptr))
+    frame->wkt_ = wkt;
   frame->remark_ = found->remark;
   frame->angular_unit_ = crs.angular_unit;
   frame->prime_meridian_ = crs.prime_meridian;

@@ -56,6 +56,8 @@ class MapFrame {
   ~MapFrame();
 
   const std::string& crs_name() const { return crs_name_; }  // "NAD83 / UTM zone 17N".
+  // Well-known text (version 1 of GDAL) of its horizontal part. Empty if PROJ has none.
+  const std::string& wkt() const { return wkt_; }
   // What the user should know about how the coordinate system was found; usually empty.
   const std::string& remark() const { return remark_; }
   bool is_geographic() const { return pipeline_.empty(); }
@@ -85,6 +87,7 @@ class MapFrame {
   MapFrame();
 
   std::string crs_name_;
+  std::string wkt_;
   std::string remark_;
   std::string pipeline_;     // Of PROJ, from geographic coordinates in its unit; empty for geographic points.
   double angular_unit_ = 0;  // rad in a unit of the geographic coordinates.
