@@ -52,6 +52,7 @@ void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
   app.add_option("--week", options.points.gps_week, "GPS week");
   app.add_option("--seconds", survey.seconds, "Length of each line [s]");
   app.add_option("--lines", survey.lines, "Number of lines");
+  app.add_option("--cross-lines", survey.cross_lines, "Number of further lines, across the others");
   app.add_option("--course", degrees.course, "Course of the first line [degree]");
   app.add_option("--crab-angle", degrees.crab_angle, "Heading less course [degree]");
   app.add_option("--altitude", survey.altitude, "Above the water [m]");
@@ -112,7 +113,7 @@ void Convert(const Degrees& degrees, Options& options) {
 std::vector<std::vector<std::size_t>> Split(const SimulatedSurvey& survey, const Options& options) {
   const std::size_t count = survey.returns.size(), files = static_cast<std::size_t>(options.files);
   std::vector<std::vector<std::size_t>> parts(
-      options.file_for_each_line ? static_cast<std::size_t>(survey.options.lines) : files);
+      options.file_for_each_line ? static_cast<std::size_t>(survey.lines()) : files);
   RandomNumbers random(survey.options.seed + 1);
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});

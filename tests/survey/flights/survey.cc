@@ -42,6 +42,20 @@ std::vector<Aircraft> MakeAircraft(const SurveyOptions& options, const AreaChart
                                             .crab_angle = options.crab_angle},
                           random);
   }
+  // Evenly over the lines, and as far beyond the block on one side as on the other.
+  const double width = (options.lines - 1) * kLineSpacing * options.altitude;
+  for (int line = 0; line < options.cross_lines; ++line) {
+    const double along = (line + 0.5) / options.cross_lines * length, across = (width - length) / 2;
+    const double sine = std::sin(options.course), cosine = std::cos(options.course);
+    aircraft.emplace_back(chart,
+                          Aircraft::Options{.east = along * sine + across * cosine,
+                                            .north = along * cosine - across * sine,
+                                            .course = options.course + std::numbers::pi / 2,
+                                            .height = options.water_level + options.altitude,
+                                            .speed = options.speed,
+                                            .crab_angle = options.crab_angle},
+                          random);
+  }
   return aircraft;
 }
 
@@ -143,7 +157,7 @@ SimulatedSurvey Simulate(const SurveyOptions& options) {
   const Scene scene{chart, coast, waves};
   PulseSimulator simulator(scene, survey, random);
   const int pulses = static_cast<int>(options.seconds * options.pulse_rate);
-  for (int line = 0; line < options.lines; ++line) {
+  for (int line = 0; line < survey.lines(); ++line) {
     for (int pulse = 0; pulse < pulses; ++pulse) simulator.Fire(line, pulse / options.pulse_rate);
   }
   return survey;

@@ -20,6 +20,7 @@ struct SurveyOptions {
   double start = 320000;                          // s of the GPS week
   double seconds = 30;                            // of each line
   int lines = 1;                                  // Side by side and to and fro, a minute apart.
+  int cross_lines = 0;                            // After these, across them.
   double course = 0.61;                           // rad, of the first line
   double altitude = 400;                          // m above the water
   double speed = 60;                              // m/s
@@ -60,6 +61,7 @@ struct SimulatedSurvey {
   std::vector<SimulatedPulse> pulses = {};
   std::vector<SimulatedReturn> returns = {};  // In the order of time.
 
+  int lines() const { return options.lines + options.cross_lines; }
   double LineStart(int line) const;  // s of the GPS week; `line` from 0
 };
 
