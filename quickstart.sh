@@ -65,9 +65,13 @@ fi
 echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite
 
+echo "== Reporting whether the line passes"
+out/bin/albtpu-query report "$annotated" --output out/report --overwrite
+
 echo "== Done"
 echo "$annotated has total_thu and total_tvu at each bathymetric point, at 95 %, in m: of the air side, the location"
 echo "of the surface, the sea surface, the water column and the datum; its shares, biases and covariance; and"
 echo "the geometry of its beam: incidence, beam_azimuth, footprint, water_depth and slant_range."
+echo "out/report/report.html says whether the line passes, where not and why."
 echo "To query a single pulse:"
 echo "out/bin/albtpu-query pulse --table $table --wind-speed 7 --incidence 12 --footprint 0.6 --depth 8"

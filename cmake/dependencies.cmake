@@ -24,6 +24,9 @@ pkg_check_modules(JEMALLOC REQUIRED IMPORTED_TARGET jemalloc)
 # PROJ's CMake configuration file names no imported target that is the same in all its versions.
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
 
+# NetCDF has no CMake configuration file in Debian.
+pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
+
 # pkg-config instead of the CMake configuration file of prometheus-cpp, which requires CURL for its push component; we
 # use only the pull component.
 pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-pull)

@@ -13,6 +13,7 @@
 #include "command_line/usage_error.h"
 #include "survey/commands/commands.h"
 #include "survey/exit_status.h"
+#include "survey/report/commands/report_commands.h"
 #include "tables/version.h"
 
 namespace {
@@ -34,6 +35,8 @@ int Main(int argc, char** argv) {
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
+  AddReportCommand(program, run);
+  AddCrossCheckCommand(program, run);
   AddTrajectoryCommand(program, run);
   AddSeaCommand(program, run);
   AddSensorsCommand(program, run);

@@ -1,0 +1,124 @@
+"""What a report says in words: where a survey does not pass, why, which line is bad, and what would help most."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Report = dict[str, Any]
+
+OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
+            "UNCERTAIN_TRAJECTORY": "a trajectory too uncertain for an incidence",
+            "NO_SURFACE": "no water surface known above them",
+            "NO_SEA": "no state of the sea at their time",
+            "ABOVE_WATER": "they lie above the water",
+            "NO_WATER": "beyond what the optics of the water answer",
+            "INVALID": "numbers that are not valid"}
+
+REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration): better numbers for its sensor, or a"
+                   " lower flight",
+            "sea": "the sea surface: a calmer sea, or smaller incidence",
+            "water": "the water column: a measured attenuation, or bias = \"correct\"",
+            "datum": "the vertical datum: a better separation model, or delivery above the ellipsoid"}
+
+
+def asked(report: Report) -> str:
+    """ "IHO S-44 1b" """
+    return f"{report['wanted']['specification']} {report['wanted']['class']}"
+
+
+def sentences(report: Report) -> list[str]:
+    """Where not, why, which line, what would help, and whether the prediction is true."""
+    found = [*_gaps(report), *_depths(report), *_lines(report), _help(report), _truth(report)]
+    assumed = sum(1 for each in report["numbers"] if each.get("assumed"))
+    if assumed:
+        found.append(f"{assumed} of {len(report['numbers'])} numbers were assumed; they are listed at the end.")
+    return [each for each in found if each]
+
+
+def outcome_text(name: str) -> str:
+    """An outcome in words."""
+    if name.startswith("OUT_OF_DOMAIN"):
+        return f"outside the table ({name.partition(':')[2].replace(':', ' ')})"
+    return OUTCOMES.get(name, name)
+
+
+def sea_text(sea: object) -> str:
+    """The waves in a few words; the wind alone stands elsewhere."""
+    if not isinstance(sea, dict):
+        return "by the wind"
+    return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in sea.items()
+                     if isinstance(value, (int, float, str)))[:200] or "told"
+
+
+def _gaps(report: Report) -> list[str]:
+    wanted = report["wanted"]
+    gaps = wanted["points"] - wanted["with_number"]
+    if gaps == 0:
+        return []
+    why = sorted(wanted["without_number"].items(), key=lambda each: -each[1])
+    words = "; ".join(f"{count:,}: {outcome_text(name)}" for name, count in why)
+    return [f"{gaps:,} points ({100 * gaps / wanted['points']:.1f} %) have no number and count as not meeting it"
+            f" ({words})."]
+
+
+def _depths(report: Report) -> list[str]:
+    index, share = report["wanted"]["index"], report["wanted"]["pass_share"] / 100
+    bad = [band for band in report["depth_bands"] if band["meeting"][index] < share * band["with_number"]]
+    if not bad:
+        failing = report["wanted"]["failing"]["points"]
+        if failing == 0 and report["wanted"]["with_number"] > 0:
+            return ["Every point with a number meets it, at all depths."]
+        return [] if report["wanted"]["with_number"] == 0 else ["Of the points with a number, enough meet it at all"
+                                                                " depths."]
+    text = ", ".join(f"{band['from']}{'–' + str(band['to']) if band['to'] is not None else ' and more'} m"
+                     f" ({100 * band['meeting'][index] / band['with_number']:.0f} %)" for band in bad)
+    return [f"Too few points with a number meet it at depths of {text}."]
+
+
+def _lines(report: Report) -> list[str]:
+    index = report["wanted"]["index"]
+    lines = [line for line in report["lines"] if line["points"]]
+    if len(lines) < 2:
+        return []
+    worst = min(lines, key=lambda line: line["meeting"][index] / line["points"])
+    fraction = worst["meeting"][index] / worst["points"]
+    if fraction < 1:
+        gaps = 1 - worst["with_number"] / worst["points"]
+        return [f"The worst line is {worst['line']}: {100 * fraction:.1f} % of its points meet it,"
+                f" {100 * gaps:.1f} % have no number."]
+    worst = max((line for line in lines if "tvu" in line), key=lambda line: line["tvu"]["p95"])
+    return [f"No line is bad; line {worst['line']} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
+            " percentile)."]
+
+
+def _help(report: Report) -> str:
+    wanted = report["wanted"]
+    failing = wanted["failing"]
+    gaps = wanted["points"] - wanted["with_number"]
+    if gaps > failing["points"] and gaps > 0.001 * wanted["points"]:
+        name = max(wanted["without_number"], key=lambda each: wanted["without_number"][each], default="")
+        return f"What would help most: numbers for the points that have none ({outcome_text(name)})." if name else ""
+    shares = report["all"].get("shares_vertical")
+    if not shares:
+        return ""
+    if failing["points"]:
+        share = max(failing["largest_share"], key=lambda each: failing["largest_share"][each])
+        count = failing["largest_share"][share]
+        return (f"What would help most: {REMEDIES[share]}. It has the largest share of the vertical variance at"
+                f" {100 * count / failing['points']:.0f} % of the points that do not meet it.")
+    share = max(shares, key=lambda each: shares[each])
+    return f"The largest share of the vertical variance, {100 * shares[share]:.0f} %, is {REMEDIES[share]}."
+
+
+def _truth(report: Report) -> str:
+    check = report["crosscheck"]
+    if check is None:
+        return "No lines overlap, so that the files cannot show whether the prediction is true."
+    factor = check["factor"]
+    text = (f"Overlapping lines: σ would have to be {factor['value']:.2f} times as large (95 %: {factor['low']:.2f} to"
+            f" {factor['high']:.2f})")
+    if factor["low"] <= 1 <= factor["high"]:
+        return text + ", so that they agree with the prediction."
+    word = "small" if factor["value"] > 1 else "large"
+    guilty = f"; the share of the {check['guilty_share']} differs most" if check["guilty_share"] else ""
+    return text + f": the prediction is too {word}{guilty}."

@@ -1,0 +1,252 @@
+#include "survey/report/annotated_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "survey/answers/batch.h"
+#include "survey/files/file_jobs.h"
+#include "survey/files/summary_file.h"
+#include "survey/las/las_crs.h"
+#include "survey/las/las_extra_bytes.h"
+#include "survey/las/las_point_runs.h"
+#include "survey/las/las_points.h"
+#include "survey/laz/coding/little_endian.h"
+#include "survey/trajectories/map_frame.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kRunPoints = 1 << 16;
+constexpr char kRemedy[] =
+    "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
+
+struct FloatOfPoint {
+  std::string_view name;
+  float AnnotatedPoint::*member;
+};
+
+constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
+                                FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
+                                FloatOfPoint{"tvu_air", &AnnotatedPoint::tvu_air},
+                                FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
+                                FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
+                                FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
+                                FloatOfPoint{"tvu_line", &AnnotatedPoint::tvu_line},
+                                FloatOfPoint{"bias_along_beam", &AnnotatedPoint::bias_along_beam},
+                                FloatOfPoint{"bias_vertical", &AnnotatedPoint::bias_vertical},
+                                FloatOfPoint{"VarianceX", &AnnotatedPoint::variance_x},
+                                FloatOfPoint{"VarianceY", &AnnotatedPoint::variance_y},
+                                FloatOfPoint{"VarianceZ", &AnnotatedPoint::variance_z},
+                                FloatOfPoint{"CovarianceXY", &AnnotatedPoint::covariance_xy},
+                                FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
+                                FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
+
+// Neither no-data (NaN, or -1 of a length) nor infinite.
+float KnownOrZero(float value, bool signed_value) {
+  return std::isfinite(value) && (signed_value || value >= 0) ? value : 0;
+}
+
+absl::Status Invalid(const fs::path& path, const std::string& problem) {
+  return absl::InvalidArgumentError(absl::StrCat(path.string(), ": ", problem));
+}
+
+}  // namespace
+
+absl::StatusOr<AnnotatedLasFile> AnnotatedLasFile::Open(const fs::path& path) {
+  absl::StatusOr<LasReader> reader = LasReader::Open(path);
+  if (!reader.ok()) return reader.status();
+  AnnotatedLasFile file(*std::move(reader));
+  file.path_ = path;
+  absl::Status status = file.FindFloats();
+  if (status.ok()) status = file.ReadSummary();
+  if (status.ok()) status = file.FindCrs();
+  if (!status.ok()) return status;
+  return file;
+}
+
+absl::Status AnnotatedLasFile::ReadSummary() {
+  const fs::path summary = SummaryPath(path_);
+  std::ifstream stream(summary, std::ios::binary);
+  if (!stream)
+    return absl::NotFoundError(absl::StrCat(path_.string(), ": its summary ", summary.string(),
+                                            " is missing; keep it beside the file", kRemedy));
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  summary_ = Json::parse(text, nullptr, false);
+  const auto object = [](const Json& in, const char* key) {
+    return in.is_object() && in.contains(key) && in[key].is_object();
+  };
+  const bool ours = object(summary_, "answers") && object(summary_, "parameters") &&
+                    object(summary_, "input") && object(summary_, "output") &&
+                    object(summary_["answers"], "outcomes") &&
+                    summary_.value("program", Json()) == "albtpu-query";
+  const Json total = ours ? summary_["answers"].value("total", Json()) : Json();
+  const std::optional<Coverage> coverage =
+      FindCoverage(total.is_object() && total.contains("coverage") && total["coverage"].is_string()
+                       ? total["coverage"].get<std::string>()
+                       : std::string());
+  if (!coverage.has_value()) return Invalid(summary, absl::StrCat("is no summary of a total", kRemedy));
+  coverage_ = *coverage;
+  const Json size = summary_["output"].value("bytes", Json());
+  if (size != reader_.file_size()) {
+    return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ",
+                                       size.dump(), " (the file was changed later)", kRemedy));
+  }
+  const Json classes = summary_["parameters"].value("classes", Json());
+  if (classes.is_array()) {
+    for (const Json& each : classes)
+      if (each.is_number_integer()) classes_.insert(each.get<int>());
+  }
+  if (classes_.empty()) classes_ = {DefaultClass(reader_.header().point_format)};
+  return absl::OkStatus();
+}
+
+absl::Status AnnotatedLasFile::FindFloats() {
+  std::map<std::string, std::size_t, std::less<>> offsets;
+  for (const VlrEntry& vlr : reader_.vlrs()) {
+    if (!vlr.Is(kSpecUser, kExtraBytesRecord)) continue;
+    const absl::StatusOr<std::string> record = reader_.ReadAt(vlr.data_offset, vlr.data_size);
+    if (!record.ok()) return record.status();
+    auto described = FloatOffsets(reader_.name(), *record, reader_.header().extra_bytes());
+    if (!described.ok()) return described.status();
+    offsets = *std::move(described);
+  }
+  const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
+  for (const FloatOfPoint& each : kFloats) {
+    const auto found = offsets.find(each.name);
+    if (found == offsets.end())
+      return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
+    offsets_.push_back(begin + found->second);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status AnnotatedLasFile::FindCrs() {
+  const absl::StatusOr<CrsDescription> description = DescribeCrs(reader_);
+  if (!description.ok()) return description.status();
+  const Json& parameters = summary_["parameters"];
+  CrsDescription crs = *description;
+  if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
+  if (!crs.empty()) {
+    const auto frame = MapFrame::Create(path_.string(), crs);
+    if (frame.ok() && (*frame)->is_geographic()) {
+      return Invalid(path_, absl::StrCat("has geographic coordinates (", (*frame)->crs_name(),
+                                         "); a grid of square cells needs projected ones, such as UTM"));
+    }
+    if (frame.ok()) {
+      crs_name_ = (*frame)->crs_name();
+      crs_wkt_ = (*frame)->wkt();
+      metres_per_unit_ = metres_per_height_unit_ = (*frame)->unit();
+      if ((*frame)->metres_per_height_unit().has_value())
+        metres_per_height_unit_ = *(*frame)->metres_per_height_unit();
+    } else {
+      crs_name_ = "not understood";
+    }
+  }
+  if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number() && unit > 0)
+    metres_per_unit_ = metres_per_height_unit_ = unit.get<double>();
+  return absl::OkStatus();
+}
+
+std::string AnnotatedLasFile::table_digest() const {
+  const Json table = summary_.value("table", Json());
+  const Json digest = table.is_object() ? table.value("digest", Json()) : Json();
+  return digest.is_string() ? digest.get<std::string>() : "";
+}
+
+absl::Status AnnotatedLasFile::ForEach(FileProgress& progress, const Visit& visit) const {
+  FileProgress::File shown(progress, reader_.name());
+  absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader_, 0, 0);
+  if (!runs.ok()) return reader_.Named(runs.status());
+  const LasHeader& header = reader_.header();
+  const LasPointFields fields(header);
+  std::array<bool, kClassCount> wanted = {};
+  for (const int each : classes_)
+    if (each >= 0 && each < kClassCount) wanted[each] = true;
+  LasRun run;
+  std::vector<AnnotatedPoint> points;
+  while (true) {
+    const absl::StatusOr<bool> more = runs->Next(kRunPoints, run);
+    if (!more.ok()) return reader_.Named(more.status());
+    if (!*more) break;
+    points.clear();
+    for (std::size_t i = 0; i < run.own; ++i) {
+      const std::string_view record =
+          std::string_view(run.records).substr(i * header.record_length, header.record_length);
+      if (!wanted[fields.Class(record)]) continue;
+      AnnotatedPoint& point = points.emplace_back();
+      point.x = fields.X(record);
+      point.y = fields.Y(record);
+      point.z = fields.Z(record) * metres_per_height_unit_;
+      if (fields.has_gps_time()) point.time = fields.GpsTime(record);
+      point.line = fields.PointSourceId(record);
+      for (std::size_t k = 0; k < kFloats.size(); ++k)
+        point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      point.has_number = point.thu >= 0 && point.tvu >= 0 && point.variance_z >= 0 && point.variance_x >= 0 &&
+                         point.variance_y >= 0 && point.depth >= 0;
+      for (float AnnotatedPoint::*const length :
+           {&AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
+            &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+        point.*length = KnownOrZero(point.*length, false);
+      for (float AnnotatedPoint::*const bias :
+           {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy})
+        point.*bias = KnownOrZero(point.*bias, true);
+    }
+    visit(points);
+    const std::uint64_t done = run.first + run.own;
+    shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
+  }
+  return reader_.CheckUnchanged();
+}
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  if (fs::is_directory(folder_or_file, error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
+      if (HasExtension(entry.path(), ".las") || HasExtension(entry.path(), ".laz"))
+        paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    if (error) return Invalid(folder_or_file, absl::StrCat("cannot be read: ", error.message()));
+    if (paths.empty())
+      return absl::NotFoundError(absl::StrCat(
+          folder_or_file.string(), ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
+  } else {
+    paths.push_back(folder_or_file);
+  }
+  std::vector<AnnotatedLasFile> files;
+  for (const fs::path& path : paths) {
+    absl::StatusOr<AnnotatedLasFile> file = AnnotatedLasFile::Open(path);
+    if (!file.ok()) return file.status();
+    files.push_back(*std::move(file));
+    const AnnotatedLasFile &first = files.front(), &last = files.back();
+    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
+                            const std::string& remedy) {
+      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last,
+                                                     " (in ", first.path().string(), " it is ", in_first,
+                                                     "); ", remedy));
+    };
+    if (last.crs_name() != first.crs_name() || last.metres_per_unit() != first.metres_per_unit())
+      return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
+    if (last.coverage() != first.coverage()) {
+      return differ("coverage", std::string(CoverageName(first.coverage())),
+                    std::string(CoverageName(last.coverage())), "annotate all files with one --coverage");
+    }
+    if (last.table_digest() != first.table_digest())
+      return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
+  }
+  return files;
+}
+
+}  // namespace albtpu::client

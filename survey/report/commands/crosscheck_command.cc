@@ -1,0 +1,51 @@
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command_line/checks.h"
+#include "command_line/help.h"
+#include "command_line/standard_output.h"
+#include "survey/report/commands/report_commands.h"
+#include "survey/report/overlap_check.h"
+
+namespace albtpu::client {
+namespace {
+
+struct CrossCheckOptions {
+  std::string annotated;
+  double patch = kDefaultPatch;
+  bool json = false;
+};
+
+absl::Status RunCrossCheck(const CrossCheckOptions& options) {
+  const absl::StatusOr<std::vector<AnnotatedLasFile>> files = OpenAnnotated(options.annotated);
+  if (!files.ok()) return files.status();
+  const absl::StatusOr<CrossCheck> check = CrossCheckOf(*files, options.patch);
+  if (!check.ok()) return check.status();
+  std::cout << (options.json ? CrossCheckJson(*check).dump(2) + "\n" : CrossCheckText(*check));
+  return FlushStandardOutput();
+}
+
+}  // namespace
+
+void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run) {
+  const auto options = std::make_shared<CrossCheckOptions>();
+  CLI::App* command = program.add_subcommand(
+      "crosscheck", "Whether the predicted uncertainty explains the differences between overlapping lines");
+  command
+      ->add_option("OUT_DIR", options->annotated,
+                   "Folder that albtpu-query las --details wrote, or a file in it")
+      ->required();
+  command->add_option("--patch", options->patch, "Side of the patches in which lines are compared [m]")
+      ->check(NumberIn(0.5, 100, "m"))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "JSON, with every band and every two lines");
+  EndHelp(*command, "Lines are told apart by the point source ID.", "annotated",
+          "annotated --patch 3 --json");
+  command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });
+}
+
+}  // namespace albtpu::client

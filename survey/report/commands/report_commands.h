@@ -1,0 +1,15 @@
+// The commands of albtpu-query about whole surveys. Each adds its options to the program and sets `run` if it is the
+// command given.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "absl/status/status.h"
+
+namespace albtpu::client {
+
+void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run);
+void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run);
+
+}  // namespace albtpu::client

@@ -1,0 +1,123 @@
+#include "survey/report/report_folder.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "survey/files/output_file.h"
+#include "survey/report/grid_file.h"
+#include "survey/report/report_page.h"
+
+namespace albtpu::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kJson = "report.json";
+constexpr const char* kGrid = "grid.nc";
+constexpr const char* kPage = "report.html";
+
+// A hidden folder inside another one, removed by the destructor.
+class HiddenFolder {
+ public:
+  explicit HiddenFolder(const fs::path& folder) {
+    std::string name = (folder / ".albtpu-XXXXXX").string();
+    if (mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~HiddenFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  HiddenFolder(const HiddenFolder&) = delete;
+  HiddenFolder& operator=(const HiddenFolder&) = delete;
+
+  const fs::path& path() const { return path_; }  // Empty if it could not be made.
+
+ private:
+  fs::path path_;
+};
+
+absl::Status WriteText(const fs::path& path, const std::string& text) {
+  absl::StatusOr<OutputFile> file = OutputFile::Create(path, Existing::kReplace);
+  if (!file.ok()) return file.status();
+  if (absl::Status status = file->Write(text); !status.ok()) return status;
+  return file->Commit();
+}
+
+absl::Status Move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (!error) return absl::OkStatus();
+  return absl::DataLossError(absl::StrCat(to.string(), ": cannot be written: ", error.message()));
+}
+
+}  // namespace
+
+absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (!fs::is_directory(folder)) {
+    return absl::NotFoundError(absl::StrCat(
+        folder.string(), ": cannot be made; give a folder, or a new name in a folder that exists"));
+  }
+  if (!fs::is_empty(folder, error) && existing == Existing::kKeep) {
+    return absl::AlreadyExistsError(absl::StrCat(
+        folder.string(), ": is not empty; give another folder, or replace an earlier report by --overwrite"));
+  }
+  if (access(folder.c_str(), W_OK) == 0) return absl::OkStatus();
+  return absl::PermissionDeniedError(absl::StrCat(
+      folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
+}
+
+bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files,
+               const ReportOptions& options, bool with_page) {
+  std::ifstream stream(folder / kJson, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("made_from", Json()) != MadeFrom(files, options)) return false;
+  std::error_code error;
+  fs::file_time_type oldest = fs::file_time_type::max();
+  for (const char* const name : {kJson, kGrid, kPage}) {
+    if (name == kPage && !with_page) continue;
+    oldest = std::min(oldest, fs::last_write_time(folder / name, error));
+    if (error) return false;
+  }
+  for (const AnnotatedLasFile& file : files)
+    if (fs::last_write_time(file.path(), error) > oldest || error) return false;
+  return true;
+}
+
+absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& folder) {
+  const HiddenFolder hidden(folder);
+  if (hidden.path().empty()) {
+    return absl::PermissionDeniedError(absl::StrCat(
+        folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
+  }
+  {
+    const SurveyGrid grid = std::move(report.grid);
+    if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok())
+      return status;
+  }
+  const std::string text = report.json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  absl::Status status = WriteText(hidden.path() / kJson, text);
+  if (status.ok() && with_page) status = DrawPage(hidden.path());
+  if (status.ok()) status = Move(hidden.path() / kGrid, folder / kGrid);
+  if (status.ok()) status = Move(hidden.path() / kJson, folder / kJson);
+  if (status.ok() && with_page) status = Move(hidden.path() / kPage, folder / kPage);
+  // The page of an earlier report would not be that of the new numbers.
+  std::error_code ignored;
+  if (status.ok() && !with_page) fs::remove(folder / kPage, ignored);
+  return status;
+}
+
+}  // namespace albtpu::client

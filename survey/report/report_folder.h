@@ -1,0 +1,25 @@
+// The folder of a report: report.json, grid.nc and report.html, which appear together.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "survey/report/annotated_points.h"
+#include "survey/report/survey_report.h"
+#include "tables/file/existing.h"
+
+namespace albtpu::client {
+
+// Makes the folder. AlreadyExists if it has files and is to be kept; PermissionDenied if it cannot be written to.
+absl::Status PrepareFolder(const std::filesystem::path& folder, Existing existing);
+
+// Whether `folder` has the complete report of these files with these options, which are not newer than it.
+bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,
+               const ReportOptions& options, bool with_page);
+
+// Writes a report in a hidden folder and gives its files their names when all are complete, the page last. The grid is
+// freed before the page is drawn.
+absl::Status WriteReport(SurveyReport report, bool with_page, const std::filesystem::path& folder);
+
+}  // namespace albtpu::client

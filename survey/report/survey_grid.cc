@@ -1,0 +1,111 @@
+#include "survey/report/survey_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "tables/s44.h"
+
+namespace albtpu::client {
+namespace {
+
+constexpr double kGreatestIndex = 1e9;  // Of a column or row: so that two tile numbers fit 64 bits.
+
+// Floor of a / SurveyGrid::kTile for a of either sign.
+std::int64_t TileOf(std::int64_t index) {
+  return index >= 0 ? index / SurveyGrid::kTile : -((-index + SurveyGrid::kTile - 1) / SurveyGrid::kTile);
+}
+
+std::uint64_t KeyOf(std::int64_t column, std::int64_t row) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
+         static_cast<std::uint32_t>(row);
+}
+
+absl::Status TooLarge(const std::string& why) {
+  return absl::ResourceExhaustedError(absl::StrCat(
+      "the grid is too large (", why, "); give larger cells by --cell, or fewer files at a time"));
+}
+
+}  // namespace
+
+absl::Status SurveyGrid::CheckExtent(double least_x, double greatest_x, double least_y,
+                                     double greatest_y) const {
+  const double columns = std::ceil((greatest_x - least_x) / cell_) + 1;
+  const double rows = std::ceil((greatest_y - least_y) / cell_) + 1;
+  const double farthest =
+      std::max({std::abs(least_x), std::abs(greatest_x), std::abs(least_y), std::abs(greatest_y)});
+  if (columns * rows <= kMostCells && farthest / cell_ < kGreatestIndex) return absl::OkStatus();
+  return TooLarge(absl::StrFormat("%.0f x %.0f cells of %g, at most %.0f", columns, rows, cell_, kMostCells));
+}
+
+void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
+  if (!status_.ok()) return;
+  const double x = std::floor(point.x / cell_), y = std::floor(point.y / cell_);
+  if (!(std::abs(x) < kGreatestIndex && std::abs(y) < kGreatestIndex)) {
+    status_ = TooLarge(absl::StrFormat("a point lies at %g, %g", point.x, point.y));
+    return;
+  }
+  const auto column = static_cast<std::int64_t>(x), row = static_cast<std::int64_t>(y);
+  Tile* const tile = TileAt(TileOf(column), TileOf(row));
+  if (tile == nullptr) return;
+  const auto within = [](std::int64_t index) {
+    return static_cast<std::size_t>(index - TileOf(index) * kTile);
+  };
+  GridCell& cell = (*tile)[within(row) * kTile + within(column)];
+  ++cell.points;
+  if (!point.has_number) return;
+  ++cell.with_number;
+  // Means that run: a sum of very many floats would lose the last ones.
+  const auto take = [count = static_cast<double>(cell.with_number)](double value, float& mean) {
+    mean += static_cast<float>((value - mean) / count);
+  };
+  take(point.depth, cell.depth);
+  take(point.thu, cell.thu);
+  take(point.tvu, cell.tvu);
+  const std::array<double, 4> shares = VerticalShares(point, coverage_);
+  for (std::size_t i = 0; i < shares.size(); ++i) take(shares[i], cell.shares[i]);
+  constexpr std::uint8_t kNone = kS44Orders.size() + 1;
+  cell.worst_order = std::max(cell.worst_order, best_order == 0 ? kNone : best_order);
+}
+
+SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
+  const std::uint64_t key = KeyOf(column, row);
+  if (last_ != nullptr && key == last_key_) return last_;
+  std::unique_ptr<Tile>& tile = tiles_[key];
+  if (tile == nullptr) {
+    if (tiles_.size() * sizeof(Tile) > kMostBytes) {
+      status_ = TooLarge(absl::StrCat("its cells with points need more than ", kMostBytes >> 20, " MiB"));
+      tiles_.erase(key);
+      return nullptr;
+    }
+    tile = std::make_unique<Tile>();
+    const bool first = tiles_.size() == 1;
+    least_column_ = first ? column : std::min(least_column_, column);
+    greatest_column_ = first ? column : std::max(greatest_column_, column);
+    least_row_ = first ? row : std::min(least_row_, row);
+    greatest_row_ = first ? row : std::max(greatest_row_, row);
+    if (static_cast<double>(columns()) * static_cast<double>(rows()) > 1.1 * kMostCells)
+      status_ = TooLarge(absl::StrFormat("points lie %d x %d cells apart", columns(), rows()));
+  }
+  last_key_ = key;
+  last_ = tile.get();
+  return last_;
+}
+
+void SurveyGrid::Strip(std::size_t strip, std::vector<GridCell>& cells) const {
+  cells.assign(columns() * kTile, {});
+  const std::int64_t row = least_row_ + static_cast<std::int64_t>(strip);
+  for (std::int64_t column = least_column_; column <= greatest_column_; ++column) {
+    const auto found = tiles_.find(KeyOf(column, row));
+    if (found == tiles_.end()) continue;
+    for (std::size_t i = 0; i < kTile; ++i) {
+      std::copy_n(
+          found->second->begin() + static_cast<std::ptrdiff_t>(i * kTile), kTile,
+          cells.begin() + static_cast<std::ptrdiff_t>(
+                              i * columns() + static_cast<std::size_t>(column - least_column_) * kTile));
+    }
+  }
+}
+
+}  // namespace albtpu::client

@@ -1,0 +1,48 @@
+// The report of a survey: whether it meets what was asked for, where not and why, from its annotated files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "survey/report/annotated_points.h"
+#include "survey/report/grid_file.h"
+#include "survey/report/overlap_check.h"
+#include "survey/report/point_tally.h"
+#include "survey/report/specification.h"
+#include "survey/report/survey_grid.h"
+
+namespace albtpu::client {
+
+inline constexpr double kDefaultPassShare = 95;  // %, of the points; NOAA asks it of the nodes of a surface.
+
+struct ReportOptions {
+  double cell = 1;                            // m
+  std::vector<Specification> specifications;  // All that the report states.
+  std::string specification, wanted_class;    // What the survey is held against: names of one of them.
+  double pass_share = kDefaultPassShare;      // %
+  double patch = kDefaultPatch;               // m
+};
+
+// What decides the report: the files by name and size, and the options. It is `made_from` in the JSON.
+nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options);
+
+struct SurveyReport {
+  nlohmann::ordered_json json;
+  SurveyGrid grid;
+  GridFileFacts facts;
+};
+
+// Reads all points of `files`, which is not empty, once for the report and once more where lines overlap. Memory is
+// bounded by the grid (SurveyGrid::kMostBytes) and the patches (OverlapPatches). FailedPrecondition if there is no
+// point of a bathymetric class.
+absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files,
+                                        const ReportOptions& options);
+
+}  // namespace albtpu::client

@@ -1,0 +1,170 @@
+"""albtpu-query report, from outside: its numbers, the grid in other programs, the page in a browser."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+import netCDF4
+import numpy as np
+import xarray
+
+import programs
+from programs import query
+from reported_survey import Report, setUpModule  # noqa: F401
+
+
+class Numbers(Report):
+    def test_add_up_to_the_points_of_the_files(self):
+        points, answered = self.points, self.points["total_tvu"] >= 0
+        report = self.json
+        self.assertEqual(report["all"]["points"], len(answered))
+        self.assertEqual(report["all"]["with_number"], answered.sum())
+        self.assertEqual(sum(line["points"] for line in report["lines"]), len(answered))
+        self.assertEqual(sum(each["points"] for each in report["files"]), len(answered))
+        self.assertEqual(sum(each["points"] for each in report["by_depth"]), answered.sum())
+        self.assertEqual(sum(each["points"] for each in report["depth_bands"]), answered.sum())
+        self.assertEqual(sum(report["histograms"]["tvu"]["counts"]), answered.sum())
+        self.assertEqual(sum(report["wanted"]["without_number"].values()), (~answered).sum())
+        self.assertAlmostEqual(report["all"]["tvu"]["mean"], points["total_tvu"][answered].mean(), delta=1e-6)
+
+    def test_of_points_that_meet_an_order_are_right(self):
+        of = {name: values[self.points["total_tvu"] >= 0] for name, values in self.points.items()}
+        depth = of["water_depth"]
+        within = 1.959964 * np.sqrt(of["VarianceZ"]) + abs(of["bias_vertical"]) <= np.hypot(0.25, 0.0075 * depth)
+        # The radius is at most 2.448 times the larger sigma: in these surveys far below the limit of 2 m.
+        special = next(each for each in self.json["specifications"][0]["classes"] if each["name"] == "special")
+        self.assertGreater(special["meeting"], 0)
+        self.assertLess(abs(special["meeting"] - within.sum()), 1e-3 * within.size)
+        # The same as the summaries of the files say of the total.
+        summaries = [json.loads(path.read_text()) for path in self.annotated.glob("*.las.json")]
+        met = sum(each["answers"]["total"]["all"]["s44_met"]["special"] for each in summaries)
+        self.assertLess(abs(special["meeting"] - met), 5)
+
+    def test_have_the_assumptions_with_their_sources(self):
+        numbers = {each["name"]: each for each in self.json["numbers"]}
+        self.assertTrue(numbers["boresight"]["assumed"])
+        self.assertFalse(numbers["scan"]["assumed"])
+        self.assertIn("cBLUE", numbers["scan"]["source"])
+
+
+class Grid(Report):
+    def test_has_the_means_of_its_cells(self):
+        points = self.points
+        answered = points["total_tvu"] >= 0
+        with netCDF4.Dataset(self.made / "grid.nc") as grid:
+            x, y = grid["x"][:], grid["y"][:]
+            column = np.floor(points["x"] - (x[0] - 0.5)).astype(int)
+            row = (np.floor(y[0]) - np.floor(points["y"])).astype(int)
+            counts = np.zeros((len(y), len(x)), int)
+            np.add.at(counts, (row, column), 1)
+            np.testing.assert_array_equal(grid["points"][:].filled(-1), counts)
+            with_number = np.zeros_like(counts)
+            np.add.at(with_number, (row[answered], column[answered]), 1)
+            np.testing.assert_array_equal(grid["points_without_number"][:].filled(-1), counts - with_number)
+            for name, of_points in (("tvu", "total_tvu"), ("thu", "total_thu"), ("depth", "water_depth")):
+                sums = np.zeros(counts.shape)
+                np.add.at(sums, (row[answered], column[answered]), points[of_points][answered])
+                values = grid[name][:]
+                np.testing.assert_array_equal(np.ma.getmaskarray(values), with_number == 0)
+                np.testing.assert_allclose(values.compressed(), (sums / np.maximum(with_number, 1))[with_number > 0],
+                                           rtol=1e-5)
+            shares = sum(grid[f"share_{name}"][:] for name in ("air", "sea", "water", "datum"))
+            np.testing.assert_allclose(shares.compressed(), 1, atol=1e-5)
+
+    def test_is_opened_by_gdal(self):
+        info = json.loads(subprocess.run(["gdalinfo", "-json", f"NETCDF:{self.made / 'grid.nc'}:tvu"], check=True,
+                                         capture_output=True, text=True).stdout)
+        self.assertIn("UTM zone 17N", info["coordinateSystem"]["wkt"])
+        self.assertEqual(info["geoTransform"][1], 1)
+        self.assertEqual(info["geoTransform"][5], -1)
+        self.assertAlmostEqual(info["geoTransform"][0] % 1, 0)
+        self.assertLess(info["geoTransform"][0], self.points["x"].min())
+        self.assertGreater(info["geoTransform"][3], self.points["y"].max())
+
+    def test_is_opened_by_ncdump_and_xarray(self):
+        header = subprocess.run(["ncdump", "-h", self.made / "grid.nc"], check=True, capture_output=True,
+                                text=True).stdout
+        for text in ('Conventions = "CF-1.8"', 'grid_mapping_name = "transverse_mercator"', "tvu:grid_mapping",
+                     "order_met:flag_meanings"):
+            self.assertIn(text, header)
+        with xarray.open_dataset(self.made / "grid.nc") as grid:
+            self.assertEqual(int(grid.points.sum()), len(self.points["x"]))
+            self.assertAlmostEqual(float(grid.tvu.max()), self.points["total_tvu"].max(), delta=0.01)
+
+    def test_takes_the_cell_that_is_asked_for(self):
+        report = self.folder / "coarse"
+        query("report", self.annotated, "--output", report, "--cell", 25, "--no-page", check=0)
+        self.assertFalse((report / "report.html").exists())
+        with netCDF4.Dataset(report / "grid.nc") as grid:
+            self.assertEqual(grid["x"][1] - grid["x"][0], 25)
+            self.assertEqual(grid["points"][:].sum(), len(self.points["x"]))
+
+
+# What a browser says of a page: its width, that of its content, and the pictures that it could not show.
+PROBE = """<script>addEventListener('load', () => { document.body.dataset.probe = JSON.stringify({
+  width: innerWidth, content: document.documentElement.scrollWidth,
+  broken: [...document.images].filter(image => !(image.complete && image.naturalWidth)).length,
+  images: document.images.length, below: document.querySelector('.verdict').getBoundingClientRect().bottom,
+  first: (table => { table.querySelector('th').click(); return table.tBodies[0].rows[0].cells[0].textContent; })(
+    document.querySelector('.sortable')) }); });</script>"""
+
+
+class Page(Report):
+    def browse(self, width, height):
+        page = self.folder / "probe.html"
+        page.write_text((self.made / "report.html").read_text().replace("</body>", PROBE + "</body>"))
+        result = subprocess.run(
+            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-quic",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars",
+             f"--user-data-dir={self.folder / 'browser'}", f"--window-size={width},{height}",
+             f"--screenshot={self.folder / f'{width}.png'}", "--dump-dom", f"file://{page}"],
+            check=True, capture_output=True, text=True, timeout=120, env={**os.environ, "HOME": str(self.folder)})
+        found = re.search(r'data-probe="([^"]*)"', result.stdout)
+        self.assertIsNotNone(found, result.stderr)
+        return json.loads(found.group(1).replace("&quot;", '"'))
+
+    @unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
+    def test_fits_a_telephone_and_a_desk(self):
+        for width, height in ((390, 844), (1280, 900)):
+            # A headless window may be wider than a telephone: the content is held against the width that it got.
+            seen = self.browse(width, height)
+            self.assertLessEqual(seen["content"], max(seen["width"], width), seen)
+            self.assertEqual(seen["broken"], 0)
+            self.assertGreaterEqual(seen["images"], 11)
+            self.assertEqual(seen["first"], "1")
+            if width == 1280:
+                self.assertLess(seen["below"], height)  # The verdict is on the first screen.
+
+    def test_has_nothing_from_outside(self):
+        page = (self.made / "report.html").read_text()
+        self.assertEqual(re.findall(r"""(?:src|href)=["'](?!data:)[^"']*""", page), [])
+        self.assertNotRegex(page, r"url\(|@import|https?://")
+
+    def test_says_whether_the_survey_passes_where_not_and_why(self):
+        page = (self.made / "report.html").read_text()
+        wanted = self.json["wanted"]
+        self.assertIn("passes IHO S-44 1b" if wanted["passes"] else "does not pass IHO S-44 1b", page)
+        self.assertIn("no water surface known above them", page)
+        self.assertIn("Overlapping lines", page)
+        self.assertIn("boresight", page)
+        self.assertIn("PASSES" if wanted["passes"] else "DOES NOT PASS", self.said)
+
+    def test_holds_the_survey_against_another_specification(self):
+        own = self.folder / "own.toml"
+        own.write_text("title = 'My <harbour>'\nsource = 'me'\n[[class]]\nname = 'berths'\ncoverage = 'p95'\n"
+                       "vertical = {constant = 0.01}\n")
+        report = self.folder / "own"
+        query("report", self.annotated, "--output", report, "--spec", own, check=0)
+        wanted = json.loads((report / "report.json").read_text())["wanted"]
+        self.assertEqual((wanted["class"], wanted["meeting"], wanted["passes"]), ("berths", 0, False))
+        page = (report / "report.html").read_text()
+        self.assertIn("My &lt;harbour&gt;", page)
+        self.assertNotIn("My <harbour>", page)
+        self.assertIn("What would help most", page)
+
+
+if __name__ == "__main__":
+    programs.main()

@@ -1,0 +1,176 @@
+"""albtpu-query report and crosscheck, from outside: runs again and again, errors that are known, bad inputs."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+
+import programs
+from las_file import LasFile
+from programs import query
+from reported_survey import Report, annotate, setUpModule  # noqa: F401
+
+
+class Runs(Report):
+    def test_keep_what_is_there(self):
+        report = self.folder / "report"
+        query("report", self.annotated, "--output", report, "--no-page", check=0)
+        before = (report / "report.json").stat().st_mtime_ns
+        self.assert_fails(query("report", self.annotated, "--output", report, "--no-page"), 1, "--overwrite")
+        again = query("report", self.annotated, "--output", report, "--no-page", "--resume", check=0)
+        self.assertIn("already", again.stderr)
+        self.assertEqual((report / "report.json").stat().st_mtime_ns, before)
+        query("report", self.annotated, "--output", report, "--no-page", "--resume", "--cell", 2, check=0)
+        self.assertGreater((report / "report.json").stat().st_mtime_ns, before)
+        query("report", self.annotated, "--output", report, "--no-page", "--overwrite", check=0)
+        self.assertEqual([path.name for path in sorted(report.iterdir())], ["grid.nc", "report.json"])
+
+    def test_are_the_same_from_the_same_files(self):
+        for name in ("a", "b"):
+            query("report", self.annotated, "--output", self.folder / name, "--no-page", check=0)
+        self.assertEqual((self.folder / "a/report.json").read_bytes(), (self.folder / "b/report.json").read_bytes())
+
+    def test_read_laz_as_las(self):
+        packed = self.folder / "laz"
+        packed.mkdir()
+        for path in self.annotated.glob("*.las"):
+            laz = packed / f"{path.stem}.laz"
+            subprocess.run([programs.PATHS["laz_copy"], path, laz], check=True)
+            summary = json.loads(path.with_suffix(".las.json").read_text())
+            summary["output"]["bytes"] = laz.stat().st_size
+            (packed / f"{laz.name}.json").write_text(json.dumps(summary))
+        query("report", packed, "--output", self.folder / "report", "--no-page", check=0)
+        again = json.loads((self.folder / "report/report.json").read_text())
+        for key in ("all", "lines", "by_depth", "wanted", "crosscheck"):
+            self.assertEqual(again[key], self.json[key], key)
+
+
+class CrossCheck(Report):
+    """Errors with the predicted uncertainty, or more, are added to the points of a survey without errors."""
+
+    def with_errors(self, factor):
+        folder = self.folder / f"errors_{factor}"
+        shutil.copytree(self.annotated, folder)
+        random = np.random.default_rng(8)
+        for path in sorted(folder.glob("*.las")):
+            las = LasFile(path)
+            where = las.extra_dimensions()
+            of = {name: las.field(where[name][0], "<f4").astype(float) for name in ("tvu_pulse", "tvu_line")}
+            pulse, line = (np.maximum(of[name], 0) / 1.959964 for name in ("tvu_pulse", "tvu_line"))
+            count = len(las.records)
+            time = las.field(22, "<f8")
+            # What is common to a line for a second or so.
+            common = np.interp(time, np.arange(time.min(), time.max() + 2), random.standard_normal(
+                len(np.arange(time.min(), time.max() + 2))))
+            common *= 1 / np.sqrt(2 / 3)  # The variance between the knots is 2/3.
+            error = factor * (pulse * random.standard_normal(count) + line * common)
+            z = las.field(8, "<i4") + np.round(error / las.scale[2]).astype("<i4")
+            records = las.records.copy()
+            records[:, 8:12] = z.astype("<i4").view(np.uint8).reshape(-1, 4)
+            data = bytearray(las.bytes)
+            data[las.offset_to_points:las.end_of_points] = records.tobytes()
+            path.write_bytes(data)
+        return folder
+
+    def check(self, folder):
+        return json.loads(query("crosscheck", folder, "--patch", 10, "--json", check=0).stdout)
+
+    def test_finds_that_errors_are_as_predicted(self):
+        found = self.check(self.with_errors(1))
+        self.assertGreater(found["pairs"], 300)
+        self.assertAlmostEqual(found["chi_square"], 1, delta=0.2)
+        self.assertAlmostEqual(found["factor"]["value"], 1, delta=0.1)
+
+    def test_finds_that_errors_are_twice_as_large(self):
+        found = self.check(self.with_errors(2))
+        self.assertAlmostEqual(found["factor"]["value"], 2, delta=0.2)
+        self.assertGreater(found["factor"]["low"], 1.5)
+        text = query("crosscheck", self.with_errors(2.001), "--patch", 10, check=0).stdout
+        self.assertIn("reduced chi-square", text)
+
+    def test_needs_lines_that_overlap(self):
+        alone = self.folder / "alone"
+        alone.mkdir()
+        for suffix in (".las", ".las.json"):
+            shutil.copy(self.annotated / f"flight_1{suffix}", alone)
+        self.assert_fails(query("crosscheck", alone), 1, "no lines overlap", "point source ID")
+
+
+class BadInput(Report):
+    def fails(self, folder, *parts, flags=(), code=1):
+        output = self.folder / "nothing"
+        self.assert_fails(query("report", folder, "--output", output, "--no-page", *flags), code, *parts)
+        self.assertFalse(any(output.iterdir()) if output.exists() else False)
+
+    def test_is_one_message(self):
+        self.fails(self.flight, "has no total_thu", "--details")
+        empty = self.folder / "empty"
+        empty.mkdir()
+        self.fails(empty, "has no LAS or LAZ file")
+        self.fails(self.folder / "missing", "missing")
+        self.fails(self.annotated, "--cell", "from 0.01 to 10000 m", flags=("--cell", 1e9), code=2)
+        self.fails(self.annotated, "the grid is too large", "--cell", flags=("--cell", 0.01))
+        self.fails(self.annotated, "is no specification", flags=("--spec", "usg"))
+        self.fails(self.annotated, "is no class", flags=("--spec", "usgs", "--class", "QL9"))
+        self.fails(self.annotated, "--s44-order", flags=("--spec", "usgs", "--s44-order", "1a"), code=2)
+
+    def copy(self):
+        folder = self.folder / "copy"
+        shutil.copytree(self.annotated, folder)
+        return folder
+
+    def edit(self, change):
+        """A copy of the survey in which the second summary is changed."""
+        folder = self.copy()
+        path = folder / "flight_2.las.json"
+        summary = json.loads(path.read_text())
+        change(summary)
+        path.write_text(json.dumps(summary))
+        return folder
+
+    def test_of_a_missing_summary(self):
+        folder = self.copy()
+        (folder / "flight_3.las.json").unlink()
+        self.fails(folder, "flight_3.las.json", "missing")
+
+    def test_of_a_file_that_was_changed(self):
+        folder = self.copy()
+        with (folder / "flight_3.las").open("ab") as file:
+            file.write(b"more")
+        self.fails(folder, "flight_3.las", "changed later")
+
+    def test_of_another_table(self):
+        self.fails(self.edit(lambda summary: summary["table"].update(digest="0" * 64)), "flight_2.las", "table")
+
+    def test_of_another_coverage(self):
+        self.fails(self.edit(lambda summary: summary["answers"]["total"].update(coverage="2sigma")), "coverage",
+                   "2sigma", "p95")
+
+    def test_of_another_coordinate_system(self):
+        self.fails(self.edit(lambda summary: summary["parameters"].update(crs="EPSG:26918")), "coordinate system",
+                   "UTM zone 18N", "UTM zone 17N")
+
+    def test_of_geographic_coordinates(self):
+        self.fails(self.edit(lambda summary: summary["parameters"].update(crs="EPSG:4326")), "geographic", "UTM")
+
+    def test_of_summaries_that_are_no_summaries(self):
+        for text in ("", "[]", "{}", '{"program": "albtpu-query", "answers": 3}'):
+            folder = self.copy()
+            (folder / "flight_2.las.json").write_text(text)
+            self.fails(folder, "flight_2.las.json", "no summary")
+            shutil.rmtree(folder)
+
+    def test_of_no_point(self):
+        folder = self.folder / "dry"
+        folder.mkdir()
+        annotate(self.flight, folder, self.one_table)
+        for path in folder.glob("*.las.json"):
+            summary = json.loads(path.read_text())
+            summary["parameters"]["classes"] = [99]
+            path.write_text(json.dumps(summary))
+        self.fails(folder, "no file has a point of the bathymetric classes")
+
+
+if __name__ == "__main__":
+    programs.main()
