@@ -20,6 +20,7 @@ using Run = std::function<absl::Status()>;
 void AddPulseCommand(CLI::App& program, Run& run);
 void AddCsvCommand(CLI::App& program, Run& run);
 void AddLasCommand(CLI::App& program, Run& run);
+void AddPlanCommand(CLI::App& program, Run& run);
 void AddTrajectoryCommand(CLI::App& program, Run& run);
 void AddSeaCommand(CLI::App& program, Run& run);
 void AddSensorsCommand(CLI::App& program, Run& run);

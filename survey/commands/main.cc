@@ -35,6 +35,7 @@ int Main(int argc, char** argv) {
   AddPulseCommand(program, run);
   AddCsvCommand(program, run);
   AddLasCommand(program, run);
+  AddPlanCommand(program, run);
   AddReportCommand(program, run);
   AddCrossCheckCommand(program, run);
   AddTrajectoryCommand(program, run);

@@ -8,8 +8,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "survey/answers/answer_cells.h"
+#include "survey/answers/interpolation_error.h"
 #include "survey/answers/uncertainty_summary.h"
-#include "survey/commands/interpolation_error.h"
 #include "survey/number_text.h"
 #include "tables/s44.h"
 

@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "command_line/checks.h"
 #include "sea/sea_time.h"
-#include "survey/commands/interpolation_error.h"
+#include "survey/answers/interpolation_error.h"
 #include "survey/commands/options.h"
 #include "survey/description/survey_description.h"
 #include "survey/exit_status.h"

@@ -55,6 +55,8 @@ class Writing {
         std::min<std::size_t>(columns, std::size_t{4} * SurveyGrid::kTile)};
     if (ok()) Check(nc_def_var_chunking(file_, variable, NC_CHUNKED, chunk.data()));
     if (ok()) Check(nc_def_var_deflate(file_, variable, 1, 1, kCompression));
+    // Chunks are written whole, so that the library, which keeps 16 MB of each variable, need keep none.
+    if (ok()) Check(nc_set_var_chunk_cache(file_, variable, chunk[0] * chunk[1] * sizeof(float), 1, 1));
   }
   void Text(int variable, const char* name, std::string_view text) {
     if (ok()) Check(nc_put_att_text(file_, variable, name, text.size(), text.data()));
@@ -203,7 +205,11 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
   file.Text(NC_GLOBAL, "source", absl::StrCat("albtpu-query ", std::string(Version())));
   file.Text(NC_GLOBAL, "coverage", CoverageName(facts.coverage));
   const int y = file.Dimension("y", rows), x = file.Dimension("x", columns);
-  const char* const unit = std::abs(facts.metres_per_unit - 1) < 1e-9 ? "m" : "US_survey_foot";
+  const double metres = facts.metres_per_unit;
+  const char* const unit = std::abs(metres - 1) < 1e-9 ? "m"
+                           : std::abs(metres - 0.3048) < 1e-8
+                               ? "foot"  // The US survey foot is longer by 6e-7 m.
+                               : "US_survey_foot";
   const auto axis = [&](const char* name, int dimension) {
     const int variable = file.Variable(name, NC_DOUBLE, {dimension});
     file.Text(variable, "standard_name", absl::StrCat("projection_", name, "_coordinate"));
@@ -243,6 +249,9 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
                           "exclusive special order_1a order_1b order_2 none");
   const int dominant = codes("dominant_share", "largest share of the vertical variance",
                              static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum");
+  const int gap =
+      codes("gap", "why points have no uncertainty, the gravest reason", 4,
+            "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
   file.EndDefinitions();
   file.Put(ys, Centres(grid.first_row(), rows, grid.cell(), true));
   file.Put(xs, Centres(grid.first_column(), columns, grid.cell(), false));
@@ -263,8 +272,11 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
       file.Put(variable, row, columns, values);
     };
     for (std::size_t k = 0; k < kLayers.size(); ++k) put(layers[k], kFill, kLayers[k].value);
-    put(order, kNoCode, [](const GridCell& cell) { return cell.worst_order; });
+    put(order, kNoCode, [](const GridCell& cell) { return static_cast<std::uint8_t>(cell.worst_order); });
     put(dominant, kNoCode, DominantShare);
+    std::vector<std::uint8_t> gaps(cells.size());
+    std::ranges::transform(cells, gaps.begin(), [](const GridCell& cell) { return cell.gap; });
+    file.Put(gap, row, columns, gaps);
     std::vector<int> all(cells.size()), no_number(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       all[i] = static_cast<int>(cells[i].points);

@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 #include "survey/report/specification.h"
 #include "survey/totals/total_summary.h"
 

@@ -26,6 +26,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kJson = "report.json";
 constexpr const char* kGrid = "grid.nc";
 constexpr const char* kPage = "report.html";
+constexpr const char* kPlanJson = "plan.json";
+constexpr const char* kPlanPage = "plan.html";
 
 // A hidden folder inside another one, removed by the destructor.
 class HiddenFolder {
@@ -46,6 +48,15 @@ class HiddenFolder {
  private:
   fs::path path_;
 };
+
+absl::Status NotWritable(const fs::path& folder) {
+  return absl::PermissionDeniedError(absl::StrCat(
+      folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
+}
+
+std::string TextOf(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 absl::Status WriteText(const fs::path& path, const std::string& text) {
   absl::StatusOr<OutputFile> file = OutputFile::Create(path, Existing::kReplace);
@@ -99,17 +110,13 @@ bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& file
 
 absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& folder) {
   const HiddenFolder hidden(folder);
-  if (hidden.path().empty()) {
-    return absl::PermissionDeniedError(absl::StrCat(
-        folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
-  }
+  if (hidden.path().empty()) return NotWritable(folder);
   {
     const SurveyGrid grid = std::move(report.grid);
     if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok())
       return status;
   }
-  const std::string text = report.json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  absl::Status status = WriteText(hidden.path() / kJson, text);
+  absl::Status status = WriteText(hidden.path() / kJson, TextOf(report.json));
   if (status.ok() && with_page) status = DrawPage(hidden.path());
   if (status.ok()) status = Move(hidden.path() / kGrid, folder / kGrid);
   if (status.ok()) status = Move(hidden.path() / kJson, folder / kJson);
@@ -117,6 +124,18 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
   // The page of an earlier report would not be that of the new numbers.
   std::error_code ignored;
   if (status.ok() && !with_page) fs::remove(folder / kPage, ignored);
+  return status;
+}
+
+absl::Status WritePlan(const Json& plan, bool with_page, const fs::path& folder) {
+  const HiddenFolder hidden(folder);
+  if (hidden.path().empty()) return NotWritable(folder);
+  absl::Status status = WriteText(hidden.path() / kPlanJson, TextOf(plan));
+  if (status.ok() && with_page) status = DrawPage(hidden.path());
+  if (status.ok()) status = Move(hidden.path() / kPlanJson, folder / kPlanJson);
+  if (status.ok() && with_page) status = Move(hidden.path() / kPlanPage, folder / kPlanPage);
+  std::error_code ignored;
+  if (status.ok() && !with_page) fs::remove(folder / kPlanPage, ignored);
   return status;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 #include "survey/report/survey_report.h"
 #include "tables/file/existing.h"
 
@@ -21,5 +21,9 @@ bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedL
 // Writes a report in a hidden folder and gives its files their names when all are complete, the page last. The grid is
 // freed before the page is drawn.
 absl::Status WriteReport(SurveyReport report, bool with_page, const std::filesystem::path& folder);
+
+// The same for plan.json and plan.html of a planned survey.
+absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page,
+                       const std::filesystem::path& folder);
 
 }  // namespace albtpu::client

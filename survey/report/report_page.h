@@ -1,4 +1,4 @@
-// The page of a report, which the Python package draws: python3 -m albtpu.report FOLDER.
+// The page of a report or a plan, which the Python package draws: python3 -m albtpu.report FOLDER.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace albtpu::client {
 // FailedPrecondition where Python or one of the packages that draw the page is missing, with what to install.
 absl::Status CheckPageCanBeDrawn();
 
-// Makes report.html in `folder` from report.json and grid.nc in it.
+// Makes report.html in `folder` from report.json and grid.nc in it, or plan.html from plan.json.
 absl::Status DrawPage(const std::filesystem::path& folder);
 
 }  // namespace albtpu::client

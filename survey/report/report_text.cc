@@ -33,10 +33,13 @@ std::string ReportText(const nlohmann::ordered_json& report) {
   absl::StrAppendFormat(
       &text,
       "  %d pairs of points of overlapping lines: reduced chi-square %.2f, sigma would have to be "
-      "%.2f times as large (%.2f to %.2f)\n",
-      check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>(), factor["value"].get<double>(),
-      factor["low"].get<double>(), factor["high"].get<double>());
-  return text;
+      "%.2f times as large",
+      check["pairs"].get<std::uint64_t>(), check["chi_square"].get<double>(), factor["value"].get<double>());
+  if (factor["low"].is_number()) {
+    absl::StrAppendFormat(&text, " (%.2f to %.2f)", factor["low"].get<double>(),
+                          factor["high"].get<double>());
+  }
+  return text + "\n";
 }
 
 }  // namespace albtpu::client

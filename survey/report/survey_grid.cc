@@ -52,8 +52,11 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   const auto within = [](std::int64_t index) {
     return static_cast<std::size_t>(index - TileOf(index) * kTile);
   };
-  GridCell& cell = (*tile)[within(row) * kTile + within(column)];
+  const std::size_t blocks = tile->blocks();
+  GridCell& cell = tile->At(tile->PlaceOf(within(row) * kTile + within(column)));
+  bytes_ += (tile->blocks() - blocks) * sizeof(Tile::Block);
   ++cell.points;
+  cell.gap = std::max<std::uint32_t>(cell.gap, static_cast<std::uint32_t>(point.gap));
   if (!point.has_number) return;
   ++cell.with_number;
   // Means that run: a sum of very many floats would lose the last ones.
@@ -66,7 +69,16 @@ void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
   const std::array<double, 4> shares = VerticalShares(point, coverage_);
   for (std::size_t i = 0; i < shares.size(); ++i) take(shares[i], cell.shares[i]);
   constexpr std::uint8_t kNone = kS44Orders.size() + 1;
-  cell.worst_order = std::max(cell.worst_order, best_order == 0 ? kNone : best_order);
+  cell.worst_order = std::max<std::uint32_t>(cell.worst_order, best_order == 0 ? kNone : best_order);
+}
+
+std::size_t SurveyGrid::Tile::PlaceOf(std::size_t cell) {
+  std::uint16_t& place = places_[cell];
+  if (place == 0) {
+    if (used_ % kBlock == 0) blocks_.push_back(std::make_unique<Block>());
+    place = ++used_;
+  }
+  return place - 1U;
 }
 
 SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
@@ -74,7 +86,8 @@ SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
   if (last_ != nullptr && key == last_key_) return last_;
   std::unique_ptr<Tile>& tile = tiles_[key];
   if (tile == nullptr) {
-    if (tiles_.size() * sizeof(Tile) > kMostBytes) {
+    bytes_ += sizeof(Tile);
+    if (bytes_ > kMostBytes) {
       status_ = TooLarge(absl::StrCat("its cells with points need more than ", kMostBytes >> 20, " MiB"));
       tiles_.erase(key);
       return nullptr;
@@ -99,12 +112,10 @@ void SurveyGrid::Strip(std::size_t strip, std::vector<GridCell>& cells) const {
   for (std::int64_t column = least_column_; column <= greatest_column_; ++column) {
     const auto found = tiles_.find(KeyOf(column, row));
     if (found == tiles_.end()) continue;
-    for (std::size_t i = 0; i < kTile; ++i) {
-      std::copy_n(
-          found->second->begin() + static_cast<std::ptrdiff_t>(i * kTile), kTile,
-          cells.begin() + static_cast<std::ptrdiff_t>(
-                              i * columns() + static_cast<std::size_t>(column - least_column_) * kTile));
-    }
+    const std::size_t west = static_cast<std::size_t>(column - least_column_) * kTile;
+    for (std::size_t i = 0; i < Tile::kCells; ++i)
+      if (const GridCell* cell = found->second->Find(i); cell != nullptr)
+        cells[i / kTile * columns() + west + i % kTile] = *cell;
   }
 }
 

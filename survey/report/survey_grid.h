@@ -10,24 +10,27 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 #include "survey/report/point_tally.h"
 
 namespace albtpu::client {
 
-// The points of a cell, and means over those with a number.
+// The points of a cell, and means over those with a number. 36 bytes: a survey has tens of millions of cells.
 struct GridCell {
-  std::uint32_t points = 0, with_number = 0;
+  std::uint32_t gap : 3 = 0;  // The gravest Gap of its points.
+  std::uint32_t points : 29 = 0;
+  // The least strict best order of a point: 1 to 5 (kS44Orders), 6: a point meets none; 0 without a number.
+  std::uint32_t worst_order : 3 = 0;
+  std::uint32_t with_number : 29 = 0;
   float depth = 0, thu = 0, tvu = 0;                          // m
   std::array<float, kVerticalShareNames.size()> shares = {};  // m^2, of the vertical variance.
-  std::uint8_t worst_order =
-      0;  // The least strict best order of a point: 1 to 5 (kS44Orders), 6: a point meets none.
 };
+static_assert(sizeof(GridCell) == 36);
 
 class SurveyGrid {
  public:
   static constexpr int kTile = 64;                      // Cells along a side of a tile.
-  static constexpr std::size_t kMostBytes = 300 << 20;  // Of tiles.
+  static constexpr std::size_t kMostBytes = 400 << 20;  // Of cells with points.
   static constexpr double kMostCells = 2e8;             // Of the rectangle around all points.
 
   // `cell` is the side of a cell in the units of the coordinates, above 0.
@@ -57,7 +60,24 @@ class SurveyGrid {
   void Strip(std::size_t strip, std::vector<GridCell>& cells) const;
 
  private:
-  using Tile = std::array<GridCell, static_cast<std::size_t>(kTile) * kTile>;
+  // kTile by kTile cells, of which those without points take two bytes: lines leave gaps between their points.
+  class Tile {
+   public:
+    static constexpr std::size_t kCells = static_cast<std::size_t>(kTile) * kTile, kBlock = 64;
+    using Block = std::array<GridCell, kBlock>;
+
+    const GridCell* Find(std::size_t cell) const {  // Null: it has no points.
+      return places_[cell] == 0 ? nullptr : &At(places_[cell] - 1U);
+    }
+    GridCell& At(std::size_t place) const { return (*blocks_[place / kBlock])[place % kBlock]; }
+    std::size_t PlaceOf(std::size_t cell);  // Makes one where there is none.
+    std::size_t blocks() const { return blocks_.size(); }
+
+   private:
+    std::array<std::uint16_t, kCells> places_ = {};  // Plus 1, in the order of the first points.
+    std::uint16_t used_ = 0;
+    std::vector<std::unique_ptr<Block>> blocks_;
+  };
 
   Tile* TileAt(std::int64_t column, std::int64_t row);
 
@@ -67,6 +87,7 @@ class SurveyGrid {
   std::int64_t least_column_ = 0, greatest_column_ = 0, least_row_ = 0, greatest_row_ = 0;  // Of tiles.
   std::uint64_t last_key_ = 0;
   Tile* last_ = nullptr;
+  std::size_t bytes_ = 0;  // Of tiles and their blocks.
   absl::Status status_;
 };
 

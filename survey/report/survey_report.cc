@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "survey/answers/batch.h"
-#include "survey/report/overlap_check.h"
+#include "survey/crosscheck/overlap_check.h"
 #include "tables/s44.h"
 #include "tables/version.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTvuStep = 0.01, kThuStep = 0.05;  // m, of the histograms.
-constexpr std::size_t kSteps = 200;                 // The last has all that is greater.
+constexpr double kTvuStep = 0.002, kThuStep = 0.01;  // m, of the histograms.
+constexpr std::size_t kSteps = 1000;                 // The last has all that is greater.
 
 const std::vector<int>& BandEnds() {
   static const std::vector<int> ends = {1, 2, 5, 10, 15, 20, 30, 50};

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
+#include "survey/crosscheck/overlap_check.h"
 #include "survey/report/grid_file.h"
-#include "survey/report/overlap_check.h"
 #include "survey/report/point_tally.h"
 #include "survey/report/specification.h"
 #include "survey/report/survey_grid.h"

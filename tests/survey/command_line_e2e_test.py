@@ -119,8 +119,8 @@ class CommandLineTest(programs.Test):
                 self.assert_fails(query(*command, *flags), 2, flags[0])
 
     def test_misspelt_words_get_a_suggestion(self):
-        for arguments, *expected in ((["foo"], "'foo' is not a command",
-                                      "pulse, csv, las, trajectory, sea, sensors, tables, health"),
+        for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, plan, report, crosscheck, "
+                                      "trajectory, sea, sensors, tables, health"),
                                      (["plus"], "'plus' is not a command", "did you mean pulse?"),
                                      (["pulse", "--wind-sped", 5], "did you mean --wind-speed?"),
                                      (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),

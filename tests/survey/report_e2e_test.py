@@ -1,7 +1,6 @@
 """albtpu-query report, from outside: its numbers, the grid in other programs, the page in a browser."""
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -12,6 +11,7 @@ import numpy as np
 import xarray
 
 import programs
+from page_probe import probe
 from programs import query
 from reported_survey import Report, setUpModule  # noqa: F401
 
@@ -71,6 +71,10 @@ class Grid(Report):
                 np.testing.assert_array_equal(np.ma.getmaskarray(values), with_number == 0)
                 np.testing.assert_allclose(values.compressed(), (sums / np.maximum(with_number, 1))[with_number > 0],
                                            rtol=1e-5)
+            # Why: these points have a beam and no surface, or lie above it.
+            gap = np.ma.filled(grid["gap"][:], 0)
+            np.testing.assert_array_equal(gap > 0, counts > with_number)
+            self.assertEqual(grid["gap"].flag_meanings.split()[2], "no_water_surface")
             shares = sum(grid[f"share_{name}"][:] for name in ("air", "sea", "water", "datum"))
             np.testing.assert_allclose(shares.compressed(), 1, atol=1e-5)
 
@@ -103,37 +107,15 @@ class Grid(Report):
             self.assertEqual(grid["points"][:].sum(), len(self.points["x"]))
 
 
-# What a browser says of a page: its width, that of its content, and the pictures that it could not show.
-PROBE = """<script>addEventListener('load', () => { document.body.dataset.probe = JSON.stringify({
-  width: innerWidth, content: document.documentElement.scrollWidth,
-  broken: [...document.images].filter(image => !(image.complete && image.naturalWidth)).length,
-  images: document.images.length, below: document.querySelector('.verdict').getBoundingClientRect().bottom,
-  first: (table => { table.querySelector('th').click(); return table.tBodies[0].rows[0].cells[0].textContent; })(
-    document.querySelector('.sortable')) }); });</script>"""
-
-
 class Page(Report):
-    def browse(self, width, height):
-        page = self.folder / "probe.html"
-        page.write_text((self.made / "report.html").read_text().replace("</body>", PROBE + "</body>"))
-        result = subprocess.run(
-            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-quic",
-             "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars",
-             f"--user-data-dir={self.folder / 'browser'}", f"--window-size={width},{height}",
-             f"--screenshot={self.folder / f'{width}.png'}", "--dump-dom", f"file://{page}"],
-            check=True, capture_output=True, text=True, timeout=120, env={**os.environ, "HOME": str(self.folder)})
-        found = re.search(r'data-probe="([^"]*)"', result.stdout)
-        self.assertIsNotNone(found, result.stderr)
-        return json.loads(found.group(1).replace("&quot;", '"'))
-
     @unittest.skipIf(shutil.which("chromium") is None, "no Chromium")
     def test_fits_a_telephone_and_a_desk(self):
         for width, height in ((390, 844), (1280, 900)):
             # A headless window may be wider than a telephone: the content is held against the width that it got.
-            seen = self.browse(width, height)
+            seen = probe(self.made / "report.html", self.folder, width, height)
             self.assertLessEqual(seen["content"], max(seen["width"], width), seen)
             self.assertEqual(seen["broken"], 0)
-            self.assertGreaterEqual(seen["images"], 11)
+            self.assertGreaterEqual(seen["images"], 13)
             self.assertEqual(seen["first"], "1")
             if width == 1280:
                 self.assertLess(seen["below"], height)  # The verdict is on the first screen.
@@ -151,6 +133,23 @@ class Page(Report):
         self.assertIn("Overlapping lines", page)
         self.assertIn("boresight", page)
         self.assertIn("PASSES" if wanted["passes"] else "DOES NOT PASS", self.said)
+
+    def test_has_every_class_by_depth_line_and_file(self):
+        page = (self.made / "report.html").read_text()
+        classes = sum(len(each["classes"]) for each in self.json["specifications"])
+        for what, rows in (("depth [m]", self.json["depth_bands"]), ("line", self.json["lines"]),
+                           ("file", self.json["files"])):
+            tables = [each for each in re.findall(r"<table.*?</table>", page, re.S)
+                      if each.count("<th>") == classes + 1 and f"<th>{what}</th>" in each]
+            self.assertEqual(len(tables), 1, what)
+            cells = re.findall(r"<td>(.*?)</td>", tables[0], re.S)
+            self.assertEqual(len(cells), (classes + 1) * len(rows), what)
+            for row, of in enumerate(rows):
+                for index, met in enumerate(of["meeting"]):
+                    cell = cells[row * (classes + 1) + 1 + index].replace("< ", "").replace("> ", "")
+                    cell = re.sub("<.*?>", "", cell)
+                    points = of["with_number"] if what.startswith("depth") else of["points"]
+                    self.assertAlmostEqual(float(cell.split()[0]), 100 * met / points, delta=1.01)
 
     def test_holds_the_survey_against_another_specification(self):
         own = self.folder / "own.toml"

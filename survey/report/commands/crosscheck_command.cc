@@ -8,8 +8,8 @@
 #include "command_line/checks.h"
 #include "command_line/help.h"
 #include "command_line/standard_output.h"
+#include "survey/crosscheck/overlap_check.h"
 #include "survey/report/commands/report_commands.h"
-#include "survey/report/overlap_check.h"
 
 namespace albtpu::client {
 namespace {
@@ -43,6 +43,8 @@ void AddCrossCheckCommand(CLI::App& program, std::function<absl::Status()>& run)
       ->check(NumberIn(0.5, 100, "m"))
       ->capture_default_str();
   command->add_flag("--json", options->json, "JSON, with every band and every two lines");
+  Group(*command, "How points are gathered", {"--patch"});
+  Group(*command, "Output", {"--json"});
   EndHelp(*command, "Lines are told apart by the point source ID.", "annotated",
           "annotated --patch 3 --json");
   command->callback([options, &run] { run = [options] { return RunCrossCheck(*options); }; });

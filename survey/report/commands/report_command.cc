@@ -127,6 +127,8 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   command->add_flag_callback(
       "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier report");
   Group(*command, "What was asked for", {"--s44-order", "--spec", "--class", "--pass"});
+  Group(*command, "How points are gathered", {"--cell", "--patch"});
+  Group(*command, "Output", {"--output", "--no-page", "--resume", "--overwrite"});
   EndHelp(*command,
           "Points without a number count as points that do not meet what was asked for.\n"
           "Exit code: 0 if the report was made, whatever it says.",

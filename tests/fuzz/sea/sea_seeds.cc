@@ -106,6 +106,17 @@ Seeds SensorFile() {
           "title = 'a'\n[time]\nvalue = 1e-5\nunit = 's'\n"};
 }
 
+Seeds Specification() {
+  const std::string head = "title = \"Harbour\"\nsource = \"order 12\"\n[[class]]\nname = \"berths\"\n";
+  return {head +
+              "coverage = \"p95\"\nhorizontal = {constant = 5, of_depth = 0.05, combined = \"sum\"}\n"
+              "vertical = {constant = 0.25, of_depth = 0.0075, combined = \"rss\"}\n",
+          head +
+              "coverage = \"1sigma\"\nvertical = {constant = 0.1}\n[[class]]\nname = 'b'\n"
+              "coverage = \"2sigma\"\n[class.horizontal]\nconstant = 1\n",
+          head + "coverage = \"95\"\n"};
+}
+
 }  // namespace
 
 std::map<std::string, Seeds> SeaSeeds() {
@@ -118,6 +129,7 @@ std::map<std::string, Seeds> SeaSeeds() {
   seeds["sea_text"] = std::move(texts);
   seeds["survey_description"] = SurveyDescription();
   seeds["sensor_file"] = SensorFile();
+  seeds["specification"] = Specification();
   return seeds;
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/client/local_source.h"
-#include "survey/commands/interpolation_error.h"
+#include "survey/answers/interpolation_error.h"
 #include "survey/number_text.h"
 #include "tests/survey/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"

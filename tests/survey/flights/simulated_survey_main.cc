@@ -34,7 +34,8 @@ struct Options {
 // The degrees of the command line, which become the radians of the options.
 struct Degrees {
   std::vector<double> origin = {27.0, -80.1}, boresight = {0.1, -0.05, 0.2}, lever_arm = {0.3, -0.2, 0.5};
-  double course = 35, crab_angle = 5, wander = 20;
+  std::vector<double> wave_slopes = {0, 0};
+  double course = 35, crab_angle = 5, wander = 20, scan_noise = 0, wind_from = 0;
 };
 
 void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
@@ -68,6 +69,15 @@ void AddFlags(CLI::App& app, Options& options, Degrees& degrees) {
   app.add_option("--water-level", survey.water_level, "Above the ellipsoid [m]");
   app.add_option("--wave-height", survey.wave_height, "Significant wave height [m]");
   app.add_option("--range-noise", survey.range_noise, "One sigma [m]");
+  app.add_flag("--trajectory-errors", survey.errors.trajectory,
+               "Deliver points with the errors that the trajectory's files state");
+  app.add_option("--scan-noise", degrees.scan_noise,
+                 "Deliver points with errors of the scan, one sigma [degree]");
+  app.add_option("--wave-slopes", degrees.wave_slopes,
+                 "ALONG,ACROSS the wind, one sigma, drawn anew for each pulse")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_option("--wind-from", degrees.wind_from, "Of the slopes [degree]");
   app.add_option("--column-share", survey.column_share,
                  "Share of the pulses with a return from the water column");
   app.add_option("--surface-share", survey.surface_share,
@@ -103,6 +113,10 @@ void Convert(const Degrees& degrees, Options& options) {
   survey.longitude = degrees.origin[1] * kDegree;
   survey.course = degrees.course * kDegree;
   survey.crab_angle = degrees.crab_angle * kDegree;
+  survey.errors.scan = degrees.scan_noise * kDegree;
+  survey.errors.slope_along = degrees.wave_slopes[0];
+  survey.errors.slope_across = degrees.wave_slopes[1];
+  survey.errors.wind_from = degrees.wind_from * kDegree;
   survey.lever_arm = Eigen::Vector3d(degrees.lever_arm.data());
   survey.boresight = Eigen::Vector3d(degrees.boresight.data()) * kDegree;
   options.trajectory.wander = degrees.wander * kDegree;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "tests/survey/flights/beam_path.h"
 
@@ -70,7 +71,13 @@ Eigen::Matrix3d Boresight(const Eigen::Vector3d& angles) {
 class PulseSimulator {
  public:
   PulseSimulator(const Scene& scene, SimulatedSurvey& survey, RandomNumbers& random)
-      : scene_(scene), survey_(survey), random_(random), scanner_axes_(Boresight(survey.options.boresight)) {}
+      : scene_(scene), survey_(survey), random_(random), scanner_axes_(Boresight(survey.options.boresight)) {
+    const SurveyOptions& options = survey.options;
+    if (options.errors.any()) {
+      processing_.emplace(options.errors, options.lever_arm, options.range_noise, survey.lines(),
+                          options.seed);
+    }
+  }
 
   void Fire(int line, double since_start) {
     const SurveyOptions& options = survey_.options;
@@ -81,7 +88,11 @@ class PulseSimulator {
         scanner_axes_ * BeamDirection(options.scanner, options.scan_rate * since_start);
     const Eigen::Vector3d beam = body * in_body;
 
-    const BeamPath path = PathToWater(scene_, sensor, beam, since_start);
+    BeamPath path = PathToWater(scene_, sensor, beam, since_start);
+    if (processing_.has_value()) {
+      path.water_direction = processing_->Refracted(path, beam);
+      processing_->Receive(line, since_start, aircraft, in_body, path);
+    }
     SimulatedPulse pulse{.time = survey_.LineStart(line) + since_start,
                          .line = line + 1,
                          .sensor = GeodeticFrom(kWgs84, sensor),
@@ -96,7 +107,7 @@ class PulseSimulator {
     } else if (const double to_land = DistanceToGround(scene_, sensor, beam);
                DepthOf(sensor + to_land * beam) < -kLowestLand) {
       pulse.slant_range = to_land;
-      Add(ReturnKind::kLand, sensor + to_land * beam, beam, 0);
+      Add(ReturnKind::kLand, sensor + to_land * beam, beam, 0, 0);
     }
     if (!found_.empty()) Keep(pulse);
   }
@@ -106,22 +117,31 @@ class PulseSimulator {
     return survey_.options.water_level - GeodeticFrom(kWgs84, point).height;
   }
 
-  void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth) {
+  // From `point`, which lies `way` m behind the water.
+  void Add(ReturnKind kind, const Eigen::Vector3d& point, const Eigen::Vector3d& beam, double depth,
+           double way) {
+    if (processing_.has_value() && kind != ReturnKind::kLand) {
+      found_.push_back(
+          {.kind = kind, .position = GeodeticFrom(kWgs84, processing_->Reported(way)), .depth = depth});
+      return;
+    }
     const double noise = survey_.options.range_noise * random_.Normal();
     found_.push_back({.kind = kind, .position = GeodeticFrom(kWgs84, point + noise * beam), .depth = depth});
   }
 
   void UnderWater(const BeamPath& path, const Eigen::Vector3d& beam, double to_bottom, double depth) {
     const SurveyOptions& options = survey_.options;
-    if (random_.Uniform(0, 1) < options.surface_share) Add(ReturnKind::kSurface, path.water_point, beam, 0);
+    if (random_.Uniform(0, 1) < options.surface_share)
+      Add(ReturnKind::kSurface, path.water_point, beam, 0, 0);
     const double highest = std::min(kMostAboveBottom, depth - kLeastBelowSurface);
     const double above = random_.Uniform(kLeastAboveBottom, std::max(highest, kLeastAboveBottom));
     if (random_.Uniform(0, 1) < options.column_share && highest > kLeastAboveBottom) {
-      const Eigen::Vector3d point = path.water_point + to_bottom * (1 - above / depth) * path.water_direction;
-      Add(ReturnKind::kColumn, point, path.water_direction, DepthOf(point));
+      const double way = to_bottom * (1 - above / depth);
+      const Eigen::Vector3d point = path.water_point + way * path.water_direction;
+      Add(ReturnKind::kColumn, point, path.water_direction, DepthOf(point), way);
     }
-    Add(ReturnKind::kBottom, path.water_point + to_bottom * path.water_direction, path.water_direction,
-        depth);
+    Add(ReturnKind::kBottom, path.water_point + to_bottom * path.water_direction, path.water_direction, depth,
+        to_bottom);
   }
 
   void Keep(const SimulatedPulse& pulse) {
@@ -139,7 +159,8 @@ class PulseSimulator {
   SimulatedSurvey& survey_;
   RandomNumbers& random_;
   Eigen::Matrix3d scanner_axes_;
-  std::vector<SimulatedReturn> found_;  // Of the pulse that is being fired.
+  std::optional<ReportedPoints> processing_;  // With errors.
+  std::vector<SimulatedReturn> found_;        // Of the pulse that is being fired.
 };
 
 }  // namespace

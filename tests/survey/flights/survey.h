@@ -8,6 +8,7 @@
 
 #include "tests/survey/flights/aircraft.h"
 #include "tests/survey/flights/map_grid.h"
+#include "tests/survey/flights/reported_points.h"
 #include "tests/survey/flights/scanner.h"
 
 namespace albtpu::testing {
@@ -34,6 +35,7 @@ struct SurveyOptions {
   double range_noise = 0;             // m, one sigma, along the beam
   double column_share = 0.2;          // Of the pulses over water: with a second return under water.
   double surface_share = 0.3;         // With a return of the surface.
+  ReportingErrors errors;             // With any, range_noise is that of optical ranges.
 };
 
 enum class ReturnKind : std::uint8_t { kBottom, kSurface, kColumn, kLand };

@@ -9,8 +9,7 @@ namespace albtpu::testing {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kPositionSigma = 0.02, kHeightSigma = 0.04, kVelocitySigma = 0.005;  // m, m/s
-constexpr double kRollSigma = 0.0025 * kDegree, kHeadingSigma = 0.005 * kDegree;      // rad
+constexpr double kVelocitySigma = 0.005;  // m/s
 constexpr double kArcMinute = kDegree / 60;
 
 void Append(std::string& bytes, std::initializer_list<double> numbers) {

@@ -32,7 +32,7 @@ def read_overview(path: pathlib.Path, metres_per_unit: float) -> Overview:
         step = max(1, -(-max(last - first, bottom - top) // LARGEST_SIDE))
         height, width = -(-(bottom - top) // step), -(-(last - first) // step)
         layers = {name: np.full((height, width), np.nan)
-                  for name in (*MEANS, "order_met", "dominant_share", "without_number")}
+                  for name in (*MEANS, "order_met", "dominant_share", "gap", "without_number")}
         for row in range(height):
             rows_of = slice(top + row * step, min(top + (row + 1) * step, bottom))
             _read_row(grid, rows_of, slice(first, last), step, row, layers)
@@ -67,7 +67,8 @@ def _read_row(grid: Any, rows: slice, columns: slice, step: int, row: int, layer
     for name in MEANS:
         sums = (np.nan_to_num(blocks(name)) * weight).sum(axis=1)
         layers[name][row] = np.divide(sums, known, out=np.full(known.shape, np.nan), where=known > 0)
-    layers["order_met"][row] = _largest(blocks("order_met"))
+    for name in ("order_met", "gap"):
+        layers[name][row] = _largest(blocks(name))
     layers["dominant_share"][row] = _most_points(blocks("dominant_share"), weight)
     some = points.sum(axis=1) > 0
     layers["without_number"][row] = np.where(some, without.sum(axis=1) / np.maximum(points.sum(axis=1), 1), np.nan)

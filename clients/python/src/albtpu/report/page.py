@@ -20,6 +20,7 @@ body { font: 16px/1.45 system-ui, sans-serif; color: var(--ink); margin: 0 auto;
        max-width: 1240px; background: #fff; }
 h1 { font-size: 1.35rem; margin: 16px 0 8px; }
 h2 { font-size: 1.15rem; margin: 32px 0 8px; border-top: 1px solid var(--line); padding-top: 16px; }
+h3 { font-size: 1rem; margin: 20px 0 4px; }
 .verdict { border-left: 8px solid; padding: 10px 16px; background: #f6f6f6; }
 .verdict b { font-size: 1.5rem; }
 .pass { border-color: var(--good); } .pass b { color: var(--good); }
@@ -35,7 +36,7 @@ th:first-child, td:first-child, .words td, .words th { text-align: left; }
 .words td { white-space: normal; overflow-wrap: anywhere; }
 .sortable th { cursor: pointer; } .sortable th:focus { outline: 2px solid #0072b2; }
 .soft, caption { color: var(--soft); font-size: 0.9rem; text-align: left; }
-.no { color: var(--bad); font-weight: 600; }
+.no { color: var(--bad); font-weight: 600; white-space: nowrap; overflow-wrap: normal; }
 @media print { body { max-width: none; } h2 { break-after: avoid; } img, tr { break-inside: avoid; }
                .wide { overflow: visible; } }
 """
@@ -51,7 +52,8 @@ document.querySelectorAll('.sortable').forEach(table => {
       table.querySelectorAll('th').forEach(other => other.removeAttribute('aria-sort'));
       head.setAttribute('aria-sort', up ? 'ascending' : 'descending');
       const key = row => { const text = row.cells[column].dataset.value ?? row.cells[column].textContent;
-                           const number = parseFloat(text); return isNaN(number) ? text : number; };
+                           const number = parseFloat(text.replace(/^[<>] /, ''));
+                           return isNaN(number) ? text : number; };
       [...body.rows].sort((a, b) => (key(a) > key(b) ? 1 : key(a) < key(b) ? -1 : 0) * (up ? 1 : -1))
         .forEach(row => body.append(row));
     };
@@ -90,7 +92,8 @@ def _percent(part: float, digits: int = 1) -> str:
     return f"{shown} %"
 
 
-def _table(head: list[str], rows: list[list[str]], kind: str = "") -> str:
+def table(head: list[str], rows: list[list[str]], kind: str = "") -> str:
+    """A table in HTML, of cells that are HTML, which scrolls sideways by itself where it is too wide."""
     cells = "".join(f"<th>{each}</th>" for each in head)
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
     return (f'<div class="wide"><table class="{kind}"><thead><tr>{cells}</tr></thead>'
@@ -124,7 +127,7 @@ def _summary(report: Report) -> str:
     if "bias_vertical" in of_all:
         rows.append(["mean bias that is in the points", f"{of_all['bias_vertical']:+.3f} m (positive: too shallow);"
                      " it stands beside the uncertainty, and counts against limits"])
-    return "<h2>What was surveyed</h2>" + _table(["", ""], rows, "words")
+    return "<h2>What was surveyed</h2>" + table(["", ""], rows, "words")
 
 
 def _maps(report: Report, overview: Any) -> str:
@@ -133,7 +136,7 @@ def _maps(report: Report, overview: Any) -> str:
                pictures.map_of_lengths(overview, "thu", "THU, mean of each cell"),
                pictures.map_of_lengths(overview, "depth", "depth"),
                pictures.map_of_codes(overview, "dominant_share", "largest share of the vertical variance"),
-               pictures.map_of_gaps(overview)]
+               *pictures.maps_of_gaps(overview)]
     return (f"<h2>Maps</h2><p class='soft'>Grid north is up. Cells of {report['cell']:g} m are in grid.nc; a picture"
             f" may join several.</p><div class='pictures'>{''.join(figures)}</div>")
 
@@ -149,20 +152,19 @@ def _bands(report: Report) -> str:
     wanted = report["wanted"]["index"]
     rows = []
     for band in report["depth_bands"]:
-        to = f"–{band['to']}" if band["to"] is not None else " and more"
         met = band["meeting"][wanted] / band["with_number"]
-        rows.append([f"{band['from']}{to}", f"{band['with_number']:,}", f"{band['tvu']['median']:.3f}",
+        rows.append([_band_name(band), f"{band['with_number']:,}", f"{band['tvu']['median']:.3f}",
                      f"{band['tvu']['p95']:.3f}", f"{band['thu']['median']:.3f}", f"{band['thu']['p95']:.3f}",
                      *(f"{100 * band['shares_vertical'][share]:.0f} %" for share in pictures.SHARES),
                      _judged(met, report)])
     head = ["depth [m]", "points", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
             *pictures.SHARES, f"meet {_text(verdict.asked(report))}"]
     return ("<h2>By depth</h2><p class='soft'>Shares are of the vertical variance. Points without a number have no"
-            " depth and are not in this table.</p>" + _table(head, rows))
+            " depth and are not in this table.</p>" + table(head, rows))
 
 
-def _judged(fraction: float, report: Report) -> str:
-    text = _percent(fraction)
+def _judged(fraction: float, report: Report, digits: int = 1) -> str:
+    text = _percent(fraction, digits)
     return text if 100 * fraction >= report["wanted"]["pass_share"] else f"<span class='no'>{text}</span>"
 
 
@@ -175,8 +177,23 @@ def _specifications(report: Report) -> str:
     sources = "".join(f"<li>{_text(each['title'])}: {_text(each['source'])}</li>" for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
-            + _table(["specification", "class", "at", "THU limit", "TVU limit", "points that meet it"], rows)
-            + f"<ul class='soft'>{sources}</ul>")
+            + table(["specification", "class", "at", "THU limit", "TVU limit", "points that meet it"], rows)
+            + f"<ul class='soft'>{sources}</ul>"
+            + "<h3>By depth</h3><p class='soft'>% of the points with a number that meet each class.</p>"
+            + _class_matrix(report, "depth [m]", [(_band_name(band), band["meeting"], band["with_number"])
+                                                  for band in report["depth_bands"]], ""))
+
+
+def _band_name(band: dict[str, Any]) -> str:
+    return f"{band['from']}" + (f"–{band['to']}" if band["to"] is not None else " and more")
+
+
+def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable") -> str:
+    """A row each with its name, how many points meet each class, and of how many: in %."""
+    head = [what] + [f"{_text(each['title'])}<br>{_text(of['name'])}" for each in report["specifications"]
+                     for of in each["classes"]]
+    return table(head, [[_text(name)] + [_judged(met / points, report, 0) if points else "–" for met in meeting]
+                        for name, meeting, points in rows], kind)
 
 
 def _lines(report: Report) -> str:
@@ -193,7 +210,10 @@ def _lines(report: Report) -> str:
         rows.append(row)
     head = ["line", "points", "without number", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
             "largest share", f"meet {_text(verdict.asked(report))}"]
-    return ("<h2>Lines</h2><p class='soft'>A click on a head sorts.</p>" + _table(head, rows, "sortable"))
+    return ("<h2>Lines</h2><p class='soft'>A click on a head sorts.</p>" + table(head, rows, "sortable")
+            + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
+            + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
+                                             for each in report["lines"]]))
 
 
 def _crosscheck(report: Report) -> str:
@@ -204,23 +224,19 @@ def _crosscheck(report: Report) -> str:
     rows = [["pairs of neighbouring points", f"{check['pairs']:,}; {check['outliers']} outliers left out"],
             ["reduced chi-square", f"{check['chi_square']:.2f} (1: as predicted); without the mean difference of each"
              f" two lines {check['chi_square_within_lines']:.2f}"],
-            ["σ would have to be multiplied by", _estimate(check["factor"])],
-            ["that of the air side by", f"{_estimate(check['factor_air'])};"
+            ["σ would have to be multiplied by", verdict.estimate_text(check["factor"])],
+            ["that of the air side by", f"{verdict.estimate_text(check['factor_air'])};"
              f" it is {100 * check['air_in_variance']:.0f} % of the predicted variance"],
-            ["that of the sea surface by", _estimate(check["factor_sea"])],
+            ["that of the sea surface by", verdict.estimate_text(check["factor_sea"])],
             ["beyond 3 σ", f"{_percent(check['beyond_three_sigma'], 2)} (normal errors: 0.27 %)"]]
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
               f"{each['standard_error']:.3f}" if each["standard_error"] is not None else "–"]
              for each in check["lines"][:40]]
     return (title + "<p class='soft'>Heights of neighbouring points of different lines, without the slope of the"
             " bottom, against what is predicted of pulses and lines. What all lines share (datum, index, calibration)"
-            " cancels and is not tested.</p>" + _table(["", ""], rows, "words")
+            " cancels and is not tested.</p>" + table(["", ""], rows, "words")
             + f"<div class='pictures'>{pictures.chi_squares(check)}</div>"
-            + _table(["lines", "pairs", "mean difference [m]", "standard error [m]"], lines, "sortable"))
-
-
-def _estimate(estimate: dict[str, float]) -> str:
-    return f"{estimate['value']:.2f} (95 %: {estimate['low']:.2f} to {estimate['high']:.2f})"
+            + table(["lines", "pairs", "mean difference [m]", "standard error [m]"], lines, "sortable"))
 
 
 def _files(report: Report) -> str:
@@ -234,9 +250,11 @@ def _files(report: Report) -> str:
         rows.append([_text(each["name"]), f"{each['points']:,}", wind, _text(sea),
                      _text(each.get("water_attenuation") or "left out"), _text(outcomes) or "none",
                      _judged(met, report)])
-    return "<h2>Files, sea and water</h2>" + _table(
+    return "<h2>Files, sea and water</h2>" + table(
         ["file", "points", "wind", "sea", "attenuation of the water", "points without a number",
-         f"meet {_text(verdict.asked(report))}"], rows, "words")
+         f"meet {_text(verdict.asked(report))}"], rows, "words") + (
+        "<h3>Classes by file</h3><p class='soft'>% of the points that meet each class.</p>"
+        + _class_matrix(report, "file", [(each["name"], each["meeting"], each["points"]) for each in report["files"]]))
 
 
 def _numbers(report: Report) -> str:
@@ -244,4 +262,4 @@ def _numbers(report: Report) -> str:
              "<span class='no'>assumed</span>" if each.get("assumed") else "", _text(each.get("source", ""))]
             for each in sorted(report["numbers"], key=lambda each: not each.get("assumed"))]
     return ("<h2>Numbers and assumptions</h2><p class='soft'>What was assumed comes first.</p>"
-            + _table(["number", "value", "", "source"], rows, "words"))
+            + table(["number", "value", "", "source"], rows, "words"))

@@ -15,6 +15,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 from .limits import COVERAGES, SIGMAS, limit_at
 from .overview import Array, Overview
@@ -25,6 +26,9 @@ ORDERS = ("exclusive", "special", "1a", "1b", "2", "none")
 SHARES = ("air", "sea", "water", "datum")
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#777777"
 SHARE_COLOURS = (ORANGE, BLUE, GREEN, GREY)
+MOST_BARS = 50  # Of a histogram.
+GAPS = ("above water", "no answer", "no surface", "no trajectory")
+GAP_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
 ORDER_COLOURS = ("#00204d", "#31446b", "#666970", "#958f78", "#cbba69", RED)
 
 
@@ -45,14 +49,19 @@ def _map(overview: Overview, values: Array, title: str, **look: Any) -> tuple[Fi
     axes.set_title(title, fontsize=11)
     axes.set_xticks([])
     axes.set_yticks([])
+    # Scale and north stand below the map, which may be too flat to hold them.
     length = _round_length((east - west) / 4)
-    left, low = west + 0.04 * (east - west), south + 0.04 * (north - south)
-    axes.plot([left, left + length], [low, low], color="black", linewidth=3, solid_capstyle="butt")
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
-    axes.annotate(text, (left + length / 2, low), xytext=(0, 4), textcoords="offset points", ha="center", fontsize=8,
-                  bbox={"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 1})
-    axes.annotate("N", xy=(0.96, 0.97), xytext=(0.96, 0.86), xycoords="axes fraction", ha="center", fontsize=9,
-                  arrowprops={"arrowstyle": "-|>", "color": "black"})
+    points = figure.dpi_scale_trans
+    below = axes.get_xaxis_transform() + ScaledTranslation(0, -10 / 72, points)
+    corner = axes.transAxes + ScaledTranslation(-5 / 72, -2 / 72, points)
+    axes.plot([west, west + length], [0, 0], color="black", linewidth=3, solid_capstyle="butt", transform=below,
+              clip_on=False)
+    axes.annotate(text, (west + length, 0), xycoords=below, xytext=(5, 0), textcoords="offset points", va="center",
+                  fontsize=8, annotation_clip=False)
+    axes.annotate("N", xy=(1, 0), xycoords=corner, xytext=(0, -26), textcoords="offset points", ha="center", fontsize=9,
+                  arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0},
+                  annotation_clip=False)
     return figure, axes, shown
 
 
@@ -74,9 +83,12 @@ def map_of_lengths(overview: Overview, layer: str, title: str) -> str:
     return image(figure, f"map: {title}, {low:.2f} to {high:.2f} m")
 
 
+CODES = {"order_met": (ORDERS, ORDER_COLOURS), "dominant_share": (SHARES, SHARE_COLOURS), "gap": (GAPS, GAP_COLOURS)}
+
+
 def map_of_codes(overview: Overview, layer: str, title: str) -> str:
-    """A map of the order that is met, or of the share that dominates."""
-    names, colours = (ORDERS, ORDER_COLOURS) if layer == "order_met" else (SHARES, SHARE_COLOURS)
+    """A map of the order that is met, of the share that dominates, or of why points have no number."""
+    names, colours = CODES[layer]
     norm = BoundaryNorm(np.arange(0.5, len(names) + 1), len(names))
     figure, axes, shown = _map(overview, overview.layers[layer], title, cmap=ListedColormap(colours), norm=norm)
     bar = figure.colorbar(shown, ax=axes, shrink=0.8, ticks=range(1, len(names) + 1))
@@ -84,16 +96,19 @@ def map_of_codes(overview: Overview, layer: str, title: str) -> str:
     return image(figure, f"map: {title}")
 
 
-def map_of_gaps(overview: Overview) -> str:
-    """Where points have no number."""
+def maps_of_gaps(overview: Overview) -> list[str]:
+    """Where points have no number, and why."""
+    if not np.nanmax(overview.layers["without_number"]) > 0:
+        return ["<p>Every point has a number.</p>"]
     title = "points without a number"
     figure, axes, shown = _map(overview, 100 * overview.layers["without_number"], title, cmap="cividis", vmin=0,
                                vmax=100)
     figure.colorbar(shown, ax=axes, shrink=0.8, label="% of the points")
-    return image(figure, f"map: {title}")
+    return [image(figure, f"map: {title}"), map_of_codes(overview, "gap", "why points have no number")]
 
 
-def _chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
+def chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
+    """An empty chart and its axes."""
     figure = Figure(figsize=(5.6, 3.7))
     axes = figure.subplots()
     axes.set_title(title, fontsize=11)
@@ -110,7 +125,7 @@ def against_depth(report: Report, quantity: str) -> str:
     if not bins:
         return ""
     name = quantity.upper()
-    figure, axes = _chart(f"{name} against depth", "depth [m]", f"{name} at {COVERAGES[report['coverage']]} [m]")
+    figure, axes = chart(f"{name} against depth", "depth [m]", f"{name} at {COVERAGES[report['coverage']]} [m]")
     depth = np.array([each["from"] + 0.5 for each in bins])
     for key, style in (("median", "-"), ("p95", "--"), ("greatest", ":")):
         label = {"median": "median", "p95": "95 % of the points are below", "greatest": "greatest"}[key]
@@ -148,7 +163,7 @@ def shares_against_depth(report: Report) -> str:
     bins = [each for each in report["by_depth"] if each.get("shares_vertical")]
     if not bins:
         return ""
-    figure, axes = _chart("shares of the vertical variance", "depth [m]", "%")
+    figure, axes = chart("shares of the vertical variance", "depth [m]", "%")
     depth = [each["from"] + 0.5 for each in bins]
     below = np.zeros(len(bins))
     for share, colour in zip(SHARES, SHARE_COLOURS):
@@ -167,10 +182,13 @@ def histogram(report: Report, quantity: str) -> str:
     if counts.sum() == 0:
         return ""
     name = quantity.upper()
-    figure, axes = _chart(f"histogram of {name}", f"{name} at {COVERAGES[report['coverage']]} [m]",
+    figure, axes = chart(f"histogram of {name}", f"{name} at {COVERAGES[report['coverage']]} [m]",
                           "% of the points with a number")
-    edges = data["step"] * np.arange(len(counts))
-    axes.bar(edges, 100 * counts / counts.sum(), width=data["step"], align="edge", color=BLUE)
+    first, end = int(np.flatnonzero(counts)[0]), int(np.flatnonzero(counts)[-1]) + 1
+    group = -(-(end - first) // MOST_BARS)
+    counts = np.pad(counts[first:end], (0, -(end - first) % group)).reshape(-1, group).sum(axis=1)
+    edges = data["step"] * (first + group * np.arange(len(counts)))
+    axes.bar(edges, 100 * counts / counts.sum(), width=group * data["step"], align="edge", color=BLUE)
     return image(figure, f"chart: histogram of {name}")
 
 
@@ -197,7 +215,7 @@ def over_time(report: Report) -> str:
     files.sort(key=lambda each: each["first_time"])
     start = files[0]["first_time"]
     hours = [(each["first_time"] - start) / 3600 for each in files]
-    figure, axes = _chart("sea, water and wind over time", "hours after the first point", "% of the vertical variance")
+    figure, axes = chart("sea, water and wind over time", "hours after the first point", "% of the vertical variance")
     for share, colour in (("sea", BLUE), ("water", GREEN)):
         axes.plot(hours, [100 * each["shares_vertical"][share] for each in files], "o-", color=colour, label=share)
     if all(isinstance(each["wind_speed"], (int, float)) for each in files):

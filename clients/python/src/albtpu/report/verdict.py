@@ -35,6 +35,13 @@ def sentences(report: Report) -> list[str]:
     return [each for each in found if each]
 
 
+def estimate_text(estimate: dict[str, Any]) -> str:
+    """ "1.02 (95 %: 0.96 to 1.08)" """
+    if estimate["low"] is None:
+        return f"{estimate['value']:.2f} (one place of overlap tells no interval)"
+    return f"{estimate['value']:.2f} (95 %: {estimate['low']:.2f} to {estimate['high']:.2f})"
+
+
 def outcome_text(name: str) -> str:
     """An outcome in words."""
     if name.startswith("OUT_OF_DOMAIN"):
@@ -115,10 +122,13 @@ def _truth(report: Report) -> str:
     if check is None:
         return "No lines overlap, so that the files cannot show whether the prediction is true."
     factor = check["factor"]
-    text = (f"Overlapping lines: σ would have to be {factor['value']:.2f} times as large (95 %: {factor['low']:.2f} to"
-            f" {factor['high']:.2f})")
+    text = f"Overlapping lines: σ would have to be {estimate_text(factor)} times as large"
+    if factor["low"] is None:
+        return text + "."
     if factor["low"] <= 1 <= factor["high"]:
         return text + ", so that they agree with the prediction."
+    if abs(factor["value"] - 1) < 0.1 and not check["guilty_share"]:
+        return text + ", so that they agree with the prediction within 10 %."
     word = "small" if factor["value"] > 1 else "large"
     guilty = f"; the share of the {check['guilty_share']} differs most" if check["guilty_share"] else ""
     return text + f": the prediction is too {word}{guilty}."

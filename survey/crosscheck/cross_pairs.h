@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "survey/report/overlap_patches.h"
+#include "survey/crosscheck/overlap_patches.h"
 
 namespace albtpu::client {
 
@@ -13,7 +13,7 @@ struct CrossPair {
   double x = 0, y = 0;                       // m, of the patch.
   float difference = 0;                      // m, height in line a less that in line b, without the slope.
   float distance = 0;                        // m, horizontal.
-  float variance_air = 0, variance_sea = 0;  // m^2, sums over both points.
+  float variance_air = 0, variance_sea = 0;  // m^2, sums over both points, of the height above the slope.
   float variance_slope = 0;                  // m^2, of the error of the slope over the distance.
   float depth = 0, incidence = 0;            // Means of both; m, degree.
 

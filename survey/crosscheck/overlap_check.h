@@ -6,10 +6,10 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "survey/annotated/annotated_points.h"
+#include "survey/crosscheck/cross_check.h"
+#include "survey/crosscheck/overlap_patches.h"
 #include "survey/files/file_progress.h"
-#include "survey/report/annotated_points.h"
-#include "survey/report/cross_check.h"
-#include "survey/report/overlap_patches.h"
 
 namespace albtpu::client {
 

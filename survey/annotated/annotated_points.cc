@@ -1,4 +1,4 @@
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +40,7 @@ struct FloatOfPoint {
 constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
                                 FloatOfPoint{"tvu_air", &AnnotatedPoint::tvu_air},
+                                FloatOfPoint{"thu_sea", &AnnotatedPoint::thu_sea},
                                 FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
                                 FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
                                 FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
@@ -50,12 +51,23 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"VarianceY", &AnnotatedPoint::variance_y},
                                 FloatOfPoint{"VarianceZ", &AnnotatedPoint::variance_z},
                                 FloatOfPoint{"CovarianceXY", &AnnotatedPoint::covariance_xy},
+                                FloatOfPoint{"CovarianceXZ", &AnnotatedPoint::covariance_xz},
+                                FloatOfPoint{"CovarianceYZ", &AnnotatedPoint::covariance_yz},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
 // Neither no-data (NaN, or -1 of a length) nor infinite.
 float KnownOrZero(float value, bool signed_value) {
   return std::isfinite(value) && (signed_value || value >= 0) ? value : 0;
+}
+
+// Of a point without a number. Beams of a trajectory are not known where no surface is. Beams told by angles always
+// are; where they `may_lack_surface`, that is the graver of two reasons why a depth is missing.
+Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
+  if (point.has_number) return Gap::kNone;
+  const bool depth = point.depth >= 0, beam = std::isfinite(point.incidence);
+  if (depth) return beam ? Gap::kNoAnswer : Gap::kNoTrajectory;
+  return beam && !may_lack_surface ? Gap::kAboveWater : Gap::kNoSurface;
 }
 
 absl::Status Invalid(const fs::path& path, const std::string& problem) {
@@ -103,6 +115,9 @@ absl::Status AnnotatedLasFile::ReadSummary() {
     return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ",
                                        size.dump(), " (the file was changed later)", kRemedy));
   }
+  const Json beams = summary_["parameters"].value("incidence_from", Json());
+  may_lack_surface_ = (beams == "scan angle" || beams == "one angle") &&
+                      summary_["answers"]["outcomes"].contains("NO_SURFACE");
   const Json classes = summary_["parameters"].value("classes", Json());
   if (classes.is_array()) {
     for (const Json& each : classes)
@@ -195,12 +210,14 @@ absl::Status AnnotatedLasFile::ForEach(FileProgress& progress, const Visit& visi
         point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
       point.has_number = point.thu >= 0 && point.tvu >= 0 && point.variance_z >= 0 && point.variance_x >= 0 &&
                          point.variance_y >= 0 && point.depth >= 0;
+      point.gap = GapOf(point, may_lack_surface_);
       for (float AnnotatedPoint::*const length :
-           {&AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea, &AnnotatedPoint::tvu_water,
-            &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+           {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea,
+            &AnnotatedPoint::tvu_water, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
         point.*length = KnownOrZero(point.*length, false);
       for (float AnnotatedPoint::*const bias :
-           {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy})
+           {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,
+            &AnnotatedPoint::covariance_xz, &AnnotatedPoint::covariance_yz})
         point.*bias = KnownOrZero(point.*bias, true);
     }
     visit(points);

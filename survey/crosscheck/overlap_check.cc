@@ -1,4 +1,4 @@
-#include "survey/report/overlap_check.h"
+#include "survey/crosscheck/overlap_check.h"
 
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-#include "survey/commands/interpolation_error.h"
+#include "survey/answers/interpolation_error.h"
 
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "survey/report/cross_check.h"
+#include "survey/crosscheck/cross_check.h"
 
 #include <algorithm>
 #include <array>
@@ -77,23 +77,24 @@ std::vector<LineDifference> DifferencesOfLines(const std::vector<CrossPair>& pai
   return list;
 }
 
-// By the wider intervals: two shares are tested, and a wrong accusation is costly.
 void NameGuilty(const std::vector<CrossPair>& pairs, const VarianceFit& fit, CrossCheck& check) {
   double air = 0, sea = 0;
   for (const CrossPair& pair : pairs) air += pair.variance_air, sea += pair.variance_sea;
   check.air_in_variance = air / (air + sea);
   double most = 0;
-  for (const auto& [name, factor, variance] :
-       {std::tuple{"air", fit.air_99, air}, std::tuple{"sea", fit.sea_99, sea}}) {
+  for (const auto& [name, factor, differs, variance] :
+       {std::tuple{"air", fit.air, fit.air_differs, air}, std::tuple{"sea", fit.sea, fit.sea_differs, sea}}) {
     const double explained = std::abs(std::pow(factor.value, 2) - 1) * variance;
-    if (!factor.excludes(1) || explained <= most) continue;
+    if (!differs || std::abs(factor.value - 1) < kLeastDifference || explained <= most) continue;
     check.guilty = name;
     most = explained;
   }
 }
 
 nlohmann::ordered_json EstimateJson(const Estimate& estimate) {
-  return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
+  nlohmann::ordered_json json = {{"value", estimate.value}, {"low", nullptr}, {"high", nullptr}};
+  if (std::isfinite(estimate.high)) json["low"] = estimate.low, json["high"] = estimate.high;
+  return json;
 }
 
 nlohmann::ordered_json BandsJson(const std::vector<CrossBand>& bands) {
@@ -124,6 +125,7 @@ std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs) {
   check.factor = fit.factor;
   check.factor_air = fit.air;
   check.factor_sea = fit.sea;
+  check.interval_units = fit.units;
   check.roughness = std::sqrt(rough);
   NameGuilty(pairs, fit, check);
   check.median_factor = MedianFactor(pairs, rough);
@@ -161,6 +163,7 @@ nlohmann::ordered_json CrossCheckJson(const CrossCheck& check) {
                                  {"factor", EstimateJson(check.factor)},
                                  {"factor_air", EstimateJson(check.factor_air)},
                                  {"factor_sea", EstimateJson(check.factor_sea)},
+                                 {"intervals_by", check.interval_units},
                                  {"air_in_variance", check.air_in_variance},
                                  {"roughness", check.roughness},
                                  {"guilty_share", nullptr},
@@ -182,6 +185,7 @@ nlohmann::ordered_json CrossCheckJson(const CrossCheck& check) {
 
 std::string CrossCheckText(const CrossCheck& check) {
   const auto estimate = [](const Estimate& e) {
+    if (!std::isfinite(e.high)) return absl::StrFormat("%.2f (one place tells no interval)", e.value);
     return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", e.value, e.low, e.high);
   };
   std::string text = absl::StrFormat(
@@ -193,15 +197,19 @@ std::string CrossCheckText(const CrossCheck& check) {
       check.pairs, check.outliers, check.chi_square, check.chi_square_within_lines, estimate(check.factor),
       100 * check.air_in_variance, estimate(check.factor_air), estimate(check.factor_sea));
   if (check.guilty.empty()) {
-    absl::StrAppend(&text, "no share differs from its prediction beyond its interval\n");
+    absl::StrAppendFormat(&text, "no share differs from its prediction by %.0f %% and beyond its interval\n",
+                          100 * kLeastDifference);
   } else {
     absl::StrAppend(&text, "the share that differs most from its prediction: ", check.guilty, "\n");
   }
   constexpr std::size_t kShown = 5;
   for (std::size_t i = 0; i < std::min(kShown, check.lines.size()); ++i) {
     const LineDifference& line = check.lines[i];
-    absl::StrAppendFormat(&text, "line %d lies %+.3f m above line %d (standard error %.3f m, %d pairs)\n",
-                          line.line_a, line.mean, line.line_b, line.standard_error, line.pairs);
+    const std::string error = std::isfinite(line.standard_error)
+                                  ? absl::StrFormat("%.3f m", line.standard_error)
+                                  : "not known from one place";
+    absl::StrAppendFormat(&text, "line %d lies %+.3f m above line %d (standard error %s, %d pairs)\n",
+                          line.line_a, line.mean, line.line_b, error, line.pairs);
   }
   return text;
 }

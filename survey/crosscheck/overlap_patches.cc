@@ -1,4 +1,4 @@
-#include "survey/report/overlap_patches.h"
+#include "survey/crosscheck/overlap_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,12 +78,24 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
     }
     Patch& patch = patches_[found->second];
     const double sea = variance(point.tvu_sea);
-    const double air = std::max(variance(point.tvu_pulse) + variance(point.tvu_line) - sea, 0.0);
+    const double own = variance(point.tvu_pulse) + variance(point.tvu_line);
+    const double air = std::max(own - sea, 0.0);
+    // A point has the horizontal entries of the total alone. Pulse and line have nearly all of them: what a survey
+    // shares is mostly vertical. The correlations are those of the total.
+    const float of_height =
+        point.variance_z > 0 ? static_cast<float>(std::sqrt(std::min(own / point.variance_z, 1.0))) : 0;
+    const double of_sea = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;
     patch.points.push_back({.x = static_cast<float>(x - patch.x),
                             .y = static_cast<float>(y - patch.y),
                             .z = static_cast<float>(point.z),
                             .variance_air = static_cast<float>(air),
                             .variance_sea = static_cast<float>(sea),
+                            .xx = point.variance_x,
+                            .yy = point.variance_y,
+                            .xy = point.covariance_xy,
+                            .xz = of_height * point.covariance_xz,
+                            .yz = of_height * point.covariance_yz,
+                            .sea_in_horizontal = static_cast<float>(of_sea),
                             .depth = point.depth,
                             .incidence = point.incidence,
                             .line = static_cast<std::uint16_t>(point.line)});

@@ -1,4 +1,4 @@
-#include "tests/survey/report/simulated_lines.h"
+#include "tests/survey/crosscheck/simulated_lines.h"
 
 #include <array>
 #include <cmath>
@@ -20,7 +20,12 @@ using Random = std::mt19937_64;
 
 double Normal(Random& random) { return std::normal_distribution<double>()(random); }
 
-double Depth(double x, double y) { return 9 + 7 * std::sin(x / 900 + 1) + 1.5 * std::sin(y / 400); }
+// `slope`: the root mean square of that of ridges 150 m apart.
+double Depth(double x, double y, double slope) {
+  constexpr double kWavenumber = 2 * std::numbers::pi / 150;
+  const double ridges = std::sqrt(2) * slope / kWavenumber * (1 + std::sin(kWavenumber * (x + 0.5 * y)));
+  return 9 + 7 * std::sin(x / 900 + 1) + 1.5 * std::sin(y / 400) + ridges;
+}
 
 // A process of mean 0 and variance 1 whose correlation falls to 1/e over `memory`.
 class Wander {
@@ -40,31 +45,33 @@ class Wander {
   std::vector<double> values_;
 };
 
-// What a surface of this slope does to the reported height: the beam (unit, z down) goes on where Snell's law sends it
-// at the tilted surface, until it meets the bottom; processing assumes a level surface and the same length of path.
-double HeightErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double slope_y, double depth) {
+// What a surface of this slope does to the reported point, reported less true: the beam (unit, z down) goes on where
+// Snell's law sends it at the tilted surface, until it meets the bottom; processing assumes a level surface and the
+// same length of path.
+Eigen::Vector3d ErrorOfSlope(const Eigen::Vector3d& beam, double slope_x, double slope_y, double depth) {
   const auto refracted = [&](Eigen::Vector3d normal) -> Eigen::Vector3d {
     normal.normalize();
     const double cosine = beam.dot(normal), ratio = 1 / kIndex;
     return ratio * beam + (std::sqrt(1 - ratio * ratio * (1 - cosine * cosine)) - ratio * cosine) * normal;
   };
   const Eigen::Vector3d level = refracted({0, 0, 1}), tilted = refracted({slope_x, slope_y, 1});
-  const double path = depth / tilted.z();
-  return depth - path * level.z();
+  return depth / tilted.z() * (level - tilted);
 }
 
-// The variance of the above, in m^2 for a depth of 1 m, by a simulation of its own.
-double SlopeVariance(double sigma) {
+// The standard deviations of the above along the beam, across it and down, in m for a depth of 1 m, by a simulation of
+// its own.
+Eigen::Vector3d SeaSigmas(double wave_slope) {
   Random random(4711);
   const Eigen::Vector3d beam(std::sin(kIncidence * kDegree), 0, std::cos(kIncidence * kDegree));
-  double sum = 0, squares = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
   constexpr int kDraws = 200'000;
   for (int i = 0; i < kDraws; ++i) {
-    const double error = HeightErrorOfSlope(beam, sigma * Normal(random), sigma * Normal(random), 1);
-    sum += error;
-    squares += error * error;
+    const Eigen::Vector3d error =
+        ErrorOfSlope(beam, wave_slope * Normal(random), wave_slope * Normal(random), 1);
+    sum += error / kDraws;
+    squares += error.cwiseAbs2() / kDraws;
   }
-  return squares / kDraws - std::pow(sum / kDraws, 2);
+  return (squares - sum.cwiseAbs2()).cwiseSqrt();
 }
 
 class Line {
@@ -75,12 +82,12 @@ class Line {
   }
 
   // At `along` and `across` (m, right positive) of the line.
-  void AddPoint(double along, double across, double x, double y, double slope_variance,
-                std::vector<client::AnnotatedPoint>& points, std::vector<double>& headings) {
+  void AddPoint(double along, double across, double x, double y, std::vector<client::AnnotatedPoint>& points,
+                std::vector<double>& headings) {
     const double sine = std::clamp(across / (kAltitude * std::tan(kIncidence * kDegree)), -1.0, 1.0);
     const bool backward = std::uniform_int_distribution<int>(0, 1)(random_) == 1;
     const double azimuth = course_ + (backward ? 180 - std::asin(sine) / kDegree : std::asin(sine) / kDegree);
-    const double depth = Depth(x, y);
+    const double depth = Depth(x, y, options_.bottom_slope);
     const AirPulse pulse{.incidence = kIncidence,
                          .beam_azimuth = azimuth,
                          .altitude = kAltitude,
@@ -106,39 +113,38 @@ class Line {
     drawn[kBottomRange] = errors.bottom_range * Normal(random_);
     drawn[kSurfaceHeight] = errors.surface_range * std::cos(kIncidence * kDegree) * Normal(random_);
     const Eigen::Matrix<double, kAirUnknowns, 1> none = Eigen::Matrix<double, kAirUnknowns, 1>::Zero();
-    const Eigen::Vector3d error =
-        ReportedPoint<double>(pulse, false, drawn) - ReportedPoint<double>(pulse, false, none);
     const Eigen::Vector3d beam(std::sin(kIncidence * kDegree) * std::cos(azimuth * kDegree),
                                std::sin(kIncidence * kDegree) * std::sin(azimuth * kDegree),
                                std::cos(kIncidence * kDegree));
-    const double of_waves = HeightErrorOfSlope(beam, options_.wave_slope * Normal(random_),
+    const Eigen::Vector3d error = ReportedPoint<double>(pulse, false, drawn) -
+                                  ReportedPoint<double>(pulse, false, none) +
+                                  ErrorOfSlope(beam, options_.wave_slope * Normal(random_),
                                                options_.wave_slope * Normal(random_), depth);
     const double rough =
         options_.bottom_waves * std::sqrt(2) * std::sin(x * 0.9 + 0.7 * y + 3 * std::sin(y * 0.31));
     client::AnnotatedPoint& point = points.emplace_back();
     point.x = x + error.y();
     point.y = y + error.x();
-    point.z = -depth - error.z() + of_waves + rough;
+    point.z = -depth - error.z() + rough;
     point.line = number_;
     point.has_number = true;
     point.depth = static_cast<float>(depth);
     point.incidence = static_cast<float>(kIncidence);
-    point.tvu_sea = static_cast<float>(std::sqrt(slope_variance) * depth);
     point.tvu_air = static_cast<float>(azimuth);  // Until the budget is computed.
     headings.push_back(course_);
   }
 
   // Points where another line saw the bottom, too.
   template <typename Place>
-  void Fly(bool whole_swath, const Place& place, double slope_variance,
-           std::vector<client::AnnotatedPoint>& points, std::vector<double>& headings) {
+  void Fly(bool whole_swath, const Place& place, std::vector<client::AnnotatedPoint>& points,
+           std::vector<double>& headings) {
     std::uniform_real_distribution<double> jitter(0, options_.spacing);
     for (double along = 0; along + options_.spacing < options_.length; along += options_.spacing)
       for (double across = -kSwath; across < kSwath; across += options_.spacing) {
         if (!whole_swath && std::abs(across) < kLineSpacing - kSwath) continue;
         const double a = along + jitter(random_), c = across + jitter(random_);
         const auto [x, y] = place(a, c, middle_);
-        AddPoint(a, c, x, y, slope_variance, points, headings);
+        AddPoint(a, c, x, y, points, headings);
       }
   }
 
@@ -150,8 +156,9 @@ class Line {
   std::vector<Wander> wander_;
 };
 
-// Replaces the azimuth by what the budget makes of it.
-void Predict(const AirErrors& errors, const std::vector<double>& headings,
+// Replaces the azimuth by what the budget makes of it. The axis of the sea is taken as that of each beam, because its
+// errors are known along and across it.
+void Predict(const AirErrors& errors, const Eigen::Vector3d& sea, const std::vector<double>& headings,
              std::vector<client::AnnotatedPoint>& points) {
   const std::size_t size = points.size();
   std::array<std::vector<float>, kBudgetInputCount> columns;
@@ -167,24 +174,42 @@ void Predict(const AirErrors& errors, const std::vector<double>& headings,
   add(BudgetInput::kBeamAzimuth, [&](std::size_t i) { return points[i].tvu_air; });
   add(BudgetInput::kHeading, [&](std::size_t i) { return headings[i]; });
   add(BudgetInput::kDepth, [&](std::size_t i) { return points[i].depth; });
-  add(BudgetInput::kSeaThu, constant(0));
-  add(BudgetInput::kSeaTvu, [&](std::size_t i) { return 2 * points[i].tvu_sea; });
-  add(BudgetInput::kRefractionAlong, constant(1));
-  add(BudgetInput::kRefractionCross, constant(1));
-  std::vector<float> tvu(size), air(size), pulse(size), line(size);
+  add(BudgetInput::kSeaThu, [&](std::size_t i) { return 2 * std::hypot(sea[0], sea[1]) * points[i].depth; });
+  add(BudgetInput::kSeaTvu, [&](std::size_t i) { return 2 * sea[2] * points[i].depth; });
+  add(BudgetInput::kRefractionAlong, constant(sea[0]));
+  add(BudgetInput::kRefractionCross, constant(sea[1]));
+  add(BudgetInput::kSeaAxis, [&](std::size_t i) { return points[i].tvu_air; });
+  std::vector<float> thu(size), tvu(size), air(size), thu_sea(size), tvu_sea(size), pulse(size), line(size);
+  std::array<std::vector<float>, 6> total;
   BudgetOutputs outputs;
+  outputs.thu = thu;
   outputs.tvu = tvu;
   outputs.tvu_air = air;
+  outputs.thu_sea = thu_sea;
+  outputs.tvu_sea = tvu_sea;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    total[i].resize(size);
+    outputs.total[i] = total[i];
+  }
   outputs.groups[0][2] = pulse;
   outputs.groups[1][2] = line;
   BudgetOptions options{.errors = errors, .index = kIndex, .coverage = Coverage::kOneSigma};
   ComputeBudget(inputs, options, outputs);
   for (std::size_t i = 0; i < size; ++i) {
+    points[i].thu = thu[i];
     points[i].tvu = tvu[i];
     points[i].tvu_air = air[i];
+    points[i].thu_sea = thu_sea[i];
+    points[i].tvu_sea = tvu_sea[i];
     points[i].tvu_pulse = std::sqrt(pulse[i]);
     points[i].tvu_line = std::sqrt(line[i]);
-    points[i].variance_z = tvu[i] * tvu[i];
+    const auto of = [&](std::size_t entry) { return total[entry][i]; };  // NN EE DD NE ND ED
+    points[i].variance_x = of(1);
+    points[i].variance_y = of(0);
+    points[i].variance_z = of(2);
+    points[i].covariance_xy = of(3);
+    points[i].covariance_xz = -of(5);
+    points[i].covariance_yz = -of(4);
   }
 }
 
@@ -200,7 +225,6 @@ AirErrors TrueErrors() {
 
 std::vector<client::AnnotatedPoint> Simulate(const SimulatedLines& options) {
   Random random(options.seed);
-  const double slope_variance = SlopeVariance(options.wave_slope);
   std::vector<client::AnnotatedPoint> points;
   std::vector<double> headings;
   for (int i = 0; i < options.lines; ++i) {
@@ -211,7 +235,7 @@ std::vector<client::AnnotatedPoint> Simulate(const SimulatedLines& options) {
         [&](double along, double across, double middle) {
           return std::pair(back ? options.length - along : along, back ? middle + across : middle - across);
         },
-        slope_variance, points, headings);
+        points, headings);
   }
   for (int i = 0; i < options.cross_lines; ++i) {
     const double middle = (i + 0.5) / options.cross_lines * options.length;
@@ -221,14 +245,14 @@ std::vector<client::AnnotatedPoint> Simulate(const SimulatedLines& options) {
         [&](double along, double across, double x) {
           return std::pair(x + across, along - (options.length - (options.lines - 1) * kLineSpacing) / 2);
         },
-        slope_variance, points, headings);
+        points, headings);
   }
   AirErrors declared = TrueErrors();
   for (double& each : declared.position) each *= options.declared;
   for (double& each : declared.attitude) each *= options.declared;
   for (double* const each : {&declared.scan, &declared.bottom_range, &declared.surface_range})
     *each *= options.declared;
-  Predict(declared, headings, points);
+  Predict(declared, SeaSigmas(options.wave_slope), headings, points);
   return points;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "budget/air/air_errors.h"
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 
 namespace albtpu::testing {
 
@@ -18,6 +18,7 @@ struct SimulatedLines {
   double spacing = 2;          // m between points, of each line.
   double wave_slope = 0.05;    // One sigma of each component of the slope of the surface.
   double memory = 5;           // s, over which the errors of the trajectory are correlated.
+  double bottom_slope = 0;     // Root mean square in the direction of x, of ridges, beside gentle slopes.
   double bottom_waves = 0;     // m, one sigma of a rough bottom whose waves are some metres long.
   double roll_of_scanner = 0;  // degree: a boresight that nobody knows of.
   double declared = 1;         // What is declared of the air side, by what it is.

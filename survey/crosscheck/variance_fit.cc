@@ -1,21 +1,20 @@
-#include "survey/report/variance_fit.h"
+#include "survey/crosscheck/variance_fit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
-#include <random>
+
+#include "survey/crosscheck/student_quantile.h"
 
 namespace albtpu::client {
 namespace {
 
-constexpr std::size_t kDraws = 1000;  // Of the bootstrap.
-constexpr std::uint64_t kSeed = 22;   // Equal surveys give equal intervals.
-constexpr double kTail95 = 0.025, kTail99 = 0.0025;
-constexpr double kLeastFactor =
-    0.05;  // Of a variance in weights: no pair may have none, or it would have all weight.
+constexpr double kTail95 = 0.025, kTail99 = 0.005;  // Of two-sided intervals.
+// Of a variance in weights: no pair may have none, or it would have all weight.
+constexpr double kLeastFactor = 0.05;
 
 // What is fitted: air, sea, and the square of the distance.
 enum Term : std::size_t { kAir, kSea, kRough, kTerms };
@@ -99,15 +98,50 @@ Terms SolveNonNegative(const Sums& sums, unsigned allowed) {
   return best;
 }
 
-// Sums of each place, weighted by the inverse square of the variance that `factors` give: the variance of a squared
-// difference is twice its square.
-std::vector<Sums> SumPlaces(const std::vector<CrossPair>& pairs, const Terms& factors, double rough) {
-  std::map<Place, Sums> places;
+// What is left out in turn: each unit has some of the cells, which are the pairs of two lines, or places.
+struct Units {
+  std::string name;
+  std::vector<std::size_t> cell_of = {};  // By pair.
+  std::size_t cells = 0;
+  std::vector<std::vector<std::size_t>> members = {};  // Cells of each unit.
+};
+
+Units UnitsOf(const std::vector<CrossPair>& pairs) {
+  Units units{.name = "lines"};
+  std::map<std::pair<int, int>, std::size_t> cells;
+  std::map<int, std::vector<std::size_t>> lines;
   for (const CrossPair& pair : pairs) {
+    const auto [cell, is_new] = cells.try_emplace({pair.line_a, pair.line_b}, cells.size());
+    if (is_new)
+      for (const int line : {pair.line_a, pair.line_b}) lines[line].push_back(cell->second);
+    units.cell_of.push_back(cell->second);
+  }
+  if (lines.size() >= kLeastLines) {
+    for (auto& [line, members] : lines) units.members.push_back(std::move(members));
+  } else {
+    units = {.name = "places"};
+    cells.clear();
+    for (const CrossPair& pair : pairs) {
+      const auto [cell, is_new] = cells.try_emplace(PlaceOf(pair), cells.size());
+      if (is_new) units.members.push_back({cell->second});
+      units.cell_of.push_back(cell->second);
+    }
+  }
+  units.cells = cells.size();
+  return units;
+}
+
+// Sums of each cell, weighted by the inverse square of the variance that `factors` give: the variance of a squared
+// difference is twice its square.
+std::vector<Sums> SumCells(const std::vector<CrossPair>& pairs, const Units& units, const Terms& factors,
+                           double rough) {
+  std::vector<Sums> cells(units.cells);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const CrossPair& pair = pairs[k];
     const double weight = 1 / std::pow(VarianceBy(factors, pair), 2);
     const Terms terms = TermsOf(pair);
     const double square = std::pow(pair.difference, 2) - pair.variance_slope;
-    Sums& sums = places[PlaceOf(pair)];
+    Sums& sums = cells[units.cell_of[k]];
     for (std::size_t i = 0; i < kTerms; ++i) {
       for (std::size_t j = 0; j < kTerms; ++j) sums.products[i][j] += weight * terms[i] * terms[j];
       sums.targets[i] += weight * terms[i] * square;
@@ -116,35 +150,48 @@ std::vector<Sums> SumPlaces(const std::vector<CrossPair>& pairs, const Terms& fa
     sums.variance_squares += weight * predicted * predicted;
     sums.variance_targets += weight * predicted * (square - rough * terms[kRough]);
   }
-  std::vector<Sums> list;
-  for (const auto& [place, sums] : places) list.push_back(sums);
-  return list;
+  return cells;
 }
 
-Sums Total(const std::vector<Sums>& places) {
+Sums Total(const std::vector<Sums>& cells) {
   Sums total;
-  for (const Sums& place : places) total.Add(place, 1);
+  for (const Sums& cell : cells) total.Add(cell, 1);
   return total;
 }
 
-Sums Draw(const std::vector<Sums>& places, std::mt19937_64& random) {
-  Sums drawn;
-  for (std::size_t i = 0; i < places.size(); ++i) drawn.Add(places[random() % places.size()], 1);
-  return drawn;
+// `number` of all pairs, and without each unit.
+template <typename Number>
+std::vector<double> Jackknife(const std::vector<Sums>& cells, const Units& units, const Number& number) {
+  const Sums total = Total(cells);
+  std::vector<double> values = {number(total)};
+  for (const std::vector<std::size_t>& members : units.members) {
+    Sums left = total;
+    for (const std::size_t cell : members) left.Add(cells[cell], -1);
+    values.push_back(number(left));
+  }
+  return values;
 }
 
-// A factor of standard deviations from a factor of variances and draws of it.
-Estimate FactorOf(double value, std::vector<double> draws, double tail) {
-  std::ranges::sort(draws);
-  const auto at = [&](double fraction) {
-    return std::sqrt(
-        std::max(draws[static_cast<std::size_t>(fraction * static_cast<double>(draws.size() - 1))], 0.0));
-  };
-  return {std::sqrt(std::max(value, 0.0)), at(tail), at(1 - tail)};
+// How far an interval with `tail` on each side reaches from the first of `values`, those of Jackknife. Infinitely far
+// of less than two units.
+double ReachOf(const std::vector<double>& values, double tail) {
+  const auto count = static_cast<double>(values.size() - 1);
+  if (count < 2) return std::numeric_limits<double>::infinity();
+  double squares = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) squares += std::pow(values[i] - values[0], 2);
+  return StudentQuantile(static_cast<int>(count) - 1, tail) * std::sqrt((count - 1) / count * squares);
+}
+
+// The standard error of a standard deviation is in proportion to it: the lower end is the value from which the estimate
+// is as far, in its own standard errors, as it may be.
+Estimate IntervalOf(const std::vector<double>& factors, double tail) {
+  const double reach = ReachOf(factors, tail), value = factors[0];
+  return {value, value > 0 ? value / (1 + reach / value) : 0, value + reach};
 }
 
 double OneFactor(const Sums& sums) {
-  return sums.variance_squares > 0 ? sums.variance_targets / sums.variance_squares : 0;
+  return sums.variance_squares > 0 ? std::sqrt(std::max(sums.variance_targets / sums.variance_squares, 0.0))
+                                   : 0;
 }
 
 }  // namespace
@@ -157,39 +204,33 @@ double PredictedVariance(const CrossPair& pair, double rough) { return VarianceB
 
 VarianceFit FitVariance(const std::vector<CrossPair>& pairs, double factor) {
   constexpr unsigned kAll = (1U << kTerms) - 1, kSmooth = kAll & ~(1U << kRough);
+  const Units units = UnitsOf(pairs);
   const double guess = factor * factor;
   Terms factors = {guess, guess, 0};
-  std::vector<Sums> places;
+  std::vector<Sums> cells;
   for (int pass = 0; pass < 3; ++pass) {
-    places = SumPlaces(pairs, factors, 0);
-    factors = SolveNonNegative(Total(places), kAll);
+    cells = SumCells(pairs, units, factors, 0);
+    factors = SolveNonNegative(Total(cells), kAll);
     for (const Term term : {kAir, kSea}) factors[term] = std::max(factors[term], kLeastFactor * guess);
   }
-  std::mt19937_64 random(kSeed);
-  std::vector<double> rough;
-  for (std::size_t i = 0; i < kDraws; ++i)
-    rough.push_back(SolveNonNegative(Draw(places, random), kAll)[kRough]);
-  std::ranges::sort(rough);
-  const bool smooth = !(rough[static_cast<std::size_t>(kTail95 * kDraws)] > 0);
+  const auto rough = [](const Sums& sums) { return SolveNonNegative(sums, kAll)[kRough]; };
+  const std::vector<double> roughness = Jackknife(cells, units, rough);
+  const bool smooth = !(roughness[0] > ReachOf(roughness, kTail95));
   if (smooth) factors[kRough] = 0;
-  places = SumPlaces(pairs, factors, factors[kRough]);
+  cells = SumCells(pairs, units, factors, factors[kRough]);
   const unsigned allowed = smooth ? kSmooth : kAll;
-  const Sums total = Total(places);
-  const Terms fitted = SolveNonNegative(total, allowed);
-  std::vector<double> air, sea, one;
-  for (std::size_t i = 0; i < kDraws; ++i) {
-    const Sums drawn = Draw(places, random);
-    const Terms of_draw = SolveNonNegative(drawn, allowed);
-    air.push_back(of_draw[kAir]);
-    sea.push_back(of_draw[kSea]);
-    one.push_back(OneFactor(drawn));
-  }
-  return {.factor = FactorOf(OneFactor(total), one, kTail95),
-          .air = FactorOf(fitted[kAir], air, kTail95),
-          .sea = FactorOf(fitted[kSea], sea, kTail95),
-          .air_99 = FactorOf(fitted[kAir], air, kTail99),
-          .sea_99 = FactorOf(fitted[kSea], sea, kTail99),
-          .rough = factors[kRough]};
+  const auto of_share = [&](Term term) {
+    return Jackknife(cells, units,
+                     [=](const Sums& sums) { return std::sqrt(SolveNonNegative(sums, allowed)[term]); });
+  };
+  const std::vector<double> air = of_share(kAir), sea = of_share(kSea);
+  return {.factor = IntervalOf(Jackknife(cells, units, OneFactor), kTail95),
+          .air = IntervalOf(air, kTail95),
+          .sea = IntervalOf(sea, kTail95),
+          .air_differs = IntervalOf(air, kTail99).excludes(1),
+          .sea_differs = IntervalOf(sea, kTail99).excludes(1),
+          .rough = factors[kRough],
+          .units = units.name};
 }
 
 }  // namespace albtpu::client

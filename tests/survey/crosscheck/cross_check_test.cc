@@ -1,5 +1,6 @@
-#include "survey/report/cross_check.h"
+#include "survey/crosscheck/cross_check.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,6 +90,26 @@ TEST(CrossCheck, LeavesOutFewOutliersAndSaysSo) {
   EXPECT_NEAR(check.chi_square, 1, 0.03);
 }
 
+TEST(CrossCheck, HasNoIntervalFromOnePlace) {
+  std::vector<CrossPair> pairs = Pairs({.air = 2});
+  for (CrossPair& pair : pairs) pair.line_a = 1, pair.line_b = 2, pair.x = 0;
+  const CrossCheck check = CheckPairs(pairs).value();
+  EXPECT_EQ(check.interval_units, "places");
+  EXPECT_FALSE(check.factor.excludes(1));
+  EXPECT_EQ(check.guilty, "");
+  EXPECT_TRUE(CrossCheckJson(check)["factor"]["low"].is_null());
+  EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("tells no interval"));
+}
+
+TEST(CrossCheck, LeavesOutPlacesWhereLinesAreFew) {
+  std::vector<CrossPair> pairs = Pairs({.air = 2});
+  for (CrossPair& pair : pairs) pair.line_a = 1, pair.line_b = 2;
+  const CrossCheck check = CheckPairs(pairs).value();
+  EXPECT_EQ(check.interval_units, "places");
+  EXPECT_EQ(check.guilty, "air");
+  EXPECT_EQ(CheckOf({}).interval_units, "lines");
+}
+
 TEST(CrossCheck, NeedsPairs) {
   std::vector<CrossPair> none;
   EXPECT_FALSE(CheckPairs(none).has_value());
@@ -121,6 +142,27 @@ TEST(CrossPairs, AreFreeOfTheSlope) {
   EXPECT_NEAR(pairs[0].difference, 0.07, 1e-5);
   EXPECT_LT(pairs[0].distance, 0.5);
   EXPECT_NEAR(pairs[0].variance_air, 0.02, 1e-7);
+}
+
+// The variance of the height above a slope is g' C g with g = (-0.3, 0.2, 1): here of each point
+// 0.01 + 0.09 0.04 + 0.04 0.02 + 2 (-0.06) 0.005 - 2 (0.3 0.004 - 0.2 0.003) = 0.0126.
+TEST(CrossPairs, HaveTheVarianceAboveTheSlope) {
+  Patch patch = TwoPlanes(0.3, -0.2, 0);
+  for (PatchPoint& point : patch.points) {
+    point.xx = 0.04F, point.yy = 0.02F, point.xy = 0.005F, point.xz = 0.004F, point.yz = 0.003F;
+    point.sea_in_horizontal = 0.25F;
+  }
+  std::vector<CrossPair> pairs;
+  AppendPairs(patch, pairs);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_NEAR(pairs[0].variance_air, 2 * (0.01 + 0.75 * 0.0026), 1e-6);
+  EXPECT_NEAR(pairs[0].variance_sea, 2 * 0.25 * 0.0026, 1e-6);
+  for (PatchPoint& point : patch.points)
+    point.xz = 0.02F;  // Down the slope is too low: less than on a level bottom.
+  pairs.clear();
+  AppendPairs(patch, pairs);
+  EXPECT_NEAR(pairs[0].variance(), 2 * (0.0126 - 2 * 0.3 * 0.016), 1e-6);
+  EXPECT_EQ(pairs[0].variance_sea, 0);
 }
 
 TEST(CrossPairs, NeedTwoLinesAndASlope) {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "survey/report/cross_pairs.h"
-#include "survey/report/variance_fit.h"
+#include "survey/crosscheck/cross_pairs.h"
+#include "survey/crosscheck/variance_fit.h"
 
 namespace albtpu::client {
 
@@ -42,14 +42,18 @@ struct CrossCheck {
   double median_factor = 0;            // The factor below by the median, which heavy tails do not raise.
   Estimate factor;                  // By which the predicted standard deviations would have to be multiplied.
   Estimate factor_air, factor_sea;  // The same of shares, from how differences depend on them.
+  std::string interval_units;       // What was left out in turn for them: "lines" or "places".
   double air_in_variance = 0;       // The share of the air side in the predicted variance.
   double roughness = 0;  // m in a metre of distance, of the bottom around its plane; 0: not significant.
-  std::string guilty;    // "air" or "sea": whose factor differs from 1 and explains most; empty: none.
+  // "air" or "sea": the share whose factor differs from 1 by kLeastDifference and beyond an interval of 99 %, and that
+  // explains most; empty: none.
+  std::string guilty;
   std::vector<CrossBand> by_depth, by_incidence, by_sea_share;
   std::vector<LineDifference> lines;  // The largest difference first.
 };
 
 inline constexpr double kOutlier = 6;
+inline constexpr double kLeastDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
 
 // Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs.
 std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs);

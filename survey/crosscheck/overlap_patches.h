@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "survey/report/annotated_points.h"
+#include "survey/annotated/annotated_points.h"
 #include "tables/coverage.h"
 
 namespace albtpu::client {
@@ -15,8 +15,10 @@ namespace albtpu::client {
 // What a point tells about its line. Lengths in m, variances in m^2 at 1 sigma.
 struct PatchPoint {
   float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
-  float variance_air = 0;     // Of pulse and line, without the sea.
+  float variance_air = 0;     // Of the height: of pulse and line, without the sea.
   float variance_sea = 0;
+  // The other entries of the covariance of both, of which this part is that of the sea.
+  float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, sea_in_horizontal = 0;
   float depth = 0, incidence = 0;
   std::uint16_t line = 0;
 };
@@ -29,7 +31,7 @@ struct Patch {
 class OverlapPatches {
  public:
   static constexpr std::size_t kMostKnown = 1'000'000;   // Patches.
-  static constexpr std::size_t kMostPoints = 3'000'000;  // In patches that are filled.
+  static constexpr std::size_t kMostPoints = 1'000'000;  // In patches that are filled.
 
   // `side` of a patch in m, above 0. Where memory would not suffice, a part of the patches is taken, chosen by their
   // place and not by what is in them.

@@ -1,4 +1,4 @@
-#include "survey/report/cross_pairs.h"
+#include "survey/crosscheck/cross_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +45,24 @@ std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
   return slope;
 }
 
+struct HeightVariance {
+  double air = 0, sea = 0;  // m^2
+};
+
+// Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
+// lies too far down the slope is too high above it.
+HeightVariance AboveSlope(const PatchPoint& point, const Slope& slope) {
+  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy +
+                       2 * slope.x * slope.y * point.xy - 2 * (slope.x * point.xz + slope.y * point.yz);
+  const double level = point.variance_air + point.variance_sea;
+  if (added < 0) {
+    const double left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
+    return {left * point.variance_air, left * point.variance_sea};
+  }
+  return {point.variance_air + (1 - point.sea_in_horizontal) * added,
+          point.variance_sea + point.sea_in_horizontal * added};
+}
+
 CrossPair NearestPair(const Patch& patch, const Line& a, const Line& b, const Slope& slope) {
   const PatchPoint *nearest_a = &a[0], *nearest_b = &b[0];
   float least = std::numeric_limits<float>::infinity();
@@ -58,6 +76,7 @@ CrossPair NearestPair(const Patch& patch, const Line& a, const Line& b, const Sl
     }
   }
   const double dx = nearest_a->x - nearest_b->x, dy = nearest_a->y - nearest_b->y;
+  const HeightVariance of_a = AboveSlope(*nearest_a, slope), of_b = AboveSlope(*nearest_b, slope);
   const double slope_error = slope.xx * dx * dx + slope.yy * dy * dy + 2 * slope.xy * dx * dy;
   return {.line_a = nearest_a->line,
           .line_b = nearest_b->line,
@@ -65,8 +84,8 @@ CrossPair NearestPair(const Patch& patch, const Line& a, const Line& b, const Sl
           .y = patch.y,
           .difference = static_cast<float>(nearest_a->z - nearest_b->z - slope.x * dx - slope.y * dy),
           .distance = std::sqrt(least),
-          .variance_air = nearest_a->variance_air + nearest_b->variance_air,
-          .variance_sea = nearest_a->variance_sea + nearest_b->variance_sea,
+          .variance_air = static_cast<float>(of_a.air + of_b.air),
+          .variance_sea = static_cast<float>(of_a.sea + of_b.sea),
           .variance_slope = static_cast<float>(slope_error),
           .depth = (nearest_a->depth + nearest_b->depth) / 2,
           .incidence = (nearest_a->incidence + nearest_b->incidence) / 2};

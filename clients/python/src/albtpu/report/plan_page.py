@@ -1,0 +1,113 @@
+"""plan.html: how deep each order can be met, and how much wind there may be."""
+
+from __future__ import annotations
+
+import html
+import json
+import pathlib
+from typing import Any
+
+import numpy as np
+
+from .page import STYLE, table
+from .pictures import BLUE, GREEN, GREY, ORANGE, PURPLE, chart, image
+
+Plan = dict[str, Any]
+
+ORDERS = ("exclusive", "special", "1a", "1b", "2")
+COLOURS = (PURPLE, GREEN, BLUE, ORANGE, GREY)
+LIMITS = {"thu": "THU", "tvu": "TVU", "table": "the end of the table", "water": "the end of the water's table"}
+
+
+def write_plan(folder: pathlib.Path) -> None:
+    """Makes plan.html in a folder that has plan.json."""
+    plan: Plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
+    pictures = "".join([_by_sea(plan), *(_over(plan, axis) for axis in plan["axes"])])
+    body = (f"<h1>Plan: how deep can S-44 order {_text(plan['order'])} be met?</h1>{_answer(plan)}"
+            f"<div class='pictures'>{pictures}</div>"
+            f"<h2>How much {_text(_words(plan))} may there be?</h2>{_greatest(plan)}"
+            f"<h2>Numbers and assumptions</h2>{_numbers(plan)}")
+    page = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f"<title>Plan of a survey</title><style>{STYLE}</style></head><body>{body}</body></html>\n")
+    (folder / "plan.html").write_text(page, encoding="utf-8")
+
+
+def _text(value: object) -> str:
+    return html.escape(str(value))
+
+
+def _words(plan: Plan) -> str:
+    return "wind" if plan["sea"]["name"] == "wind_speed" else "sea (significant wave height)"
+
+
+def _conditions(plan: Plan) -> str:
+    return f"{plan['conditions']['altitude']:g} m of altitude and {plan['conditions']['incidence']:g}° of incidence"
+
+
+def _answer(plan: Plan) -> str:
+    unit, order = plan["sea"]["unit"], plan["order"]
+    met = [each for each in plan["greatest_sea"] if each[order] is not None]
+    items = [f"<li>down to {each['depth']:g} m: up to {each[order]:g} {_text(unit)}"
+             f"{' (the most that was asked about)' if each[order] == plan['seas'][-1] else ''}</li>" for each in met]
+    none = [each["depth"] for each in plan["greatest_sea"] if each[order] is None]
+    if none:
+        items.append(f"<li>down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {_text(unit)} or more</li>")
+    kind = "pass" if met else "fail"
+    return (f'<div class="verdict {kind}"><b>Order {_text(order)} at {_conditions(plan)}</b><ul>{"".join(items)}</ul>'
+            "</div><p class='soft'>All shares of the uncertainty count, at 95 %, and the biases. Whether the laser sees"
+            " the bottom at these depths is another question.</p>")
+
+
+def _by_sea(plan: Plan) -> str:
+    figure, axes = chart(f"at {_conditions(plan)}", _label(plan), "depth down to which the order is met [m]")
+    for order, colour in zip(ORDERS, COLOURS):
+        width = 2.5 if order == plan["order"] else 1.2
+        depths = [each["depth"][order] for each in plan["planned"]]
+        axes.plot(plan["seas"], depths, marker=".", color=colour, linewidth=width,
+                  linestyle="--" if order == "1b" else "-", label=order)
+    axes.set_ylim(0, None)
+    axes.invert_yaxis()
+    axes.legend(fontsize=8, title="order")
+    return image(figure, "chart: depth down to which each order is met, by wind or waves")
+
+
+def _label(plan: Plan) -> str:
+    return f"{plan['sea']['name'].replace('_', ' ')} [{plan['sea']['unit']}]"
+
+
+def _over(plan: Plan, axis: dict[str, Any]) -> str:
+    """Depths of the order that is asked for, over the sea and another condition."""
+    depth = np.array(axis["depth"][plan["order"]], float)  # NaN where a table does not know the beam.
+    limits = axis["limited_by"][plan["order"]]
+    name = "Kd at 532 nm" if axis["name"] == "kd" else axis["name"]
+    ends = any(limit not in ("thu", "tvu") for row in limits for limit in row)
+    figure, axes = chart(f"order {plan['order']}: depth [m] by {name}{'; +: a table ends there' if ends else ''}",
+                         _label(plan), f"{name} [{axis['unit']}]")
+    shown = axes.imshow(depth, origin="lower", aspect="auto", cmap="cividis_r", vmin=0)
+    axes.grid(False)
+    axes.set_xticks(range(len(plan["seas"])), [f"{each:g}" for each in plan["seas"]], fontsize=7)
+    axes.set_yticks(range(len(axis["values"])), [f"{each:g}" for each in axis["values"]], fontsize=8)
+    middle = np.nanmax(depth, initial=0) / 2
+    for row, values in enumerate(depth):
+        for column, value in enumerate(values):
+            mark = "" if limits[row][column] in ("thu", "tvu") else "+"
+            text = "–" if np.isnan(value) else f"{value:.0f}{mark}"
+            axes.annotate(text, (column, row), ha="center", va="center", fontsize=6,
+                          color="white" if value > middle else "black")
+    figure.colorbar(shown, ax=axes, label="depth [m]")
+    return image(figure, f"chart: depth down to which order {plan['order']} is met, by {name}")
+
+
+def _greatest(plan: Plan) -> str:
+    unit = _text(plan["sea"]["unit"])
+    rows = [[f"{each['depth']:g}", *(f"{each[order]:g}" if each[order] is not None else "–" for order in ORDERS)]
+            for each in plan["greatest_sea"]]
+    return table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
+
+
+def _numbers(plan: Plan) -> str:
+    rows = [[_text(each["name"].replace("_", " ")), _text(each["value"]),
+             "<span class='no'>assumed</span>" if each["assumed"] else "", _text(each["source"])]
+            for each in sorted(plan["numbers"], key=lambda each: not each["assumed"])]
+    return table(["number", "value", "", "source"], rows, "words")
