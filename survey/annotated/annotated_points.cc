@@ -61,6 +61,21 @@ float KnownOrZero(float value, bool signed_value) {
   return std::isfinite(value) && (signed_value || value >= 0) ? value : 0;
 }
 
+// Whether a summary has what is read of it later, with the right types.
+bool IsOurs(const Json& summary) {
+  const auto object = [](const Json& in, const char* key) {
+    return in.is_object() && in.contains(key) && in[key].is_object();
+  };
+  if (!object(summary, "answers") || !object(summary, "parameters") || !object(summary, "input") ||
+      !object(summary, "output") || !object(summary, "table") || !object(summary["answers"], "outcomes"))
+    return false;
+  for (const char* const key : {"id", "version", "digest"})
+    if (!summary["table"].value(key, Json()).is_string()) return false;
+  const Json& outcomes = summary["answers"]["outcomes"];
+  return summary.value("program", Json()) == "albtpu-query" &&
+         std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
+}
+
 // Of a point without a number. Beams of a trajectory are not known where no surface is. Beams told by angles always
 // are; where they `may_lack_surface`, that is the graver of two reasons why a depth is missing.
 Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
@@ -96,14 +111,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
                                             " is missing; keep it beside the file", kRemedy));
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   summary_ = Json::parse(text, nullptr, false);
-  const auto object = [](const Json& in, const char* key) {
-    return in.is_object() && in.contains(key) && in[key].is_object();
-  };
-  const bool ours = object(summary_, "answers") && object(summary_, "parameters") &&
-                    object(summary_, "input") && object(summary_, "output") &&
-                    object(summary_["answers"], "outcomes") &&
-                    summary_.value("program", Json()) == "albtpu-query";
-  const Json total = ours ? summary_["answers"].value("total", Json()) : Json();
+  const Json total = IsOurs(summary_) ? summary_["answers"].value("total", Json()) : Json();
   const std::optional<Coverage> coverage =
       FindCoverage(total.is_object() && total.contains("coverage") && total["coverage"].is_string()
                        ? total["coverage"].get<std::string>()

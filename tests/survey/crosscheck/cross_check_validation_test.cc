@@ -38,7 +38,7 @@ TEST(CrossCheckOfSimulatedSurveys, FindsThatARightPredictionIsRight) {
   int covered = 0, accused = 0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const CrossCheck check = CheckOf({.seed = static_cast<std::uint64_t>(seed)});
-    EXPECT_NEAR(check.chi_square, 1, 0.15) << seed;
+    EXPECT_NEAR(check.chi_square, 1, 0.26) << seed;  // Four standard deviations of one survey.
     sum += check.chi_square;
     covered += check.factor.excludes(1) ? 0 : 1;
     accused += check.guilty.empty() ? 0 : 1;

@@ -16,7 +16,7 @@ Plan = dict[str, Any]
 
 ORDERS = ("exclusive", "special", "1a", "1b", "2")
 COLOURS = (PURPLE, GREEN, BLUE, ORANGE, GREY)
-LIMITS = {"thu": "THU", "tvu": "TVU", "table": "the end of the table", "water": "the end of the water's table"}
+ENDS = {"table": "the table of the sea ends there", "water": "the table of the water column ends there"}
 
 
 def write_plan(folder: pathlib.Path) -> None:
@@ -51,7 +51,11 @@ def _answer(plan: Plan) -> str:
     items = [f"<li>down to {each['depth']:g} m: up to {each[order]:g} {_text(unit)}"
              f"{' (the most that was asked about)' if each[order] == plan['seas'][-1] else ''}</li>" for each in met]
     none = [each["depth"] for each in plan["greatest_sea"] if each[order] is None]
-    if none:
+    calmest = plan["planned"][0]
+    end = ENDS.get(calmest["limited_by"][order])
+    if none and end:
+        items.append(f"<li>deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}</li>")
+    elif none:
         items.append(f"<li>down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {_text(unit)} or more</li>")
     kind = "pass" if met else "fail"
     return (f'<div class="verdict {kind}"><b>Order {_text(order)} at {_conditions(plan)}</b><ul>{"".join(items)}</ul>'
@@ -103,7 +107,7 @@ def _greatest(plan: Plan) -> str:
     unit = _text(plan["sea"]["unit"])
     rows = [[f"{each['depth']:g}", *(f"{each[order]:g}" if each[order] is not None else "–" for order in ORDERS)]
             for each in plan["greatest_sea"]]
-    return table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
+    return "<p class='soft'>–: not met, or deeper than a table answers.</p>" + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
 
 
 def _numbers(plan: Plan) -> str:
