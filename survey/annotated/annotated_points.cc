@@ -56,9 +56,13 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
-// Neither no-data (NaN, or -1 of a length) nor infinite.
+constexpr float kGreatest = 1e6F;  // m or m^2; beyond, nothing is an uncertainty.
+
+// Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
+bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
+
 float KnownOrZero(float value, bool signed_value) {
-  return std::isfinite(value) && (signed_value || value >= 0) ? value : 0;
+  return IsKnown(signed_value ? std::abs(value) : value) ? value : 0;
 }
 
 // Whether a summary has what is read of it later, with the right types.
@@ -216,8 +220,8 @@ absl::Status AnnotatedLasFile::ForEach(FileProgress& progress, const Visit& visi
       point.line = fields.PointSourceId(record);
       for (std::size_t k = 0; k < kFloats.size(); ++k)
         point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
-      point.has_number = point.thu >= 0 && point.tvu >= 0 && point.variance_z >= 0 && point.variance_x >= 0 &&
-                         point.variance_y >= 0 && point.depth >= 0;
+      point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
+                         IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
       point.gap = GapOf(point, may_lack_surface_);
       for (float AnnotatedPoint::*const length :
            {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea,

@@ -134,6 +134,28 @@ class BadInput(Report):
         (folder / "flight_3.las.json").unlink()
         self.fails(folder, "flight_3.las.json", "missing")
 
+    def test_of_numbers_that_are_no_uncertainties(self):
+        folder = self.copy()
+        las = LasFile(folder / "flight_2.las")
+        where = las.extra_dimensions()
+        for name, value in (("VarianceX", np.inf), ("total_tvu", 3e38), ("bias_vertical", -np.inf),
+                            ("CovarianceXY", np.nan), ("water_depth", np.nan)):
+            records = las.records.copy()
+            begin = where[name][0]
+            records[:, begin:begin + 4] = np.full(len(records), value, "<f4").view(np.uint8).reshape(-1, 4)
+            data = bytearray(las.bytes)
+            data[las.offset_to_points:las.end_of_points] = records.tobytes()
+            (folder / "flight_2.las").write_bytes(data)
+            made = self.folder / "made"
+            query("report", folder, "--output", made, "--no-page", "--overwrite", check=0)
+            report = json.loads((made / "report.json").read_text())
+            of_line = next(line for line in report["lines"] if line["line"] == 2)
+            if name in ("bias_vertical", "CovarianceXY"):
+                self.assertGreater(of_line["with_number"], 0, name)
+            else:
+                self.assertEqual(of_line["with_number"], 0, name)
+            query("crosscheck", folder, "--patch", 10, check=0)
+
     def test_of_a_file_that_was_changed(self):
         folder = self.copy()
         with (folder / "flight_3.las").open("ab") as file:

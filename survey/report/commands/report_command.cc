@@ -45,7 +45,10 @@ absl::StatusOr<ReportOptions> Options(const ReportCommandOptions& flags) {
     absl::StatusOr<Specification> wanted = FindSpecification(flags.specification);
     if (!wanted.ok()) return wanted.status();
     options.specification = wanted->name;
-    if (wanted->name != "s44") options.wanted_class = wanted->classes.front().name;
+    const bool has_class = std::ranges::any_of(wanted->classes, [&](const SpecificationClass& each) {
+      return wanted->name == "s44" && each.name == options.wanted_class;
+    });
+    if (!has_class) options.wanted_class = wanted->classes.front().name;
     std::erase_if(options.specifications,
                   [&](const Specification& each) { return each.name == wanted->name; });
     // S-44 stays first, because maps show its orders.
