@@ -130,5 +130,6 @@ def _truth(report: Report) -> str:
     if abs(factor["value"] - 1) < 0.1 and not check["guilty_share"]:
         return text + ", so that they agree with the prediction within 10 %."
     word = "small" if factor["value"] > 1 else "large"
-    guilty = f"; the share of the {check['guilty_share']} differs most" if check["guilty_share"] else ""
+    name = {"air": "air side", "sea": "sea surface"}.get(check["guilty_share"])
+    guilty = f"; that of the {name} differs most" if name else ""
     return text + f": the prediction is too {word}{guilty}."
