@@ -107,7 +107,8 @@ def _greatest(plan: Plan) -> str:
     unit = _text(plan["sea"]["unit"])
     rows = [[f"{each['depth']:g}", *(f"{each[order]:g}" if each[order] is not None else "–" for order in ORDERS)]
             for each in plan["greatest_sea"]]
-    return "<p class='soft'>–: not met, or deeper than a table answers.</p>" + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
+    note = "<p class='soft'>–: not met, or deeper than a table answers.</p>"
+    return note + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
 
 
 def _numbers(plan: Plan) -> str:
