@@ -17,7 +17,7 @@ struct PatchPoint {
   float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
   float variance_air = 0;     // Of the height: of pulse and line, without the sea.
   float variance_sea = 0;
-  // The other entries of the covariance of both, of which this part is that of the sea.
+  // The horizontal entries of the same covariance, m^2, and the sea's part of them (0 to 1).
   float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, sea_in_horizontal = 0;
   float depth = 0, incidence = 0;
   std::uint16_t line = 0;
