@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -56,7 +54,8 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
-constexpr float kGreatest = 1e6F;  // m or m^2; beyond, nothing is an uncertainty.
+constexpr double kLeastUnit = 1e-3, kGreatestUnit = 1e3;  // m
+constexpr float kGreatest = 1e6F;                         // m or m^2; beyond, nothing is an uncertainty.
 
 // Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
 bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
@@ -109,12 +108,11 @@ absl::StatusOr<AnnotatedLasFile> AnnotatedLasFile::Open(const fs::path& path) {
 
 absl::Status AnnotatedLasFile::ReadSummary() {
   const fs::path summary = SummaryPath(path_);
-  std::ifstream stream(summary, std::ios::binary);
-  if (!stream)
+  std::error_code error;
+  if (!fs::exists(summary, error))
     return absl::NotFoundError(absl::StrCat(path_.string(), ": its summary ", summary.string(),
                                             " is missing; keep it beside the file", kRemedy));
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  summary_ = Json::parse(text, nullptr, false);
+  summary_ = client::ReadSummary(summary);
   const Json total = IsOurs(summary_) ? summary_["answers"].value("total", Json()) : Json();
   const std::optional<Coverage> coverage =
       FindCoverage(total.is_object() && total.contains("coverage") && total["coverage"].is_string()
@@ -131,11 +129,20 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   may_lack_surface_ = (beams == "scan angle" || beams == "one angle") &&
                       summary_["answers"]["outcomes"].contains("NO_SURFACE");
   const Json classes = summary_["parameters"].value("classes", Json());
-  if (classes.is_array()) {
-    for (const Json& each : classes)
-      if (each.is_number_integer()) classes_.insert(each.get<int>());
+  if (!classes.is_null() && !classes.is_array())
+    return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
+  for (const Json& each : classes) {
+    if (!each.is_number_unsigned() || each >= kClassCount)
+      return Invalid(summary, absl::StrCat("has a class that LAS files cannot have", kRemedy));
+    classes_.insert(each.get<int>());
   }
   if (classes_.empty()) classes_ = {DefaultClass(reader_.header().point_format)};
+  const Json unit = summary_["parameters"].value("metres_per_unit", Json());
+  if (!unit.is_null() && !(unit.is_number() && unit >= kLeastUnit && unit <= kGreatestUnit))
+    return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
+  for (const auto& [outcome, count] : summary_["answers"]["outcomes"].items())
+    if (count > reader_.header().point_count)
+      return Invalid(summary, absl::StrCat("has more outcomes than the file has points", kRemedy));
   return absl::OkStatus();
 }
 
@@ -181,7 +188,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
       crs_name_ = "not understood";
     }
   }
-  if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number() && unit > 0)
+  if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number())
     metres_per_unit_ = metres_per_height_unit_ = unit.get<double>();
   return absl::OkStatus();
 }

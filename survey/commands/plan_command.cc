@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,7 +41,7 @@ struct PlanOptions {
   std::vector<double> winds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   std::vector<double> heights = {0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3};  // Of waves, m.
   std::string order = "1a", output;
-  bool json = false, no_page = false;
+  bool json = false, no_page = false, kds_told = false;
   Existing existing = Existing::kKeep;
 };
 
@@ -56,8 +57,10 @@ absl::StatusOr<TotalPlan> PlanOf(const SurveyDescription& survey) {
                             .decided = true});
 }
 
-// In rising order, each once.
+// In rising order, each once. What is too small for float32, in which tables are asked, is 0.
 std::vector<double> Rising(std::vector<double> values) {
+  for (double& value : values)
+    if (value < std::numeric_limits<float>::min()) value = 0;
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
@@ -96,6 +99,11 @@ class Planner {
       ++done_;
       shown.Reach(done_, done_);
     }
+    if (std::ranges::none_of(plan_.planned, [](const Reaches& reaches) { return reaches.back().is_known(); }))
+      return UsageError(
+          "plan: no table knows the planned beam over any of these seas; give another --incidence, "
+          "--altitude or "
+          "--divergence");
     return std::move(plan_);
   }
 
@@ -113,6 +121,9 @@ class Planner {
     if (sea_.has_waves() &&
         std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
       return UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
+    if (options_.kds_told && (!survey_.water.has_value() || survey_.water->without_column))
+      return UsageError(
+          "plan: --kds has no effect without the share of the water column; describe the water in --survey");
     const absl::StatusOr<Sensor> sensor = FindSensor(*survey_.sensor->name);
     if (!sensor.ok()) return sensor.status();
     absl::StatusOr<TotalPlan> total = PlanOf(survey_);
@@ -250,8 +261,11 @@ absl::Status RunPlan(const PlanOptions& options) {
   if (!sea.ok()) return sea.status();
   if (!options.output.empty() && !options.no_page)
     if (absl::Status status = CheckPageCanBeDrawn(); !status.ok()) return status;
-  if (!options.output.empty())
+  std::optional<NewFolder> folder;
+  if (!options.output.empty()) {
+    folder.emplace(options.output);
     if (absl::Status status = PrepareFolder(options.output, options.existing); !status.ok()) return status;
+  }
   absl::StatusOr<SurveyPlan> plan = Planner(options, *survey, *sea).Make();
   if (!plan.ok()) return plan.status();
   const nlohmann::ordered_json json = PlanJson(*plan);
@@ -298,7 +312,8 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   command->add_option("--order", options->order, "Order of S-44 that is asked for")
       ->check(OneOf(orders))
       ->capture_default_str();
-  command->add_option("--output", options->output, "Folder for plan.html and plan.json");
+  command->add_option("--output", options->output, "Folder for plan.html and plan.json")
+      ->check(NotEmpty("folder"));
   command->add_flag("--no-page", options->no_page, "Only plan.json, which needs no Python");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag_callback(
@@ -311,7 +326,10 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   EndHelp(*command, "Whether the laser sees the bottom at these depths is another question.",
           "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",
           "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
-  command->callback([options, &run] { run = [options] { return RunPlan(*options); }; });
+  command->callback([options, command, &run] {
+    options->kds_told = command->count("--kds") > 0;
+    run = [options] { return RunPlan(*options); };
+  });
 }
 
 }  // namespace albtpu::client

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr char kProgram[] = "albtpu-query";
-constexpr std::uint64_t kLargestSummary = 1 << 20;  // Bytes; ours have a few thousand.
-constexpr int kDeepestSummary = 8;                  // Levels; ours have 4.
+constexpr std::uint64_t kLargestSummary = 16 << 20;  // Bytes; ours have a few thousand for each line.
+constexpr int kDeepestSummary = 8;                   // Levels; ours have 4.
 
 Json TableJson(const TableSummary& table) {
   return {{"id", table.id}, {"version", table.version}, {"digest", table.digest}};
@@ -26,17 +26,6 @@ std::uint64_t SizeOf(const fs::path& path) {
   std::error_code ignored;
   const std::uintmax_t size = fs::file_size(path, ignored);
   return ignored ? 0 : size;
-}
-
-// An empty object if there is no readable summary. Values nested more deeply than in any summary of ours are dropped.
-Json ReadSummary(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
-  std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  const auto is_shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepestSummary; };
-  Json json = Json::parse(text, is_shallow, false);
-  return json.is_object() ? json : Json::object();
 }
 
 // "parameters.water_level is 0 there, 1 here" for the first value in `here` that differs in `there`; empty if none
@@ -98,6 +87,16 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
     }
   }
   return absl::OkStatus();
+}
+
+Json ReadSummary(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || SizeOf(path) > kLargestSummary) return Json::object();
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto is_shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepestSummary; };
+  Json json = Json::parse(text, is_shallow, false);
+  return json.is_object() ? json : Json::object();
 }
 
 Json ReadAnswers(const Job& job) { return ReadSummary(SummaryPath(job.output)).value("answers", Json()); }

@@ -43,6 +43,10 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
 // says what differs.
 absl::Status CheckComplete(const OutputSettings& settings, const Job& job);
 
+// A summary; an empty object if there is no readable one. Values that are nested more deeply than in any summary of
+// ours are dropped.
+nlohmann::ordered_json ReadSummary(const std::filesystem::path& path);
+
 // The answers that the summary of the output of `job` states; null if there are none.
 nlohmann::ordered_json ReadAnswers(const Job& job);
 

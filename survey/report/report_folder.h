@@ -22,6 +22,23 @@ bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedL
 // freed before the page is drawn.
 absl::Status WriteReport(SurveyReport report, bool with_page, const std::filesystem::path& folder);
 
+// Removes a folder that was not there when it was constructed, if nothing was written into it.
+class NewFolder {
+ public:
+  explicit NewFolder(std::filesystem::path folder)
+      : folder_(std::move(folder)), was_there_(std::filesystem::exists(folder_)) {}
+  ~NewFolder() {
+    std::error_code not_empty;
+    if (!was_there_) std::filesystem::remove(folder_, not_empty);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+  bool was_there_;
+};
+
 // The same for plan.json and plan.html of a planned survey.
 absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page,
                        const std::filesystem::path& folder);

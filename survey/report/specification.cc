@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
@@ -12,6 +13,7 @@
 #include "absl/strings/str_replace.h"
 #include "command_line/near_match.h"
 #include "command_line/one_line.h"
+#include "survey/answers/batch.h"
 #include "survey/toml/toml_keys.h"
 #include "tables/default_tables.h"
 
@@ -87,6 +89,21 @@ absl::Status NotInstalled() {
 
 double Limit::At(double depth) const {
   return rss ? std::hypot(constant, of_depth * depth) : constant + of_depth * depth;
+}
+
+nlohmann::ordered_json LimitsJson(const Specification& specification) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"name", specification.name},
+               {"title", specification.title},
+               {"source", specification.source},
+               {"classes", Json::array()}};
+  for (const SpecificationClass& of : specification.classes) {
+    Json limits = Json::array({of.name, CoverageName(of.coverage)});
+    for (const auto& limit : {of.horizontal, of.vertical})
+      limits.push_back(limit.has_value() ? Json{limit->constant, limit->of_depth, limit->rss} : Json());
+    json["classes"].push_back(std::move(limits));
+  }
+  return json;
 }
 
 absl::StatusOr<Specification> ParseSpecification(std::string_view text) {

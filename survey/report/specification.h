@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,9 @@ struct Specification {
   std::string source;  // The document.
   std::vector<SpecificationClass> classes;
 };
+
+// All of it, compact: what a report was made by.
+nlohmann::ordered_json LimitsJson(const Specification& specification);
 
 // Fails on the first problem of the text, with its line.
 //

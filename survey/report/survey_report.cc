@@ -159,6 +159,11 @@ class Reporter {
         if (outcome != "INTERPOLATED" && count.is_number_unsigned())
           counts[outcome] += count.get<std::uint64_t>();
     }
+    // Points of ours have all their reasons in the summaries; others may not.
+    std::uint64_t named = 0;
+    for (const auto& [outcome, count] : counts) named += count;
+    const std::uint64_t without = all_.points() - all_.with_number();
+    if (named < without) counts["UNKNOWN"] = without - named;
     return counts.empty() ? Json::object() : Json(counts);
   }
 
@@ -252,7 +257,8 @@ class Reporter {
       const Json numbers = NumbersOf(file.summary());
       for (const auto& [name, number] : numbers.items()) {
         Json json = {{"name", name}};
-        if (number.is_object()) json.update(number);
+        for (const char* const key : {"value", "source", "assumed"})
+          if (number.is_object() && number.contains(key)) json[key] = number[key];
         if (seen.insert(json.dump()).second) list.push_back(std::move(json));
       }
     }
@@ -318,7 +324,7 @@ nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, cons
                {"pass_share", options.pass_share},
                {"specifications", Json::array()},
                {"files", Json::array()}};
-  for (const Specification& each : options.specifications) json["specifications"].push_back(each.name);
+  for (const Specification& each : options.specifications) json["specifications"].push_back(LimitsJson(each));
   for (const AnnotatedLasFile& file : files) {
     json["files"].push_back(
         {{"name", file.path().filename().string()}, {"bytes", file.reader().file_size()}});

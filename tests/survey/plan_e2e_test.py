@@ -134,6 +134,9 @@ class Plan(programs.Test):
                                   ((*DRY, "--order", "3"), "1a"),
                                   ((*DRY, "--winds", "a"), "--winds"),
                                   ((*DRY, "--altitude", 0), "from 10 to 5000 m"),
+                                  ((*DRY, "--kds", 0.1), "--kds has no effect"),
+                                  ((*DRY, "--incidence", 60), "no table knows the planned beam"),
+                                  ((*DRY, "--output", ""), "--output"),
                                   ((*DRY, "--sea", "buoy.txt"), "--hs")):
             self.assert_fails(query("plan", "--table", self.table, *arguments), 2, *parts)
         output = self.folder / "full"

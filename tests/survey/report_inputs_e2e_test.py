@@ -134,6 +134,38 @@ class BadInput(Report):
         (folder / "flight_3.las.json").unlink()
         self.fails(folder, "flight_3.las.json", "missing")
 
+    def test_of_summaries_that_lie(self):
+        def nested(summary):
+            for _ in range(100):
+                summary["input"]["sea"] = [summary["input"].get("sea")]
+
+        # What is nested more deeply than ours is not read.
+        query("report", self.edit(nested), "--output", self.folder / "nested", "--no-page", check=0)
+        shutil.rmtree(self.folder / "copy")
+        for change, part in ((lambda of: of["parameters"].update(metres_per_unit=1e300), "metres_per_unit"),
+                             (lambda of: of["parameters"].update(metres_per_unit="m"), "metres_per_unit"),
+                             (lambda of: of["parameters"].update(classes="40"), "no list"),
+                             (lambda of: of["parameters"].update(classes=[1e300]), "has a class"),
+                             (lambda of: of["answers"]["outcomes"].update(NO_SURFACE=2**63), "more outcomes"),
+                             (lambda of: of.pop("table"), "is no summary of a total")):
+            self.fails(self.edit(change), "flight_2.las.json", part)
+            self.assertFalse((self.folder / "nothing").exists())
+            shutil.rmtree(self.folder / "copy")
+        text = (self.annotated / "flight_2.las.json").read_text()
+        folder = self.copy()
+        (folder / "flight_2.las.json").write_text(text.replace('"input": {', '"input": {"x": ' + "[" * 500_000, 1))
+        self.fails(folder, "flight_2.las.json", "is no summary of a total")
+
+    def test_leaves_no_folder_where_it_fails(self):
+        self.fails(self.annotated, "the grid is too large", flags=("--cell", 0.01))
+        self.assertFalse((self.folder / "nothing").exists())
+
+    def test_of_a_specification_with_the_name_of_another(self):
+        own = self.folder / "s44.toml"
+        own.write_text("title = 'T'\nsource = 'S'\n[[class]]\nname = 'a'\ncoverage = 'p95'\n"
+                       "vertical = {constant = 1}\n")
+        self.fails(self.annotated, "another name", flags=("--spec", own))
+
     def test_of_numbers_that_are_no_uncertainties(self):
         folder = self.copy()
         las = LasFile(folder / "flight_2.las")

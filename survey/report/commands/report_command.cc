@@ -45,10 +45,15 @@ absl::StatusOr<ReportOptions> Options(const ReportCommandOptions& flags) {
     absl::StatusOr<Specification> wanted = FindSpecification(flags.specification);
     if (!wanted.ok()) return wanted.status();
     options.specification = wanted->name;
-    const bool has_class = std::ranges::any_of(wanted->classes, [&](const SpecificationClass& each) {
-      return wanted->name == "s44" && each.name == options.wanted_class;
-    });
-    if (!has_class) options.wanted_class = wanted->classes.front().name;
+    const bool own =
+        flags.specification.ends_with(".toml") || flags.specification.find('/') != std::string::npos;
+    if (own && std::ranges::any_of(options.specifications,
+                                   [&](const Specification& each) { return each.name == wanted->name; })) {
+      return absl::InvalidArgumentError(absl::StrCat(flags.specification, ": ", wanted->name,
+                                                     " is the name of an installed specification; give the "
+                                                     "file another name"));
+    }
+    if (wanted->name != "s44") options.wanted_class = wanted->classes.front().name;
     std::erase_if(options.specifications,
                   [&](const Specification& each) { return each.name == wanted->name; });
     // S-44 stays first, because maps show its orders.
@@ -83,6 +88,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
     return absl::OkStatus();
   }
   const Existing existing = flags.resume ? Existing::kReplace : flags.existing;
+  const NewFolder folder(flags.output);
   if (absl::Status status = PrepareFolder(flags.output, existing); !status.ok()) return status;
   absl::StatusOr<SurveyReport> report = MakeReport(*files, *options);
   if (!report.ok()) return report.status();
@@ -104,7 +110,8 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
                    "Folder that albtpu-query las --details wrote, or a file in it")
       ->required();
   command->add_option("--output", options->output, "Folder for report.html, report.json and grid.nc")
-      ->required();
+      ->required()
+      ->check(NotEmpty("folder"));
   command->add_option("--cell", options->cell, "Side of the cells of the grid [m]")
       ->check(NumberIn(0.01, 10000, "m"))
       ->capture_default_str();
@@ -112,8 +119,10 @@ void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run) {
   for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
   command->add_option("--s44-order", options->s44_order, "Order of S-44 that was asked for (default: 1b)")
       ->check(OneOf(orders));
-  command->add_option("--spec", options->specification,
-                      "Another specification: s44, catzoc, noaa, usgs, asprs or the path of a TOML file");
+  command
+      ->add_option("--spec", options->specification,
+                   "Another specification: s44, catzoc, noaa, usgs, asprs or the path of a TOML file")
+      ->check(NotEmpty("specification"));
   command->add_option("--class", options->wanted_class,
                       "Class of --spec that was asked for (default: its first)");
   command->add_option("--pass", options->pass_share, "Share of the points that must meet it [%]")

@@ -12,6 +12,7 @@ OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "NO_SEA": "no state of the sea at their time",
             "ABOVE_WATER": "they lie above the water",
             "NO_WATER": "beyond what the optics of the water answer",
+            "UNKNOWN": "for a reason that the summaries do not name",
             "INVALID": "numbers that are not valid"}
 
 REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration): better numbers for its sensor, or a"
