@@ -1,5 +1,6 @@
 #include "command_line/checks.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <optional>

@@ -1,9 +1,10 @@
 // What several programs check alike about the value of an option. Each answers with what is wrong, as CLI11 asks for.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "command_line/cli_fwd.h"
 
 namespace albtpu {
 

@@ -1,5 +1,6 @@
 #include "command_line/help.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <utility>
 

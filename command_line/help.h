@@ -1,10 +1,11 @@
 // What --help and --version print.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "command_line/cli_fwd.h"
 
 namespace albtpu {
 

@@ -1,5 +1,6 @@
 #include "command_line/usage_error.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <vector>

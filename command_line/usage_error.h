@@ -1,8 +1,9 @@
 // What to say about arguments that a program does not take.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "command_line/cli_fwd.h"
 
 namespace albtpu {
 

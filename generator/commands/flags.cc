@@ -1,5 +1,6 @@
 #include "generator/commands/flags.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdint>

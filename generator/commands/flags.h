@@ -1,7 +1,7 @@
 // Flags of more than one command of albtpu-generate.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line/cli_fwd.h"
 
 namespace albtpu {
 

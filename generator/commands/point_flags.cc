@@ -1,5 +1,6 @@
 #include "generator/commands/point_flags.h"
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>

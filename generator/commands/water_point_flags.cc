@@ -1,5 +1,6 @@
 #include "generator/commands/water_point_flags.h"
 
+#include <CLI/CLI.hpp>
 #include <limits>
 #include <string>
 

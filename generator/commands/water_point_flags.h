@@ -1,8 +1,7 @@
 // The flags of albtpu-generate water-point.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/cli_fwd.h"
 #include "generator/commands/commands.h"
 
 namespace albtpu {

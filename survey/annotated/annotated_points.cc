@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -112,23 +113,24 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   if (!fs::exists(summary, error))
     return absl::NotFoundError(absl::StrCat(path_.string(), ": its summary ", summary.string(),
                                             " is missing; keep it beside the file", kRemedy));
-  summary_ = client::ReadSummary(summary);
-  const Json total = IsOurs(summary_) ? summary_["answers"].value("total", Json()) : Json();
+  const Json read = client::ReadSummary(summary);
+  summary_ = std::make_shared<const Json>(read);
+  const Json total = IsOurs(read) ? read["answers"].value("total", Json()) : Json();
   const std::optional<Coverage> coverage =
       FindCoverage(total.is_object() && total.contains("coverage") && total["coverage"].is_string()
                        ? total["coverage"].get<std::string>()
                        : std::string());
   if (!coverage.has_value()) return Invalid(summary, absl::StrCat("is no summary of a total", kRemedy));
   coverage_ = *coverage;
-  const Json size = summary_["output"].value("bytes", Json());
+  const Json size = read["output"].value("bytes", Json());
   if (size != reader_.file_size()) {
     return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ",
                                        size.dump(), " (the file was changed later)", kRemedy));
   }
-  const Json beams = summary_["parameters"].value("incidence_from", Json());
-  may_lack_surface_ = (beams == "scan angle" || beams == "one angle") &&
-                      summary_["answers"]["outcomes"].contains("NO_SURFACE");
-  const Json classes = summary_["parameters"].value("classes", Json());
+  const Json beams = read["parameters"].value("incidence_from", Json());
+  may_lack_surface_ =
+      (beams == "scan angle" || beams == "one angle") && read["answers"]["outcomes"].contains("NO_SURFACE");
+  const Json classes = read["parameters"].value("classes", Json());
   if (!classes.is_null() && !classes.is_array())
     return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
   for (const Json& each : classes) {
@@ -137,10 +139,10 @@ absl::Status AnnotatedLasFile::ReadSummary() {
     classes_.insert(each.get<int>());
   }
   if (classes_.empty()) classes_ = {DefaultClass(reader_.header().point_format)};
-  const Json unit = summary_["parameters"].value("metres_per_unit", Json());
+  const Json unit = read["parameters"].value("metres_per_unit", Json());
   if (!unit.is_null() && !(unit.is_number() && unit >= kLeastUnit && unit <= kGreatestUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
-  for (const auto& [outcome, count] : summary_["answers"]["outcomes"].items())
+  for (const auto& [outcome, count] : read["answers"]["outcomes"].items())
     if (count > reader_.header().point_count)
       return Invalid(summary, absl::StrCat("has more outcomes than the file has points", kRemedy));
   return absl::OkStatus();
@@ -169,7 +171,7 @@ absl::Status AnnotatedLasFile::FindFloats() {
 absl::Status AnnotatedLasFile::FindCrs() {
   const absl::StatusOr<CrsDescription> description = DescribeCrs(reader_);
   if (!description.ok()) return description.status();
-  const Json& parameters = summary_["parameters"];
+  const Json& parameters = (*summary_)["parameters"];
   CrsDescription crs = *description;
   if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
   if (!crs.empty()) {
@@ -194,7 +196,7 @@ absl::Status AnnotatedLasFile::FindCrs() {
 }
 
 std::string AnnotatedLasFile::table_digest() const {
-  const Json table = summary_.value("table", Json());
+  const Json table = summary_->value("table", Json());
   const Json digest = table.is_object() ? table.value("digest", Json()) : Json();
   return digest.is_string() ? digest.get<std::string>() : "";
 }

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <span>
 #include <string>
@@ -50,7 +51,7 @@ class AnnotatedLasFile {
   static absl::StatusOr<AnnotatedLasFile> Open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
-  const nlohmann::ordered_json& summary() const { return summary_; }
+  const nlohmann::ordered_json& summary() const { return *summary_; }
   const LasReader& reader() const { return reader_; }
   Coverage coverage() const { return coverage_; }
   std::string table_digest() const;
@@ -71,7 +72,7 @@ class AnnotatedLasFile {
 
   std::filesystem::path path_;
   LasReader reader_;
-  nlohmann::ordered_json summary_;
+  std::shared_ptr<const nlohmann::ordered_json> summary_;
   Coverage coverage_ = Coverage::kTwoSigma;
   std::set<int> classes_;
   bool may_lack_surface_ = false;     // Of points whose beams are told by angles.

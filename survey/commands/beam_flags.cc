@@ -1,4 +1,5 @@
 // The flags of BeamOptions and how their texts are read.
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 

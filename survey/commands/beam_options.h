@@ -1,7 +1,6 @@
 // The options that say where each beam went, how wide it is and where the water surface is.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <optional>
 #include <set>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "command_line/cli_fwd.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/commands/options.h"
 

@@ -1,10 +1,10 @@
 // The commands of albtpu-query. Each adds its options to the program and sets `run` if it is the command given.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "absl/status/status.h"
+#include "command_line/cli_fwd.h"
 
 namespace albtpu::client {
 

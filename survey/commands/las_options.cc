@@ -1,5 +1,6 @@
 #include "survey/commands/las_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>

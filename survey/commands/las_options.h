@@ -1,12 +1,12 @@
 // The options of `albtpu-query las`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 
 #include "absl/status/statusor.h"
+#include "command_line/cli_fwd.h"
 #include "survey/commands/beam_options.h"
 #include "survey/commands/options.h"
 #include "survey/commands/sea_options.h"

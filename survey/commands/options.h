@@ -2,11 +2,11 @@
 // CLI::ValidationError while arguments are parsed: bad usage, exit 2.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
+#include "command_line/cli_fwd.h"
 #include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
 #include "survey/csv/pulse_inputs.h"

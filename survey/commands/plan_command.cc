@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -144,7 +145,8 @@ class Planner {
     plan_.sea_name = waves ? "significant_wave_height" : "wind_speed";
     plan_.sea_unit = waves ? "m" : "m/s";
     plan_.seas = Rising(waves ? options_.heights : options_.winds);
-    plan_.conditions = {{"altitude", options_.altitude}, {"incidence", options_.incidence}};
+    plan_.altitude = options_.altitude;
+    plan_.incidence = options_.incidence;
     plan_.numbers = planned_.numbers;
     std::vector<double> incidences = Rising(options_.incidences);
     if (!waves) {

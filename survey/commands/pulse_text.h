@@ -1,7 +1,7 @@
 // The answer for one pulse, for people and for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -31,6 +31,6 @@ std::string PulseText(const PulseAnswer& answer, const TableSummary& table, cons
 // `*_interpolation_error_rms` and `*_interpolation_error_percentile_99` (fractions). Null where there is no number; so
 // is the fetch of a fully developed sea. Over any sea wind_speed and fetch are null, and the members of `sea` follow.
 std::string PulseJson(const PulseAnswer& answer, const TableSummary& table,
-                      const nlohmann::ordered_json& sea = nlohmann::ordered_json::object());
+                      const nlohmann::ordered_json& sea);
 
 }  // namespace albtpu::client

@@ -1,13 +1,13 @@
 // The flags that say which sea there is, and what answers for it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "command_line/cli_fwd.h"
 #include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
 #include "survey/csv/pulse_inputs.h"

@@ -1,5 +1,6 @@
 #include "survey/commands/total_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <vector>
 

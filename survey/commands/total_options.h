@@ -1,11 +1,11 @@
 // The flags of the total uncertainty, and what a survey file says in place of flags.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "command_line/cli_fwd.h"
 #include "survey/answers/batch.h"
 #include "survey/description/survey_description.h"
 #include "survey/totals/plan_total.h"

@@ -1,5 +1,6 @@
 #include "survey/las/las_beams.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -64,6 +65,10 @@ TrackedFile FileOf(const LasReader& reader, const LasPlace& place, const LasPres
 
 }  // namespace
 
+LasBeams::LasBeams() : json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::object())) {}
+
+LasBeams::~LasBeams() = default;
+
 absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
@@ -80,7 +85,7 @@ absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, 
   if (!track.ok()) return track.status();
   track_ = std::move(track->track);
   motions_ = std::move(track->motions);
-  json_["trajectory"] = std::move(track->json);
+  (*json_)["trajectory"] = std::move(track->json);
   notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
     notes_.push_back(

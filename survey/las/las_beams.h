@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +20,7 @@ namespace albtpu::client {
 
 class LasBeams {
  public:
+  ~LasBeams();
   // Reads the file once where surface returns or a trajectory are wanted. `annotation` must outlive the result.
   static absl::StatusOr<std::unique_ptr<LasBeams>> Find(const LasReader& reader,
                                                         const LasAnnotation& annotation);
@@ -31,11 +32,11 @@ class LasBeams {
   // The first and the last record of the sea between which the chosen points lie; where there is a sea.
   const std::pair<std::size_t, std::size_t>& records() const { return records_; }
 
-  nlohmann::ordered_json Json() const { return json_; }
+  const nlohmann::ordered_json& Json() const { return *json_; }
   std::vector<std::string> Notes() const { return notes_; }
 
  private:
-  LasBeams() = default;
+  LasBeams();
   void NoteLevel();  // Where most returns from the surface lie far from the level.
   absl::Status FindSeas(const LasReader& reader, const SeaTimeline& seas);
   absl::Status FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
@@ -48,7 +49,7 @@ class LasBeams {
   std::optional<BeamGeometry> geometry_;
   double utc_ = 0;
   std::pair<std::size_t, std::size_t> records_;
-  nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
+  std::unique_ptr<nlohmann::ordered_json> json_;
   std::vector<std::string> notes_;
 };
 

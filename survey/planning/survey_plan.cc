@@ -1,6 +1,7 @@
 #include "survey/planning/survey_plan.h"
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -52,7 +53,7 @@ Json PlanJson(const SurveyPlan& plan) {
                {"order", std::string(Name(plan.order))},
                {"sea", {{"name", plan.sea_name}, {"unit", plan.sea_unit}}},
                {"seas", plan.seas},
-               {"conditions", plan.conditions},
+               {"conditions", {{"altitude", plan.altitude}, {"incidence", plan.incidence}}},
                {"planned", Json::array()},
                {"greatest_sea", Json::array()},
                {"axes", Json::array()},
@@ -86,8 +87,8 @@ Json PlanJson(const SurveyPlan& plan) {
 std::string PlanText(const SurveyPlan& plan) {
   const std::string sea = absl::StrReplaceAll(plan.sea_name, {{"_", " "}});
   std::string text = absl::StrCat("depth in m down to which each order of S-44 is met, by ", sea, ";");
-  for (const auto& [name, value] : plan.conditions.items())
-    absl::StrAppend(&text, " ", absl::StrReplaceAll(name, {{"_", " "}}), " ", value.dump());
+  absl::StrAppend(&text, " altitude ", Json(plan.altitude).dump(), " incidence ",
+                  Json(plan.incidence).dump());
   absl::StrAppendFormat(&text, "\n%10s", plan.sea_unit);
   for (const S44Order order : kS44Orders) absl::StrAppendFormat(&text, "%11s", std::string(Name(order)));
   absl::StrAppendFormat(&text, "  limit of %s\n", std::string(Name(plan.order)));

@@ -1,7 +1,7 @@
 // What a flight can reach, over the sea and each of the conditions that a planner chooses.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +23,8 @@ struct SurveyPlan {
   std::vector<double> seas;
   std::vector<Reaches> planned;  // By sea, under the planned conditions.
   std::vector<PlannedAxis> axes;
-  nlohmann::ordered_json conditions;  // That are planned: name to value.
-  std::vector<StatedNumber> numbers;  // Of the total, with their sources.
+  double altitude = 0, incidence = 0;  // The planned conditions: m, degree.
+  std::vector<StatedNumber> numbers;   // Of the total, with their sources.
 };
 
 // The greatest sea of `plan` at which the order is met from 0 to `depth` under planned conditions, and at all lesser

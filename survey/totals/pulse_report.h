@@ -1,7 +1,7 @@
 // The total uncertainty of one pulse: every share and source, to see what decides.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

@@ -1,5 +1,7 @@
 #include "survey/totals/total_plan.h"
 
+#include <nlohmann/json.hpp>
+
 #include "absl/strings/str_cat.h"
 
 namespace albtpu::client {

@@ -1,5 +1,7 @@
 #include "service/server/access/credential_flags.h"
 
+#include <CLI/CLI.hpp>
+
 #include "absl/strings/str_cat.h"
 #include "command_line/checks.h"
 #include "command_line/help.h"

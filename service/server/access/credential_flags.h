@@ -1,9 +1,8 @@
 // --tls-cert, --tls-key, --tls-client-ca, --token-file and --insecure.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "absl/status/status.h"
+#include "command_line/cli_fwd.h"
 #include "service/server/access/credentials.h"
 #include "service/server/ground/listen_address.h"
 

@@ -2,10 +2,10 @@
 // command given.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "absl/status/status.h"
+#include "command_line/cli_fwd.h"
 
 namespace albtpu::client {
 

@@ -28,7 +28,9 @@ class PulseTextTest : public ::testing::Test {
                               pulse.footprint,  pulse.depth};
     return AskPulse(fixed, style_, source_).value();
   }
-  Json JsonOf(const Pulse& pulse) { return Json::parse(PulseJson(Ask(pulse), source_.table())); }
+  Json JsonOf(const Pulse& pulse) {
+    return Json::parse(PulseJson(Ask(pulse), source_.table(), Json::object()));
+  }
   std::string TextOf(const Pulse& pulse) { return PulseText(Ask(pulse), source_.table()); }
 
   LocalSource source_{"", SyntheticTable()};
@@ -53,7 +55,7 @@ TEST_F(PulseTextTest, HasTheColumnNamesOfCsvAndTheTable) {
 
 TEST_F(PulseTextTest, PrintsNumbersWithTheDigitsOfCsv) {
   const PulseUncertainty answer = albtpu::testing::QueryPulse(source_, kPulse);
-  EXPECT_THAT(PulseJson(Ask(kPulse), source_.table()),
+  EXPECT_THAT(PulseJson(Ask(kPulse), source_.table(), Json::object()),
               HasSubstr("\"thu\": " + FormatFloat(answer[Quantity::kThu]) + ",\n"));
 }
 
@@ -114,7 +116,7 @@ TEST_F(PulseTextTest, StatesTheInterpolationErrorBesideTheStandardErrors) {
 }
 
 TEST_F(PulseTextTest, AddsTheInterpolationErrorToJsonAsFractions) {
-  const Json json = Json::parse(PulseJson(Ask(kPulse), Checked()));
+  const Json json = Json::parse(PulseJson(Ask(kPulse), Checked(), Json::object()));
   EXPECT_EQ(json.at("thu_interpolation_error_rms"), 0.002761);
   EXPECT_EQ(json.at("thu_interpolation_error_percentile_99"), 0.0112);
   EXPECT_TRUE(json.at("refraction_along_wind_interpolation_error_rms").is_null());
