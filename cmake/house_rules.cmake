@@ -21,15 +21,63 @@ function(albtpu_sanitize target)
   endif()
 endfunction()
 
+# Warnings are errors for developers; others may have a compiler that warns of more.
+option(ALBTPU_WERROR "Treat warnings as errors" OFF)
+
 # Compile options of all our own code; to be called once for each target.
 function(albtpu_target target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${ALBTPU_WERROR}>:-Werror>)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
+  # At the end of the folder it is known whether the target is a test or position-independent.
+  cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompiled_headers ${target})")
 endfunction()
 
-# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way.
+# What most files include, compiled once for all targets that are compiled alike: it is half of the time of a short
+# file. A group is an object library without code; REUSE_FROM asks for the same options.
+#   albtpu_precompiled_group(NAME OPTIONS ... HEADERS ... LIBRARIES ...)
+function(albtpu_precompiled_group name)
+  cmake_parse_arguments(ARG "" "" "OPTIONS;HEADERS;LIBRARIES" ${ARGN})
+  if(TARGET ${name})
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cc)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${ALBTPU_WERROR}>:-Werror>
+    -pthread ${ARG_OPTIONS})
+  albtpu_sanitize(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE
+    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
+    <string_view> <utility> <vector> <absl/status/statusor.h> <absl/strings/str_cat.h> <absl/strings/str_format.h>
+    ${ARG_HEADERS})
+endfunction()
+
+function(albtpu_precompiled_headers target)
+  get_target_property(is_test ${target} ALBTPU_TEST_OPTIONS)
+  get_target_property(relocatable ${target} POSITION_INDEPENDENT_CODE)
+  if(NOT is_test STREQUAL "is_test-NOTFOUND")
+    string(MAKE_C_IDENTIFIER "albtpu_test_headers${is_test}" group)
+    albtpu_precompiled_group(${group} OPTIONS ${is_test} HEADERS <gmock/gmock.h> <gtest/gtest.h>
+      LIBRARIES GTest::gmock GTest::gtest_main)
+  elseif(relocatable)
+    set(group albtpu_package_headers)
+    albtpu_precompiled_group(${group})
+    set_target_properties(${group} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    set(group albtpu_headers)
+    albtpu_precompiled_group(${group})
+  endif()
+  target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
+  target_precompile_headers(${target} REUSE_FROM ${group})
+endfunction()
+
+# Installs a program. In the build tree it is in bin/ as well, so that it finds share/ the same way. CLI11's header costs
+# 3 s a file for the objects that it defines, so that files are compiled several at a time.
 function(albtpu_program target)
+  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
@@ -48,28 +96,27 @@ function(albtpu_kernels target scope)
   target_link_libraries(${target} ${scope} hwy::hwy)
 endfunction()
 
-# What every test includes, compiled once for all of them: a quarter of the time of a test's file goes into it.
-function(albtpu_reuse_test_headers target)
-  if(NOT TARGET albtpu_test_headers)
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cc CONTENT "")
-    add_library(albtpu_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cc)
-    albtpu_target(albtpu_test_headers)
-    target_compile_options(albtpu_test_headers PRIVATE -pthread)
-    target_link_libraries(albtpu_test_headers PRIVATE GTest::gmock GTest::gtest_main)
-    target_precompile_headers(albtpu_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
-  endif()
-  target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
-  target_precompile_headers(${target} REUSE_FROM albtpu_test_headers)
-endfunction()
-
-# A GoogleTest program, whose tests are registered with CTest under one label:
+# A GoogleTest program, registered with CTest under one label:
 #   albtpu_test(NAME LABEL SOURCES ... LIBRARIES ...)
+# It is one test of CTest: most of its tests take milliseconds, and to start it takes longer. Those of `validation` take
+# seconds and are registered one by one, to run beside each other. Others run for less time than the optimization of
+# their own code takes; the libraries under test are as released.
 function(albtpu_test name label)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   albtpu_target(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  albtpu_reuse_test_headers(${name})
-  include(GoogleTest)
-  gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_TIMEOUT 60)
+  set(options "")
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT label STREQUAL "validation")
+    set(options -O1)
+  endif()
+  target_compile_options(${name} PRIVATE ${options})
+  set_target_properties(${name} PROPERTIES ALBTPU_TEST_OPTIONS "${options}")
+  if(label STREQUAL "validation")
+    include(GoogleTest)
+    gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_TIMEOUT 60)
+  else()
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${label})
+  endif()
 endfunction()
