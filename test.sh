@@ -2,8 +2,9 @@
 # Installs missing packages, builds everything and runs every test. The closing lines name what was not built and which
 # tests were skipped, and why; CTest's summary comes last.
 #
-# Usage: test.sh [--aarch64] [--containers] [--fuzz] [--sanitizers] [--soak]
+# Usage: test.sh [--aarch64] [--bench] [--containers] [--fuzz] [--sanitizers] [--soak]
 #   --aarch64      also run the kernels' tests on that architecture, emulated
+#   --bench        also run each benchmark once and briefly; they are built in any case
 #   --containers   also test the images with podman or docker, and the Slurm and Kubernetes jobs
 #   --fuzz         also run every fuzz target for one minute (installs clang, 400 MB); tests/fuzz/run.sh runs longer
 #   --sanitizers   also run the tests under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer
@@ -13,7 +14,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source ./packages.sh
 
 declare -A optional_runs=(
-  [aarch64]=tests/generator/aarch64.sh [containers]=tests/e2e/containers.sh [fuzz]="tests/fuzz/run.sh 60"
+  [aarch64]=tests/generator/aarch64.sh [bench]="ctest --preset release --label-regex ^bench$"
+  [containers]=tests/e2e/containers.sh [fuzz]="tests/fuzz/run.sh 60"
   [sanitizers]=tests/sanitizers/run.sh [soak]=tests/faults/soak.sh)
 requested=()
 for flag in "$@"; do
@@ -37,15 +39,15 @@ PATH+=:$PWD/$tools/usr/bin
 
 echo "== Building"
 cmake --preset release >/dev/null
-cmake --build --preset release -j "$(nproc)"
+cmake --build --preset release -j "$(nproc)" --target all benchmarks
 
 echo "== Testing"
 log=build/release/test.log
 results=build/release/test.xml
 status=0
 # Many tests wait for servers and clients more than they compute.
-ctest --preset release --parallel $(($(nproc) + 1)) --output-junit "$PWD/$results" --test-output-size-passed 1000000 \
-  | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
+ctest --preset release --label-exclude "^bench$" --parallel $(($(nproc) + 1)) --output-junit "$PWD/$results" \
+  --test-output-size-passed 1000000 | tee "$log" | sed -u '/% tests passed/,$d' || status=$?
 
 for name in "${requested[@]}"; do
   if ! ${optional_runs[$name]} 2>&1 | tee "build/release/$name.log"; then
