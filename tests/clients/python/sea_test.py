@@ -14,7 +14,7 @@ import unittest
 import numpy as np
 
 import albtpu
-from albtpu import directional
+from albtpu import spectrum
 from albtpu.v1 import sea_pb2
 
 SEA_STATES = sys.argv[1]
@@ -131,17 +131,17 @@ class Directional(unittest.TestCase):
     def test_of_a_cosine_have_its_harmonics(self):
         directions = np.radians(np.arange(5, 365, 10))
         density = 0.3 * (1 + 2 * 0.4 * np.cos(2 * (directions - 1.1)))
-        bins = directional._direction_weights(directions) @ density / (2 * math.pi)
+        bins = spectrum._direction_weights(directions) @ density / (2 * math.pi)
         expected = 0.3 * np.array([1, 0.4 * math.cos(2.2), 0.4 * math.sin(2.2)] + 10 * [0])
         np.testing.assert_allclose(bins, expected, atol=1e-15)
 
     def test_keep_the_harmonics_that_the_directions_tell_apart(self):
         for count, harmonics in ((8, 1), (12, 2), (24, 5), (36, 6), (72, 6)):
-            weights = directional._direction_weights(np.linspace(0, 2 * np.pi, count, endpoint=False))
+            weights = spectrum._direction_weights(np.linspace(0, 2 * np.pi, count, endpoint=False))
             self.assertEqual(weights.shape, (1 + 2 * harmonics, count))
 
     def test_of_a_sector_weigh_its_ends_as_their_neighbours(self):
-        widths = directional._widths(np.radians([0, 10, 20, 30, 40, 50, 60, 70]))
+        widths = spectrum._widths(np.radians([0, 10, 20, 30, 40, 50, 60, 70]))
         np.testing.assert_allclose(widths, np.radians(10))
 
 

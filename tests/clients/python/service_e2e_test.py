@@ -16,7 +16,7 @@ import numpy as np
 
 import albtpu
 from albtpu.s44 import limits
-from albtpu.stream import ColumnStream
+from albtpu.calls import ColumnStream
 from random_pulses import pulses_of_all_kinds
 from serving import Server
 

@@ -12,9 +12,10 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .budget import BUDGET_QUANTITIES
 from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
                      TableNotFoundError, UnreachableError)
-from .schema import AXES, BUDGET_QUANTITIES, QUANTITIES
+from .schema import AXES, QUANTITIES
 from .sea import Sea
 from .source import UncertaintySource
 from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary

@@ -9,11 +9,10 @@ from typing import TypeVar
 
 from numpy.typing import ArrayLike
 
-from .names import refuse_unknown_keywords
+from .arguments import refuse_unknown_keywords
 from .progress import Progress, show_progress
 from .query import Query, read_query
 from .sea import Sea
-from .sides import fill_sides
 from .tables import Answered, Axis, Table, TableReference
 from .uncertainties import AnswerColumns, Uncertainties
 
@@ -75,8 +74,7 @@ class UncertaintySource(ABC):
         columns = AnswerColumns.for_query(query)
         with show_progress(query.size if progress else 0) as shown:
             answered = self._answer(query, columns, shown)
-        fill_sides(columns.outcome_sides, columns.outcomes, columns.outcome_axes, query.columns,
-                   lambda: self._axes(query, answered.table))
+        columns.fill_sides(query.columns, lambda: self._axes(query, answered.table))
         return Uncertainties(query, columns, answered)
 
     @abstractmethod
