@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import html
 import json
 import pathlib
 from typing import Any
 
 import numpy as np
 
-from .page import STYLE, table
-from .pictures import BLUE, GREEN, GREY, ORANGE, PURPLE, chart, image
+from .charts import BLUE, GREEN, GREY, ORANGE, ORDERS, PURPLE, chart, image
+from .markup import numbers_table, table, text, verdict_box, write_document
 
 Plan = dict[str, Any]
 
-ORDERS = ("exclusive", "special", "1a", "1b", "2")
 COLOURS = (PURPLE, GREEN, BLUE, ORANGE, GREY)
 ENDS = {"table": "the table of the sea ends there", "water": "the table of the water column ends there"}
 
@@ -23,18 +21,11 @@ def write_plan(folder: pathlib.Path) -> None:
     """Makes plan.html in a folder that has plan.json."""
     plan: Plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
     pictures = "".join([_by_sea(plan), *(_over(plan, axis) for axis in plan["axes"])])
-    body = (f"<h1>Plan: how deep can S-44 order {_text(plan['order'])} be met?</h1>{_answer(plan)}"
-            f"<div class='pictures'>{pictures}</div>"
-            f"<h2>How much {_text(_words(plan))} may there be?</h2>{_greatest(plan)}"
-            f"<h2>Numbers and assumptions</h2>{_numbers(plan)}")
-    page = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f"<title>Plan of a survey</title><style>{STYLE}</style></head><body>{body}</body></html>\n")
-    (folder / "plan.html").write_text(page, encoding="utf-8")
-
-
-def _text(value: object) -> str:
-    return html.escape(str(value))
+    write_document(folder / "plan.html", "Plan of a survey", (
+        f"<h1>Plan: how deep can S-44 order {text(plan['order'])} be met?</h1>{_answer(plan)}"
+        f"<div class='pictures'>{pictures}</div>"
+        f"<h2>How much {text(_words(plan))} may there be?</h2>{_greatest(plan)}"
+        f"<h2>Numbers and assumptions</h2>{numbers_table(plan['numbers'])}"))
 
 
 def _words(plan: Plan) -> str:
@@ -48,19 +39,18 @@ def _conditions(plan: Plan) -> str:
 def _answer(plan: Plan) -> str:
     unit, order = plan["sea"]["unit"], plan["order"]
     met = [each for each in plan["greatest_sea"] if each[order] is not None]
-    items = [f"<li>down to {each['depth']:g} m: up to {each[order]:g} {_text(unit)}"
-             f"{' (the most that was asked about)' if each[order] == plan['seas'][-1] else ''}</li>" for each in met]
+    items = [f"down to {each['depth']:g} m: up to {each[order]:g} {text(unit)}"
+             f"{' (the most that was asked about)' if each[order] == plan['seas'][-1] else ''}" for each in met]
     none = [each["depth"] for each in plan["greatest_sea"] if each[order] is None]
     calmest = plan["planned"][0]
     end = ENDS.get(calmest["limited_by"][order])
     if none and end:
-        items.append(f"<li>deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}</li>")
+        items.append(f"deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}")
     elif none:
-        items.append(f"<li>down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {_text(unit)} or more</li>")
-    kind = "pass" if met else "fail"
-    return (f'<div class="verdict {kind}"><b>Order {_text(order)} at {_conditions(plan)}</b><ul>{"".join(items)}</ul>'
-            "</div><p class='soft'>All shares of the uncertainty count, at 95 %, and the biases. Whether the laser sees"
-            " the bottom at these depths is another question.</p>")
+        items.append(f"down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {text(unit)} or more")
+    return verdict_box(bool(met), f"Order {order} at {_conditions(plan)}", items) + (
+        "<p class='soft'>All shares of the uncertainty count, at 95 %, and the biases. Whether the laser sees"
+        " the bottom at these depths is another question.</p>")
 
 
 def _by_sea(plan: Plan) -> str:
@@ -104,15 +94,8 @@ def _over(plan: Plan, axis: dict[str, Any]) -> str:
 
 
 def _greatest(plan: Plan) -> str:
-    unit = _text(plan["sea"]["unit"])
+    unit = text(plan["sea"]["unit"])
     rows = [[f"{each['depth']:g}", *(f"{each[order]:g}" if each[order] is not None else "–" for order in ORDERS)]
             for each in plan["greatest_sea"]]
     note = "<p class='soft'>–: not met, or deeper than a table answers.</p>"
     return note + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
-
-
-def _numbers(plan: Plan) -> str:
-    rows = [[_text(each["name"].replace("_", " ")), _text(each["value"]),
-             "<span class='no'>assumed</span>" if each["assumed"] else "", _text(each["source"])]
-            for each in sorted(plan["numbers"], key=lambda each: not each["assumed"])]
-    return table(["number", "value", "", "source"], rows, "words")

@@ -6,6 +6,8 @@ from typing import Any
 
 Report = dict[str, Any]
 
+COVERAGES = {"p95": "95 %", "2sigma": "2σ", "1sigma": "1σ"}
+
 OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
             "UNCERTAIN_TRAJECTORY": "a trajectory too uncertain for an incidence",
             "NO_SURFACE": "no water surface known above them",
@@ -34,6 +36,17 @@ def sentences(report: Report) -> list[str]:
     if assumed:
         found.append(f"{assumed} of {len(report['numbers'])} numbers were assumed; they are listed at the end.")
     return [each for each in found if each]
+
+
+def limit_text(limit: dict[str, Any] | None) -> str:
+    """ "√(0.5² + (0.013 d)²) m" """
+    if limit is None:
+        return "–"
+    if limit["of_depth"] == 0:
+        return f"{limit['constant']:g} m"
+    if limit["combined"] == "rss":
+        return f"√({limit['constant']:g}² + ({limit['of_depth']:g} d)²) m"
+    return f"{limit['constant']:g} m + {100 * limit['of_depth']:g} % d"
 
 
 def estimate_text(estimate: dict[str, Any]) -> str:
