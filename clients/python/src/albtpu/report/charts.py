@@ -48,7 +48,7 @@ def chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
 
 
 def limit_at(limit: dict[str, Any], depth: float) -> float:
-    """The greatest uncertainty in m at a depth in m."""
+    """The largest uncertainty in m that a limit allows at a depth in m."""
     of_depth: float = limit["of_depth"] * depth
     constant: float = limit["constant"]
     return math.hypot(constant, of_depth) if limit["combined"] == "rss" else constant + of_depth
@@ -63,7 +63,7 @@ def against_depth(report: Report, quantity: str) -> str:
     figure, axes = chart(f"{name} against depth", "depth [m]", f"{name} at {COVERAGES[report['coverage']]} [m]")
     depth = np.array([each["from"] + 0.5 for each in bins])
     for key, style in (("median", "-"), ("p95", "--"), ("greatest", ":")):
-        label = {"median": "median", "p95": "95 % of the points are below", "greatest": "greatest"}[key]
+        label = {"median": "median", "p95": "95 % of the points are below", "greatest": "maximum"}[key]
         axes.plot(depth, [each[quantity][key] for each in bins], style, color=BLUE, marker=".", label=label)
     ends = np.linspace(0, depth[-1] + 0.5, 60)
     highest = max(each[quantity]["greatest"] for each in bins)
@@ -75,7 +75,7 @@ def against_depth(report: Report, quantity: str) -> str:
                 continue
             if of["index"] != wanted and specification["title"] != report["wanted"]["specification"]:
                 continue
-            # A vertical limit can be stated at the coverage of the points; a horizontal one has no one factor.
+            # A vertical limit converts to the coverage of the points; for a horizontal one there is no single factor.
             same = of["coverage"] == report["coverage"]
             factor = SIGMAS[report["coverage"]] / SIGMAS[of["coverage"]] if quantity == "tvu" else 1.0
             limits = [factor * limit_at(of[direction], d) for d in ends]

@@ -1,4 +1,4 @@
-"""report.html: the verdict first, then where it comes from."""
+"""report.html: the verdict first, then its reasons."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _first_screen(report: Report) -> str:
             + verdict_box(passes, f"The survey {word} {verdict.asked(report)}",
                           [text(each) for each in verdict.sentences(report)],
                           f"<br>{percent(wanted['fraction'], 2)} of {wanted['points']:,} points of the bottom meet it;"
-                          f" {wanted['pass_share']:g} % were asked for."))
+                          f" {wanted['pass_share']:g} % are required."))
 
 
 def _summary(report: Report) -> str:
@@ -44,10 +44,10 @@ def _summary(report: Report) -> str:
         if name in of_all:
             spread = of_all[name]
             rows.append([name.upper(), f"mean {spread['mean']:.3f}, median {spread['median']:.3f}, 95 % of the points"
-                         f" below {spread['p95']:.3f}, greatest {spread['greatest']:.3f} m"])
+                         f" below {spread['p95']:.3f}, maximum {spread['greatest']:.3f} m"])
     if "bias_vertical" in of_all:
-        rows.append(["mean bias that is in the points", f"{of_all['bias_vertical']:+.3f} m (positive: too shallow);"
-                     " it stands beside the uncertainty, and counts against limits"])
+        rows.append(["mean bias left in the points", f"{of_all['bias_vertical']:+.3f} m (positive: too shallow);"
+                     " it is not part of the uncertainty, and counts against limits"])
     return "<h2>What was surveyed</h2>" + table(["", ""], rows, "words")
 
 
@@ -59,7 +59,7 @@ def _maps(report: Report, overview: maps.Overview) -> str:
                maps.map_of_codes(overview, "dominant_share", "largest share of the vertical variance"),
                *maps.maps_of_gaps(overview)]
     return (f"<h2>Maps</h2><p class='soft'>Grid north is up. Cells of {report['cell']:g} m are in grid.nc; a picture"
-            f" may join several.</p><div class='pictures'>{''.join(figures)}</div>")
+            f" may combine several.</p><div class='pictures'>{''.join(figures)}</div>")
 
 
 def _curves(report: Report) -> str:
@@ -110,7 +110,7 @@ def _band_name(band: dict[str, Any]) -> str:
 
 
 def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable") -> str:
-    """A row each with its name, how many points meet each class, and of how many: in %."""
+    """The percentage of points that meet each class. A row is a name, the points that meet each class, all points."""
     head = [what] + [f"{text(each['title'])}<br>{text(of['name'])}" for each in report["specifications"]
                      for of in each["classes"]]
     return table(head, [[text(name)] + [_judged(met / points, report, 0) if points else "–" for met in meeting]
@@ -131,7 +131,7 @@ def _lines(report: Report) -> str:
         rows.append(row)
     head = ["line", "points", "without number", "TVU median [m]", "TVU 95th [m]", "THU median [m]", "THU 95th [m]",
             "largest share", f"meet {text(verdict.asked(report))}"]
-    return ("<h2>Lines</h2><p class='soft'>A click on a head sorts.</p>" + table(head, rows, "sortable")
+    return ("<h2>Lines</h2><p class='soft'>Click the head of a column to sort.</p>" + table(head, rows, "sortable")
             + "<h3>Classes by line</h3><p class='soft'>% of the points that meet each class.</p>"
             + _class_matrix(report, "line", [(str(each["line"]), each["meeting"], each["points"])
                                              for each in report["lines"]]))
@@ -139,9 +139,9 @@ def _lines(report: Report) -> str:
 
 def _crosscheck(report: Report) -> str:
     check = report["crosscheck"]
-    title = "<h2>Is the uncertainty true? Overlapping lines</h2>"
+    title = "<h2>Is the predicted uncertainty right? Overlapping lines</h2>"
     if check is None:
-        return title + "<p>No lines overlap, so that the files cannot show whether the prediction is true.</p>"
+        return f"{title}<p>{verdict.NO_OVERLAP}</p>"
     rows = [["pairs of neighbouring points", f"{check['pairs']:,}; {check['outliers']} outliers left out"],
             ["reduced chi-square", f"{check['chi_square']:.2f} (1: as predicted); without the mean difference of each"
              f" two lines {check['chi_square_within_lines']:.2f}"],
@@ -153,9 +153,9 @@ def _crosscheck(report: Report) -> str:
     lines = [[f"{each['a']} – {each['b']}", str(each["pairs"]), f"{each['mean_difference']:+.3f}",
               f"{each['standard_error']:.3f}" if each["standard_error"] is not None else "–"]
              for each in check["lines"][:40]]
-    return (title + "<p class='soft'>Heights of neighbouring points of different lines, without the slope of the"
-            " bottom, against what is predicted of pulses and lines. What all lines share (datum, index, calibration)"
-            " cancels and is not tested.</p>" + table(["", ""], rows, "words")
+    return (title + "<p class='soft'>Heights of neighbouring points of different lines, corrected for the slope"
+            " of the bottom, against the prediction for pulses and lines. Errors that all lines share (datum, index,"
+            " calibration) cancel and are not tested.</p>" + table(["", ""], rows, "words")
             + f"<div class='pictures'>{charts.chi_squares(check)}</div>"
             + table(["lines", "pairs", "mean difference [m]", "standard error [m]"], lines, "sortable"))
 
@@ -179,5 +179,5 @@ def _files(report: Report) -> str:
 
 
 def _numbers(report: Report) -> str:
-    return ("<h2>Numbers and assumptions</h2><p class='soft'>What was assumed comes first.</p>"
+    return ("<h2>Numbers and assumptions</h2><p class='soft'>Assumed values are listed first.</p>"
             + numbers_table(report["numbers"]))
