@@ -85,8 +85,8 @@ def _bands(report: Report) -> str:
 
 
 def _judged(fraction: float, report: Report, digits: int = 1) -> str:
-    text = percent(fraction, digits)
-    return text if 100 * fraction >= report["wanted"]["pass_share"] else f"<span class='no'>{text}</span>"
+    shown = percent(fraction, digits)
+    return shown if 100 * fraction >= report["wanted"]["pass_share"] else f"<span class='no'>{shown}</span>"
 
 
 def _specifications(report: Report) -> str:
