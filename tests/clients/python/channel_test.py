@@ -31,20 +31,6 @@ class PlainText(unittest.TestCase):
                     self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
                     self.assertTrue(client.tables()[0].is_default)
 
-    def test_refuses_calls_after_close(self):
-        with Running(FakeService(TABLE)) as running:
-            client = albtpu.connect(running.address)
-            client.close()
-            pulse = dict(wind_speed=5, incidence=5, footprint=1, depth=5)
-            for call in (client.tables, client.table, lambda: client.query(**pulse)):
-                with self.assertRaisesRegex(albtpu.ArgumentError, "is closed: connect again"):
-                    call()
-
-    def test_refuses_invalid_addresses(self):
-        for target in ("", "localhost", "two words:1", None, 50051):
-            with self.assertRaisesRegex(albtpu.ArgumentError, "it should be HOST:PORT"):
-                albtpu.connect(target)
-
 
 @unittest.skipUnless(shutil.which("openssl"), "openssl is missing; apt-get install openssl")
 class Tls(unittest.TestCase):

@@ -62,15 +62,6 @@ class Beams(unittest.TestCase):
         beams = geometry.beams(east=30, north=0, height=[400, -400, 400], depth=depth)
         np.testing.assert_array_equal(np.isnan(beams.incidence), [False, True, True])
 
-    def test_refuse_what_is_no_number_by_name(self):
-        point = dict(east=1, north=2, height=400, depth=3)
-        for changes, message in (({"east": "far"}, "east is of type"), ({"index": 0.75}, "index is 0.75"),
-                                 ({"index": np.nan}, "index is nan"), ({"index": "water"}, "index is 'water'"),
-                                 ({"north": [1, 2], "depth": [1, 2, 3]}, "the shapes do not broadcast: north"),
-                                 ({"convergence": 200}, "convergence is beyond 180 degrees")):
-            with self.assertRaisesRegex(albtpu.ArgumentError, message):
-                geometry.beams(**{**point, **changes})
-
 
 class Footprint(unittest.TestCase):
     def test_is_the_slant_range_times_the_divergence_plus_the_aperture(self):

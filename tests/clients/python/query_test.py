@@ -53,38 +53,6 @@ class Queries(unittest.TestCase):
             for depth in (1e300, [1e300, 8]):
                 self.assertEqual(self.query(depth=depth).outcome.flat[0], "INVALID")
 
-    def test_are_refused_with_a_message_that_says_what_is_expected(self):
-        for changes, hint in (
-                ({"windspeed": 5}, r"no argument 'windspeed' \(did you mean 'wind_speed'\?\); its arguments are wind_"),
-                ({"zzz": 5}, "no argument 'zzz'; its arguments are wind_speed, incidence, footprint, depth, fetch"),
-                ({"depth": "8"}, "depth is of type <U1: it should be numbers, in m"),
-                ({"depth": None}, "depth is of type object"),
-                ({"depth": [[1, 2], [3]]}, "depth is not an array"),
-                ({"depth": np.array([True])}, "depth is of type bool"),
-                ({"depth": [1j]}, "depth is of type complex128"),
-                ({"depth": [1, 2], "incidence": [1, 2, 3]}, r"incidence \(3,\), depth \(2,\)"),
-                ({"coverage": "95"}, r"coverage is '95' \(did you mean 'p95'\?\): it should be '2sigma' or 'p95'"),
-                ({"s44_order": "1c"}, "s44_order is '1c'.*: it should be 'exclusive' or"),
-                ({"quantities": ["thu", "bias"]}, "quantities is 'bias'"),
-                ({"quantities": "tuv"}, r"'tuv' \(did you mean 'tvu'\?\): it should be 'refraction_along_wind' or"),
-                ({"quantities": 5}, "quantities is 5: it should be names"),
-                ({"quantities": [["thu"]]}, "it should be names"),
-                ({"coverage": ["p95"]}, "coverage is \\['p95'\\]"),
-                ({"table": 5}, "table is 5: it should be a name"),
-                ({"quantities": []}, "name at least one")):
-            with self.assertRaisesRegex(albtpu.ArgumentError, hint):
-                self.query(**changes)
-        self.assertTrue(issubclass(albtpu.ArgumentError, (albtpu.Error, ValueError)))
-
-    def test_name_the_misspelt_coordinate_rather_than_the_missing_one(self):
-        for wrong, right in (("windspeed", "wind_speed"), ("incident", "incidence"), ("footprnt", "footprint"),
-                             ("Depth", "depth")):
-            pulse = {wrong if axis == right else axis: value for axis, value in PULSE.items()}
-            with self.assertRaisesRegex(albtpu.ArgumentError, f"'{wrong}' .did you mean '{right}'"):
-                self.source.query(**pulse)
-        with self.assertRaisesRegex(TypeError, "missing 1 required keyword-only argument: 'depth'"):
-            self.source.query(wind_speed=5, incidence=10, footprint=0.5)
-
     def test_return_only_what_was_requested(self):
         answer = self.query(quantities="tvu")
         self.assertEqual(list(answer.values), ["tvu"])
