@@ -82,7 +82,7 @@ ARGUMENTS = {
         (Sea.spectrum, dict(frequencies=F, energy=F, r2=F), "r2 and alpha2 belong together"),
         (Sea.spectrum, dict(frequencies=F, energy=F, r2=[0.1], alpha2=[3]), "have 2, 1 and 1 numbers"),
         (Sea.spectrum, dict(frequencies=[F], energy=F), "frequencies has the shape"),
-        (Sea.spectrum(F, F).__add__, dict(other=CALM), "only seas by heights"),
+        (Sea.spectrum(F, F).__add__, dict(other=CALM), "only seas given by heights"),
         (SERVICE.query, PULSE | dict(sea="calm"), "it should be an albtpu.Sea"),
         (SERVICE.query, PULSE | dict(sea=CALM, table="synthetic"), "omit one of them"),
         (TABLE.query, PULSE | dict(sea=CALM), "sea.compile")],

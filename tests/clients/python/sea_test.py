@@ -89,7 +89,7 @@ class Ndbc(unittest.TestCase):
         (self.folder / "cut.data_spec").write_text(path.read_text()[:-5])
         for name, time, message in (
                 ("absent.data_spec", None, "No such file"), ("text.data_spec", None, "its first line is not"),
-                ("buoy.swr2", None, "does not name spec_1"), ("cut.data_spec", None, "line 3 is no record"),
+                ("buoy.swr2", None, "does not name spec_1"), ("cut.data_spec", None, "line 3 does not match"),
                 ("buoy.data_spec", "2020-06-08T03:00Z", "the closest is at 2020-06-08T02:50Z"),
                 ("buoy.data_spec", "yesterday", "it should be like")):
             with self.assertRaisesRegex(albtpu.ArgumentError, message):

@@ -1,4 +1,4 @@
-"""The geometry of pulses: from where each point lies, seen from the sensor, to incidence, azimuth and paths.
+"""Incidence, azimuth and paths of beams, from the position of each point relative to the sensor.
 
     beams = albtpu.geometry.beams(east=x - sensor_x, north=y - sensor_y, height=sensor_z - water_z, depth=water_z - z)
     footprint = albtpu.geometry.footprint(beams.slant_range, divergence_mrad=1)
@@ -123,7 +123,7 @@ def beams_in_radians(east: Doubles, north: Doubles, height: Doubles, depth: Doub
     All are columns of one length, in rad and m.
     """
     found = (np.empty_like(east), np.empty_like(east), np.empty_like(east), np.empty_like(east))
-    with np.errstate(all="ignore"):  # What a comparison then leaves out may be no number.
+    with np.errstate(all="ignore"):  # The branches that are not selected may be NaN.
         for begin in range(0, east.size, _BLOCK):
             rows = slice(begin, begin + _BLOCK)
             block = _block(east[rows], north[rows], height[rows], depth[rows], convergence[rows], index)

@@ -100,7 +100,7 @@ def _rows(path: pathlib.Path, quantity: str) -> Iterator[_Row]:
                 values = [float(word) for word in words[date:]]
             yield _Row(_time(words, date), _present(frequencies, values, not real_time and quantity == "r2_1"))
         except (ValueError, IndexError):
-            raise ArgumentError(f"{path}: line {number} is no record of the header's form; get another copy") from None
+            raise ArgumentError(f"{path}: line {number} does not match the first line; get another copy") from None
 
 
 def _time(words: list[str], date: int) -> np.datetime64:

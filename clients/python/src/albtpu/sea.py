@@ -1,10 +1,10 @@
-"""A sea for queries in place of a table: measured waves, waves of a model, or heights and periods.
+"""The sea of a query, in place of a table: measured waves, waves of a model, or heights and periods.
 
     sea = albtpu.Sea.ndbc("41010.data_spec", time="2020-06-08T03:50Z").with_wind(6, from_=230)
     answer = service.query(sea=sea, incidence=theta, footprint=0.5, depth=d)
 
-The service computes the table of the sea from the numbers of `Sea.message`, the same bits as the C++ library and
-albtpu-query have of the same file. Angles are in degrees here and in radians in the message.
+The service computes the table of the sea from `Sea.message`, which has the same bits as the message of the C++
+library and of albtpu-query for the same file. Angles are in degrees here and in radians in the message.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class SeaCompiler(Protocol[Compiled]):
 
 @dataclass(frozen=True)
 class Sea:
-    """What is known of a sea. Make one by a method, add what else is known by `with_wind`, `with_depth`, `with_tail`.
+    """A sea state. Make one with a class method; `with_wind`, `with_depth` and `with_tail` add what else is known.
 
     waves:       `Waves` in a tuple, a `Spectrum`, or nothing: the sea of the wind alone.
     wind_speed:  m/s at 10 m; None: taken from the waves; 0: a calm.
@@ -100,8 +100,8 @@ class Sea:
 
     @classmethod
     def from_xarray(cls, dataset: xarray.Dataset) -> Sea:
-        """A directional spectrum as wavespectra has it: `efth` in m2/Hz/degree over `freq` in Hz and `dir`, the
-        directions from which waves come, in degrees. Select one time and one place first.
+        """A directional spectrum by the conventions of wavespectra: `efth` in m2/Hz/degree over `freq` in Hz and `dir`,
+        the directions from which waves come, in degrees. Select one time and one place first.
 
         `wspd` in m/s, `wdir` in degrees from and `dpt` in m, where the dataset has them, are wind and depth.
         """
@@ -119,15 +119,15 @@ class Sea:
         return replace(self, water_depth=read_number("depth", depth))
 
     def with_tail(self, tail: str, *, tail_from: float | None = None) -> Sea:
-        """The same sea with other short waves; tail_from in Hz."""
+        """The same sea with another rule for the short waves; tail_from in Hz."""
         check_name("tail", tail, TAILS)
         return replace(self, tail=tail, tail_from=read_optional("tail_from", tail_from))
 
     def __add__(self, other: Sea) -> Sea:
-        """The waves of both, which both must have by heights and periods; the rest is that of the first."""
+        """The waves of both, both given by heights and periods; everything else is that of the first."""
         if not (isinstance(other, Sea) and isinstance(self.waves, tuple) and isinstance(other.waves, tuple)):
-            raise ArgumentError("only seas by heights and periods add up (a spectrum has all waves already): add "
-                                "the spectra first")
+            raise ArgumentError("only seas given by heights and periods can be added (a spectrum has all waves "
+                                "already): add the spectra first")
         return replace(self, waves=self.waves + other.waves)
 
     def compile(self, service: SeaCompiler[Compiled]) -> Compiled:

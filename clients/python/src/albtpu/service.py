@@ -71,7 +71,7 @@ class Service(UncertaintySource):
     def sea_table(self, sea: Sea) -> Table:
         """The table that the server computes of a sea, as `table` describes one of its own.
 
-        Its attributes say what the sea was taken to be, for example `x_azimuth` and `share_measured`.
+        Its attributes describe the sea with the assumptions made, for example `x_azimuth` and `share_measured`.
         """
         return _table(self._call(self._stub.CompileSea, wire.CompileSeaRequest(sea=sea.message())).table)
 
@@ -102,7 +102,7 @@ class Service(UncertaintySource):
                       position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
                       heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
                       of the elevation that the location of the surface does not see; and the share of the water column,
-                      which `albtpu-query pulse` states: water_sigma_along, water_sigma_vertical and water_noise in m,
+                      as `albtpu-query pulse` prints it: water_sigma_along, water_sigma_vertical and water_noise in m,
                       water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
         errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
                       and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,

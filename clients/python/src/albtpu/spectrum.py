@@ -23,7 +23,7 @@ _MOST_HARMONICS = 6
 
 @dataclass(frozen=True)
 class Waves:
-    """Waves by a height, a period and a direction: JONSWAP, in water of finite depth TMA."""
+    """Waves given by height, period and direction: JONSWAP, or TMA in water of finite depth."""
 
     significant_wave_height: float  # m
     peak_period: float  # s
@@ -92,11 +92,11 @@ def dataset_spectrum(dataset: xarray.Dataset) -> tuple[Spectrum, dict[str, float
     ArgumentError.
     """
     if "efth" not in dataset:
-        raise ArgumentError("the dataset has no variable efth (the spectrum, m2/Hz/degree): rename it so")
+        raise ArgumentError("the dataset has no variable efth (the spectrum, m2/Hz/degree): rename the variable")
     efth = dataset["efth"].squeeze(drop=True)
     if sorted(map(str, efth.dims)) != ["dir", "freq"]:
         raise ArgumentError(f"efth has the dimensions {', '.join(map(str, efth.dims))}: select one time and one place, "
-                            "so that freq and dir are left")
+                            "leaving freq and dir")
     efth = efth.transpose("freq", "dir").sortby("freq")
     density = np.asarray(efth, np.float64) * (180 / math.pi)  # m2/Hz/rad
     if not np.isfinite(density).all():
@@ -129,7 +129,7 @@ def _widths(directions: Doubles) -> Doubles:
     equal = turn / count
     if (np.abs(behind - equal) < 0.1 * equal).all():
         return np.full(count, equal)
-    before, widest = np.roll(behind, 1), 2 * np.sort(behind)[count // 2]  # At a wider gap a sector ends.
+    before, widest = np.roll(behind, 1), 2 * np.sort(behind)[count // 2]  # A wider gap is the end of a sector.
     widths = np.empty(count)
     widths[order] = 0.5 * (np.where(before > widest, behind, before) + np.where(behind > widest, before, behind))
     return widths

@@ -48,7 +48,7 @@ class TableFile(UncertaintySource):
         self._file, self._content = file, read_table(name, file)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file of the table, which `open_table`, albtpu-query and albtpu-serve read. Not over another."""
+        """Writes the file of the table, for `open_table`, albtpu-query and albtpu-serve. Never overwrites a file."""
         path = pathlib.Path(path)
         with errors_naming(path), path.open("xb") as file:
             file.write(self._file)
@@ -136,6 +136,6 @@ class _Answers:
 
 
 def _azimuths(content: TableContent) -> list[float]:
-    """The azimuths of which a pulse without azimuth takes the worst."""
+    """A pulse without azimuth has the largest values over these azimuths."""
     nodes: list[float] = content.table.axes["azimuth"].nodes.tolist()
     return [0, 90] if content.table.kind == SEA_SURFACE else nodes

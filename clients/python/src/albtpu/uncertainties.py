@@ -71,7 +71,7 @@ class Uncertainties:
     in `units`. Those that the query did not request raise AttributeError.
 
     table:            the table that answered: name, id, version, digest.
-    sea:              what the sea was taken to be (albtpu.SeaSummary); None if the table is not that of a sea.
+    sea:              the sea with what was assumed (albtpu.SeaSummary); None if the table is not of one sea.
     coverage:         "2sigma", "1sigma" or "p95", of all quantities except the biases and S-44.
     azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
     pulses:           the coordinates of the query by axis, as arrays of its shape.
