@@ -16,6 +16,7 @@ from .schema import AXES, COVERAGES, Numbers
 from .sea import Sea
 from .tables import SeaSummary, TableReference
 from .uncertainties import order_names, outcome_words
+from .v1.budget_pb2 import AirErrors
 
 # The columns of the aircraft in a query of the whole budget, with their units, in the order of the wire.
 AIRCRAFT: dict[str, str] = {
@@ -34,10 +35,8 @@ BUDGET_QUANTITIES = ("total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", 
                      "bias_vertical", *COVARIANCES, "best_s44_orders", "thu_water", "tvu_water")
 
 # The sources of error of the air side: three numbers of these names, or a single one.
-_ERRORS: dict[str, tuple[str, ...]] = {
-    "position": ("north", "east", "down"), "attitude": ("roll", "pitch", "heading"),
-    "boresight": ("forward", "right", "down"), "lever_arm": (), "scan": (), "time": (), "range_offset": (),
-    "bottom_range": (), "surface_range": (), "surface_height": (), "index": ()}
+_ERRORS = {source.name: tuple(part.name for part in source.message_type.fields) if source.message_type else ()
+           for source in AirErrors.DESCRIPTOR.fields}
 
 
 @dataclass(frozen=True)

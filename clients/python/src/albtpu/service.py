@@ -102,7 +102,7 @@ class Service(UncertaintySource):
                       position_sigma_north, position_sigma_east, position_sigma_down in m and roll_sigma, pitch_sigma,
                       heading_sigma in degrees (omitted: those of `errors`); wave_height in m, the standard deviation
                       of the elevation that the location of the surface does not see; and the share of the water column,
-                      as `albtpu-query pulse` prints it: water_sigma_along, water_sigma_vertical and water_noise in m,
+                      which `albtpu-query pulse` states: water_sigma_along, water_sigma_vertical and water_noise in m,
                       water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
         errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
                       and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,
