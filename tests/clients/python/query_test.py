@@ -1,4 +1,4 @@
-"""The arguments of queries, and the shape of the answers.
+"""The arguments of queries, and the shape of the answers; the names of both.
 
 Usage: query_test.py TABLE.h5
 """
@@ -10,6 +10,8 @@ import warnings
 import numpy as np
 
 import albtpu
+from albtpu import AXES, BUDGET_QUANTITIES, QUANTITIES, budget, schema, sea
+from albtpu.v1 import budget_pb2, pulse_pb2, sea_pb2, table_pb2, uncertainty_pb2
 
 TABLE = sys.argv[1]
 PULSE = dict(wind_speed=5, incidence=10, azimuth=30, footprint=0.5, depth=8)
@@ -95,6 +97,22 @@ class Queries(unittest.TestCase):
                            (("depth", "incidence"), "incidence varies along .*: it cannot index the dimension")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):
                 answer.to_xarray(dims)
+
+
+class Names(unittest.TestCase):
+    def test_are_those_of_the_messages_in_their_order(self):
+        for ours, message in ((AXES, pulse_pb2.PulseColumns), (QUANTITIES, uncertainty_pb2.SeaSurfaceColumns),
+                              (budget.AIRCRAFT, budget_pb2.AircraftColumns)):
+            self.assertEqual(list(ours), [field.name for field in message.DESCRIPTOR.fields])
+        for ours, enum in (
+                (["unspecified", *AXES], pulse_pb2.Axis), (["unspecified", *QUANTITIES], uncertainty_pb2.Quantity),
+                (schema.OUTCOMES, uncertainty_pb2.Outcome), (["unspecified", *schema.SCALES[1:]], table_pb2.Scale),
+                (["unspecified", *schema.S44_ORDERS[1:]], uncertainty_pb2.S44Order),
+                (["unspecified", *sea.TAILS], sea_pb2.TailRule),
+                (["unspecified", *(name.removesuffix("s") if name == "best_s44_orders" else name
+                                   for name in BUDGET_QUANTITIES)], budget_pb2.BudgetQuantity)):
+            beginning = enum.keys()[0].removesuffix("UNSPECIFIED")
+            self.assertEqual([beginning + name.upper() for name in ours], enum.keys())
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from .schema import AXES, COVERAGES, Numbers
 from .sea import Sea
 from .tables import SeaSummary, TableReference
 from .uncertainties import order_names, outcome_words
-from .v1.budget_pb2 import AirErrors
+from .v1.budget_pb2 import AirErrors, BudgetColumns, SurfaceLocation
 
 # The columns of the aircraft in a query of the whole budget, with their units, in the order of the wire.
 AIRCRAFT: dict[str, str] = {
@@ -28,11 +28,9 @@ AIRCRAFT: dict[str, str] = {
     "water_sigma_along": "m", "water_sigma_vertical": "m", "water_correlation": "1", "water_noise": "m",
     "water_bias_along": "m", "water_bias_vertical": "m"}
 # How the surface was located, and the quantities of the budget. On the wire, each is its position here, counted from 1.
-LOCATIONS = ("pulse", "local", "level")
-COVARIANCES = ("covariance_total", "covariance_air", "covariance_sea", "covariance_pulse", "covariance_line",
-               "covariance_survey")
-BUDGET_QUANTITIES = ("total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea", "bias_along_beam",
-                     "bias_vertical", *COVARIANCES, "best_s44_orders", "thu_water", "tvu_water")
+LOCATIONS = tuple(name.rpartition("_")[2].lower() for name in SurfaceLocation.keys()[1:])
+BUDGET_QUANTITIES: tuple[str, ...] = tuple(column.name for column in BudgetColumns.DESCRIPTOR.fields)
+COVARIANCES = tuple(name for name in BUDGET_QUANTITIES if name.startswith("covariance_"))
 
 # The sources of error of the air side: three numbers of these names, or a single one.
 _ERRORS = {source.name: tuple(part.name for part in source.message_type.fields) if source.message_type else ()

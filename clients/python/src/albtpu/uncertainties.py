@@ -94,14 +94,10 @@ class Uncertainties:
     bias_vertical: Floats
 
     def __init__(self, query: Query, columns: AnswerColumns, answered: Answered) -> None:
-        def shaped(column: NDArray[Any]) -> NDArray[Any]:
-            return column.reshape(query.shape)
+        def shaped(column: NDArray[Any] | None) -> Any:
+            return None if column is None else column.reshape(query.shape)
 
-        def maybe_shaped(column: NDArray[Any] | None) -> NDArray[Any] | None:
-            return None if column is None else shaped(column)
-
-        self.table = answered.table
-        self.sea = answered.sea
+        self.table, self.sea = answered
         self.coverage = query.coverage
         self.azimuth_absent = "azimuth" not in query.pulses
         self.pulses = query.pulses
@@ -111,9 +107,9 @@ class Uncertainties:
         self.values: Mapping[str, Floats] = {name: shaped(column) for name, column in columns.values.items()}
         self.standard_errors: Mapping[str, Floats] = {
             name: shaped(column) for name, column in columns.standard_errors.items()}
-        self.best_s44_orders: Numbers | None = maybe_shaped(columns.best_s44_orders)
-        self.remaining_thu: Floats | None = maybe_shaped(columns.remaining_thu)
-        self.remaining_tvu: Floats | None = maybe_shaped(columns.remaining_tvu)
+        self.best_s44_orders: Numbers | None = shaped(columns.best_s44_orders)
+        self.remaining_thu: Floats | None = shaped(columns.remaining_thu)
+        self.remaining_tvu: Floats | None = shaped(columns.remaining_tvu)
         self.__dict__.update(self.values)
 
     def __getattr__(self, name: str) -> Any:
