@@ -101,7 +101,7 @@ class Arguments(unittest.TestCase):
                 with self.subTest(what, message=message), self.assertRaisesRegex(albtpu.ArgumentError, message):
                     call(**arguments)
 
-    def test_are_missed_as_python_does(self):
+    def test_that_are_missing_raise_as_in_python(self):
         with self.assertRaisesRegex(TypeError, "missing 1 required keyword-only argument: 'depth'"):
             TABLE.query(wind_speed=5, incidence=10, footprint=0.5)
 

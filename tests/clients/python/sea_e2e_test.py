@@ -41,7 +41,7 @@ class Seas(Served):
                 largest = np.nan_to_num(np.abs(theirs)).max()
                 np.testing.assert_allclose(ours.values[name], theirs, 1e-5, 1e-6 * largest, err_msg=name)
 
-    def test_say_what_they_were_taken_to_be(self):
+    def test_say_what_was_assumed(self):
         answer = self.service.query(sea=MEASURED, incidence=10, footprint=0.6, depth=8)
         self.assertEqual(answer.sea.x_azimuth, self.service.sea_table(MEASURED).attributes["x_azimuth"])
         self.assertTrue(0 < answer.sea.share_measured < 1)

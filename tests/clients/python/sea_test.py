@@ -125,12 +125,12 @@ class Directional(unittest.TestCase):
         expected = 0.3 * np.array([1, 0.4 * math.cos(2.2), 0.4 * math.sin(2.2)] + 10 * [0])
         np.testing.assert_allclose(bins, expected, atol=1e-15)
 
-    def test_keep_the_harmonics_that_the_directions_tell_apart(self):
+    def test_keep_the_harmonics_that_the_directions_resolve(self):
         for count, harmonics in ((8, 1), (12, 2), (24, 5), (36, 6), (72, 6)):
             weights = spectrum._direction_weights(np.linspace(0, 2 * np.pi, count, endpoint=False))
             self.assertEqual(weights.shape, (1 + 2 * harmonics, count))
 
-    def test_of_a_sector_weigh_its_ends_as_their_neighbours(self):
+    def test_give_the_ends_of_a_sector_the_weight_of_their_neighbours(self):
         widths = spectrum._widths(np.radians([0, 10, 20, 30, 40, 50, 60, 70]))
         np.testing.assert_allclose(widths, np.radians(10))
 

@@ -1,6 +1,6 @@
 """Connections to a server: in plain text and with TLS, certificates and tokens.
 
-Usage: channel_test.py TABLE.h5
+Usage: connection_test.py TABLE.h5
 """
 
 import pathlib
