@@ -14,7 +14,7 @@ import unittest
 
 import grpc
 
-from albtpu.retries import service_error
+from albtpu.connection import service_error
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 from secured import SecurityTest

@@ -6,11 +6,9 @@ import grpc
 import numpy as np
 
 import albtpu
+from albtpu.schema import COVERAGES, S44_ORDERS
 from albtpu.v1 import uncertainty_service_pb2 as pb
 from albtpu.v1 import uncertainty_service_pb2_grpc
-
-COVERAGES = {0: "2sigma", 1: "2sigma", 2: "p95"}
-S44_ORDERS = (None, "exclusive", "special", "1a", "1b", "2")
 
 
 class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
@@ -49,8 +47,8 @@ class FakeService(uncertainty_service_pb2_grpc.UncertaintyServiceServicer):
         quantities = [list(albtpu.QUANTITIES)[number - 1] for number in query.quantities]
         options = query.options
         answer = self.source.query(
-            **pulses, coverage=COVERAGES[options.coverage], quantities=quantities or None,
-            standard_errors=options.standard_errors, s44_order=S44_ORDERS[options.s44_order],
+            **pulses, coverage=list(COVERAGES)[max(options.coverage, 1) - 1], quantities=quantities or None,
+            standard_errors=options.standard_errors, s44_order=S44_ORDERS[options.s44_order] or None,
             best_s44_order=options.best_s44_order)
         message = pb.QueryColumnsResponse(
             table=self.reference(), coverage=options.coverage or 1, pulse_count=answer.outcomes.size,

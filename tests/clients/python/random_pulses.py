@@ -2,7 +2,8 @@
 
 import numpy as np
 
-AXES = ("wind_speed", "fetch", "incidence", "azimuth", "footprint", "depth")
+from albtpu import AXES
+
 BAD = (np.nan, np.inf, -np.inf, -1.0, 0.0, -0.0, 1e38, 1e300)
 
 

@@ -6,7 +6,6 @@ Usage: service_e2e_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE SHIPPED_TABLES...
 import pathlib
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,11 +15,12 @@ import numpy as np
 
 import albtpu
 from albtpu.s44 import limits
-from albtpu.stream import ColumnStream
+from albtpu.calls import ColumnStream
 from random_pulses import pulses_of_all_kinds
+from served import SERVE, Served, make_table
 from serving import Server
 
-SERVE, SYNTHETIC_TABLE, *SHIPPED_TABLES = sys.argv[1:]
+SHIPPED_TABLES = sys.argv[3:]
 PULSES = 5_000
 # Relative error of a sum in single precision; for biases, in which terms cancel, relative to the greatest value.
 RELATIVE, CANCELLED = 1e-5, 1e-6
@@ -30,20 +30,16 @@ LINE = dict(wind_speed=5, incidence=np.linspace(0, 20, 600_000), footprint=0.5,
             depth=np.linspace(20, 0, 600_000))
 
 
-class Service(unittest.TestCase):
+class Service(Served):
+    FLAGS = ("--default-table", "synthetic")
+
     @classmethod
-    def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        subprocess.run([SYNTHETIC_TABLE, cls.folder / "synthetic.h5"], check=True)
-        subprocess.run([SYNTHETIC_TABLE, cls.folder / "angles.h5", "--published"], check=True)
+    def make_tables(cls):
+        super().make_tables()
+        make_table(cls.folder / "angles.h5", "--published")
         for table in SHIPPED_TABLES:
             shutil.copy(table, cls.folder)
         cls.files = {path.stem: albtpu.open_table(path) for path in sorted(cls.folder.glob("*.h5"))}
-        cls.server = Server(SERVE, "--tables", cls.folder, "--default-table", "synthetic")
-        cls.addClassCleanup(cls.server.__exit__)
-        cls.service = albtpu.connect(cls.server.address)
-        cls.addClassCleanup(cls.service.close)
 
     def assert_alike(self, ours, theirs, what, ties=None):
         """`ties` marks, by quantity, the pulses whose standard error may be that at either azimuth."""
@@ -134,7 +130,7 @@ class Service(unittest.TestCase):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         table = pathlib.Path(folder, "synthetic.h5")
-        subprocess.run([SYNTHETIC_TABLE, table], check=True)
+        make_table(table)
         servers = [Server(SERVE, "--tables", folder)]
         store, stored = ColumnStream._store, []
 
@@ -143,7 +139,7 @@ class Service(unittest.TestCase):
             stored.append(answer)
             if len(stored) == 2:
                 servers[0].stop(signal.SIGKILL)
-                subprocess.run([SYNTHETIC_TABLE, table, *flags], check=True)
+                make_table(table, *flags)
                 servers.append(Server(SERVE, "--tables", folder, listen=servers[0].address))
 
         try:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import (ArgumentError, Error, ServiceError, TableChangedError, TableFileError,
                      TableNotFoundError, UnreachableError)
-from .schema import AXES, BUDGET_QUANTITIES, QUANTITIES
+from .schema import AXES, QUANTITIES
 from .sea import Sea
 from .source import UncertaintySource
 from .tables import Axis, Quantity, SeaSummary, Table, TableReference, TableSummary
@@ -22,6 +22,7 @@ from .uncertainties import Uncertainties
 
 if TYPE_CHECKING:
     from . import geometry
+    from .budget import BUDGET_QUANTITIES
     from .service import Service, connect
     from .table_file import TableFile, open_table
 
@@ -32,8 +33,8 @@ __all__ = ["AXES", "ArgumentError", "Axis", "BUDGET_QUANTITIES", "Error",
            "TableReference", "TableSummary", "Uncertainties", "UncertaintySource", "UnreachableError",
            "connect", "geometry", "open_table"]
 
-# Imported on first use: table files do not need gRPC, and services do not need HDF5.
-_LATER = {"Service": ".service", "connect": ".service",
+# Imported on first use: table files do not need gRPC and protobuf, and services do not need HDF5.
+_LATER = {"BUDGET_QUANTITIES": ".budget", "Service": ".service", "connect": ".service",
           "TableFile": ".table_file", "open_table": ".table_file"}
 
 

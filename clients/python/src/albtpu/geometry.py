@@ -1,4 +1,4 @@
-"""The geometry of pulses: from where each point lies, seen from the sensor, to incidence, azimuth and paths.
+"""Incidence, azimuth and paths of beams, from the position of each point relative to the sensor.
 
     beams = albtpu.geometry.beams(east=x - sensor_x, north=y - sensor_y, height=sensor_z - water_z, depth=water_z - z)
     footprint = albtpu.geometry.footprint(beams.slant_range, divergence_mrad=1)
@@ -16,13 +16,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from .arguments import common_shape, read_column
 from .errors import ArgumentError
+from .schema import Doubles
 
 __all__ = ["Beams", "SEA_WATER_INDEX", "azimuth_from_downwind", "azimuth_on_sea", "beams", "footprint"]
-
-Doubles = NDArray[np.float64]
 
 SEA_WATER_INDEX = 1.34
 """The refractive index of sea water at 532 nm, Quan and Fry (1995): 1.3415 at 20 degrees C and a salinity of 35."""
@@ -65,17 +65,13 @@ def beams(*, east: ArrayLike, north: ArrayLike, height: ArrayLike, depth: ArrayL
     if not isinstance(index, (int, float, np.number)) or not 1 <= float(index) < math.inf:
         raise ArgumentError(f"index is {index!r}: it should be a number from 1, such as {SEA_WATER_INDEX}")
     given = {"east": east, "north": north, "height": height, "depth": depth, "convergence": convergence}
-    arrays = {name: _column(name, values) for name, values in given.items()}
+    arrays = {name: np.asarray(read_column(name, values), np.float64) for name, values in given.items()}
     if np.any(np.abs(arrays["convergence"]) > 180):
         raise ArgumentError("convergence is beyond 180 degrees: it should be that of the grid, in degrees")
-    try:
-        columns = np.broadcast_arrays(*arrays.values())
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items() if array.ndim > 0)
-        raise ArgumentError(f"the shapes do not broadcast: {shapes}") from None
-    x, y, above, below, grid = (column.reshape(-1) for column in columns)
+    shape = common_shape(arrays)
+    x, y, above, below, grid = (np.broadcast_to(array, shape).reshape(-1) for array in arrays.values())
     found = beams_in_radians(x, y, above, below, grid * np.pi / 180, float(index))
-    incidence, azimuth, slant_range, water_path = (column.reshape(columns[0].shape) for column in found)
+    incidence, azimuth, slant_range, water_path = (column.reshape(shape) for column in found)
     return Beams(incidence * 180 / np.pi, azimuth * 180 / np.pi, slant_range, water_path)
 
 
@@ -120,18 +116,6 @@ def _full_turn(angle: Doubles) -> Doubles:
     return np.where(turned >= 360, 0.0, turned)  # A tiny negative number modulo 360 is 360.
 
 
-def _column(name: str, values: ArrayLike) -> Doubles:
-    try:
-        array = np.asanyarray(values)
-    except ValueError as error:
-        raise ArgumentError(f"{name} is not an array: {error}") from error
-    if array.dtype.kind not in "iuf":
-        raise ArgumentError(f"{name} is of type {array.dtype}: it should be numbers")
-    if isinstance(array, np.ma.MaskedArray):
-        return np.ma.filled(array.astype(np.float64), np.nan)
-    return np.asarray(array, np.float64)
-
-
 def beams_in_radians(east: Doubles, north: Doubles, height: Doubles, depth: Doubles, convergence: Doubles,
                      index: float) -> tuple[Doubles, Doubles, Doubles, Doubles]:
     """Incidence, azimuth, slant range and path in water as ComputeBeams of budget/beams/beam_columns.h has them.
@@ -139,7 +123,7 @@ def beams_in_radians(east: Doubles, north: Doubles, height: Doubles, depth: Doub
     All are columns of one length, in rad and m.
     """
     found = (np.empty_like(east), np.empty_like(east), np.empty_like(east), np.empty_like(east))
-    with np.errstate(all="ignore"):  # What a comparison then leaves out may be no number.
+    with np.errstate(all="ignore"):  # The branches that are not selected may be NaN.
         for begin in range(0, east.size, _BLOCK):
             rows = slice(begin, begin + _BLOCK)
             block = _block(east[rows], north[rows], height[rows], depth[rows], convergence[rows], index)

@@ -1,4 +1,7 @@
-"""Multilinear interpolation of a table, each axis on its own scale. The twin of tables/query/interpolation.h."""
+"""Multilinear interpolation of a table, each axis on its own scale.
+
+The twin of tables/query/interpolation.h, and of Axis::Locate in tables/axis.h.
+"""
 
 from __future__ import annotations
 
@@ -9,20 +12,62 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .bracket import Brackets, locate
-from .coverage import radius_over_thu
-from .schema import AXES, INTERPOLATED, INVALID, OUT_OF_DOMAIN, REFRACTIONS
+from .s44 import radius_over_thu
+from .schema import (AXES, INTERPOLATED, INVALID, KINDS, OUT_OF_DOMAIN, REFRACTIONS, SEA_SURFACE, Doubles, Floats,
+                     Numbers)
 from .table_reader import TableContent
+from .tables import Axis
 
-Doubles = NDArray[np.float64]
-Columns = Mapping[str, NDArray[np.float32]]
+Columns = Mapping[str, Floats]
+
+
+class Brackets(NamedTuple):
+    """Arrays with one element per pulse, or a single element for all pulses."""
+
+    valid: NDArray[np.bool_]  # The coordinate is finite; a fetch may also be +infinity.
+    inside: NDArray[np.bool_]  # The coordinate is in the domain of the axis.
+    lower: NDArray[np.intp]  # Index of the node below; 0 on an axis of one node.
+    fraction: Doubles  # Of the distance to the next node, on the scale of the axis, 0 to 1; undefined where not inside.
+
+
+def locate(kind: str, name: str, axis: Axis, coordinate: Doubles) -> Brackets:
+    """The domain of an axis of a table of this kind includes its first and last node.
+
+    Azimuths are folded. On an endless axis, coordinates above the last node are set to it; with a single node,
+    it covers any coordinate above zero, and zero unless its scale is logarithmic.
+    """
+    nodes = axis.nodes.astype(np.float64)
+    valid = np.isfinite(coordinate)
+    if name == "azimuth":
+        coordinate = _fold(kind, coordinate)
+    if name in KINDS[kind].endless:
+        valid = valid | (coordinate == np.inf)
+        if nodes.size == 1:
+            held = coordinate > 0 if axis.scale == "log" else coordinate >= 0
+            coordinate = np.where(held, nodes[0], coordinate)
+        coordinate = np.minimum(coordinate, nodes[-1])
+    inside = (coordinate >= nodes[0]) & (coordinate <= nodes[-1])
+    if nodes.size == 1:
+        return Brackets(valid, inside, np.zeros(coordinate.shape, np.intp), np.zeros(coordinate.shape))
+    lower = np.clip(np.searchsorted(nodes, coordinate, side="right") - 1, 0, nodes.size - 2)
+    if axis.scale == "log":
+        nodes, coordinate = np.log(nodes), np.log(coordinate)
+    return Brackets(valid, inside, lower, (coordinate - nodes[lower]) / (nodes[lower + 1] - nodes[lower]))
+
+
+def _fold(kind: str, azimuth: Doubles) -> Doubles:
+    """As FoldAzimuth in tables/axis.h, where half a turn is added in single precision."""
+    rest = np.fmod(np.abs(azimuth), 180.0)
+    if kind == SEA_SURFACE:
+        return np.minimum(rest, 180.0 - rest)
+    return np.where((azimuth < 0) & (rest > 0), (180.0 - rest).astype(np.float32), rest)
 
 
 class PulseNumbers(NamedTuple):
     """Outcomes, and numbers at 2 sigma, which are valid only where the outcome is INTERPOLATED."""
 
-    outcomes: NDArray[np.uint8]
-    outcome_axes: NDArray[np.uint8]
+    outcomes: Numbers
+    outcome_axes: Numbers
     values: dict[str, Doubles]  # Rounded to single precision, as in a service.
     standard_errors: dict[str, Doubles]
     radius_over_thu: Doubles  # The 95 % radius of the horizontal error, divided by the THU.
@@ -128,7 +173,7 @@ class _Grid:
         return total
 
 
-def _outcomes(located: dict[str, Brackets], count: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+def _outcomes(located: dict[str, Brackets], count: int) -> tuple[Numbers, Numbers]:
     """Each pulse's outcome and the first axis that caused it. INVALID takes precedence over OUT_OF_DOMAIN."""
     outcomes, outcome_axes = np.full(count, INTERPOLATED, np.uint8), np.zeros(count, np.uint8)
     for number, axis in reversed(list(enumerate(AXES, 1))):

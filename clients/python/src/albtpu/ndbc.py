@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .errors import ArgumentError
-from .sea import Sea, Spectrum
+from .spectrum import Spectrum, buoy_spectrum
 
 TRUSTED_UP_TO = 0.4  # Hz: above, the hull of a 3 m discus buoy hardly follows the waves.
 RECORD_LENGTH = 1200.0  # s over which NDBC measures waves each hour.
@@ -39,11 +39,8 @@ def read_spectrum(path: str | os.PathLike[str], time: object) -> Spectrum:
     r2, alpha2 = (_beside(other, quantity, row.time) for other, quantity in _companions(path))
     frequencies, energy = list(row.values), list(row.values.values())
     nan = float("nan")
-    sea = Sea.spectrum(frequencies, energy, r2=[r2.get(f, nan) for f in frequencies],
-                       alpha2=[alpha2.get(f, nan) for f in frequencies],
-                       trusted_up_to=min(TRUSTED_UP_TO, frequencies[-1]), record_length=RECORD_LENGTH)
-    assert isinstance(sea.waves, Spectrum)
-    return sea.waves
+    return buoy_spectrum(frequencies, energy, [r2.get(f, nan) for f in frequencies],
+                         [alpha2.get(f, nan) for f in frequencies], min(TRUSTED_UP_TO, frequencies[-1]), RECORD_LENGTH)
 
 
 def _known_time(path: pathlib.Path, time: object, known: list[np.datetime64]) -> np.datetime64:
@@ -103,7 +100,7 @@ def _rows(path: pathlib.Path, quantity: str) -> Iterator[_Row]:
                 values = [float(word) for word in words[date:]]
             yield _Row(_time(words, date), _present(frequencies, values, not real_time and quantity == "r2_1"))
         except (ValueError, IndexError):
-            raise ArgumentError(f"{path}: line {number} is no record of the header's form; get another copy") from None
+            raise ArgumentError(f"{path}: line {number} does not match the first line; get another copy") from None
 
 
 def _time(words: list[str], date: int) -> np.datetime64:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import check_name, common_shape, read_column, read_quantities
 from .errors import ArgumentError
-from .names import check_name
-from .schema import AIRCRAFT, AXES, COVERAGES, QUANTITIES, S44_ORDERS
+from .schema import AXES, COVERAGES, QUANTITIES, S44_ORDERS, Floats
 from .sea import Sea
 
 
@@ -24,10 +25,10 @@ class Query:
     columns: Mapping[str, NDArray[Any]]  # The same, flat, or with one element if it holds for all pulses.
     quantities: tuple[str, ...]
     coverage: str
-    standard_errors: bool
-    s44_order: str | None
-    best_s44_order: bool
-    table: str | None
+    standard_errors: bool = False
+    s44_order: str | None = None
+    best_s44_order: bool = False
+    table: str | None = None
     sea: Sea | None = None  # In place of a table.
 
     @property
@@ -35,7 +36,7 @@ class Query:
         """The number of pulses."""
         return int(np.prod(self.shape, dtype=np.int64))
 
-    def batch(self, begin: int, end: int) -> dict[str, NDArray[np.float32]]:
+    def batch(self, begin: int, end: int) -> dict[str, Floats]:
         """The pulses from `begin` to `end` in single precision; one element per column if all are equal.
 
         A number too large for single precision becomes infinite: the pulse is INVALID, or, if it is the
@@ -45,7 +46,7 @@ class Query:
                 for axis, column in self.columns.items()}
 
 
-def _single(column: NDArray[Any]) -> NDArray[np.float32]:
+def _single(column: NDArray[Any]) -> Floats:
     with np.errstate(over="ignore"):
         numbers = np.ascontiguousarray(column, "<f4")
     if numbers.size > 1 and numbers[0] == numbers[-1] and (numbers == numbers[0]).all():
@@ -54,18 +55,20 @@ def _single(column: NDArray[Any]) -> NDArray[np.float32]:
 
 
 def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[str] | None, coverage: str,
-               standard_errors: bool, s44_order: str | None, best_s44_order: bool,
-               table: str | None, sea: Sea | None = None, on_one_sea: bool = False) -> Query:
+               known: Iterable[str] = tuple(QUANTITIES), units: Mapping[str, str] = MappingProxyType({}),
+               standard_errors: bool = False, s44_order: str | None = None, best_s44_order: bool = False,
+               table: str | None = None, sea: Sea | None = None, on_one_sea: bool = False) -> Query:
     """Checks the arguments of a query. Raises ArgumentError.
 
-    `on_one_sea`: the table is that of one sea, which needs neither wind speed nor fetch.
+    known: the names of quantities. units: of columns that are no axes of tables. on_one_sea: the table is that of one
+    sea, which needs neither wind speed nor fetch.
     """
     optional = ("wind_speed", "fetch", "azimuth") if on_one_sea else ("fetch", "azimuth")
     if "wind_speed" not in optional and pulses["wind_speed"] is None:
         raise ArgumentError("wind_speed is missing: give it in m/s, or the sea")
-    arrays = {axis: _read_column(axis, values) for axis, values in pulses.items()
-              if values is not None or axis not in optional}
-    shape = _common_shape(arrays)
+    arrays = {name: read_column(name, values, AXES[name].units if name in AXES else units[name])
+              for name, values in pulses.items() if values is not None or name not in optional}
+    shape = common_shape(arrays)
     # reshape(-1) copies a broadcast array, which takes the least memory in single precision.
     flat = {axis: array.reshape(-1) if array.size == 1 or array.shape == shape
             else np.broadcast_to(array.astype("<f4"), shape).reshape(-1) for axis, array in arrays.items()
@@ -76,7 +79,7 @@ def read_query(pulses: Mapping[str, ArrayLike | None], *, quantities: Iterable[s
     if s44_order is not None:
         check_name("s44_order", s44_order, S44_ORDERS[1:])
     return Query(shape=shape, pulses={axis: np.broadcast_to(array, shape) for axis, array in arrays.items()},
-                 columns=flat, quantities=_read_quantities(quantities), coverage=coverage,
+                 columns=flat, quantities=read_quantities(quantities, known), coverage=coverage,
                  standard_errors=bool(standard_errors), s44_order=s44_order,
                  best_s44_order=bool(best_s44_order), table=table, sea=sea)
 
@@ -92,38 +95,3 @@ def _check_sea(sea: object, table: str | None) -> None:
         raise ArgumentError(f"sea is {sea!r}: it should be an albtpu.Sea, or omitted")
     if sea is not None and table is not None:
         raise ArgumentError(f"both sea and table='{table}' are given: a sea has a table of its own; omit one of them")
-
-
-def _read_column(axis: str, values: ArrayLike | None) -> NDArray[Any]:
-    try:
-        array = np.asanyarray(values)
-    except ValueError as error:
-        raise ArgumentError(f"{axis} is not an array: {error}") from error
-    if array.dtype.kind not in "iuf":
-        units = AXES[axis].units if axis in AXES else AIRCRAFT[axis]
-        raise ArgumentError(f"{axis} is of type {array.dtype}: it should be numbers, in {units}")
-    if isinstance(array, np.ma.MaskedArray):  # A pulse with a masked coordinate is INVALID.
-        return np.where(np.ma.getmaskarray(array), np.nan, np.ma.getdata(array))
-    return np.asarray(array)
-
-
-def _common_shape(arrays: Mapping[str, NDArray[Any]]) -> tuple[int, ...]:
-    try:
-        return np.broadcast_shapes(*(array.shape for array in arrays.values()))
-    except ValueError:
-        shapes = ", ".join(f"{axis} {array.shape}" for axis, array in arrays.items() if array.ndim > 0)
-        raise ArgumentError(f"the shapes do not broadcast: {shapes}") from None
-
-
-def _read_quantities(names: Iterable[str] | None) -> tuple[str, ...]:
-    if names is None:
-        return tuple(QUANTITIES)
-    try:
-        wanted = {names} if isinstance(names, str) else set(names)
-    except TypeError:
-        raise ArgumentError(f"quantities is {names!r}: it should be names of quantities") from None
-    for name in wanted:
-        check_name("quantities", name, QUANTITIES)
-    if not wanted:
-        raise ArgumentError("quantities is empty: name at least one, or omit it for all")
-    return tuple(name for name in QUANTITIES if name in wanted)

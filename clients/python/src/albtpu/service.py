@@ -9,17 +9,16 @@ import grpc
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .budget import Budget, BudgetCalls, read_budget_query
-from .channel import File, open_channel
+from .arguments import refuse_unknown_keywords
+from .budget import Budget, read_budget_query
+from .calls import BudgetCalls, ColumnStream
+from .connection import File, Retries, open_channel
 from .errors import ArgumentError
-from .names import check_name, refuse_unknown_keywords
 from .progress import Progress, show_progress
 from .query import Query, check_table
-from .retries import Retries, service_error
-from .schema import AIRCRAFT, ONE_SEA, SEA_SURFACE
+from .schema import ONE_SEA, SCALES, SEA_SURFACE
 from .sea import Sea
 from .source import UncertaintySource
-from .stream import ColumnStream
 from .tables import Answered, AttributeValue, Axis, Quantity, Table, TableReference, TableSummary
 from .uncertainties import AnswerColumns
 from .v1 import uncertainty_service_pb2 as wire
@@ -27,9 +26,6 @@ from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 if TYPE_CHECKING:
     from .table_file import TableFile
-
-_SCALES = ("", "linear", "log")  # Indexed by their numbers on the wire.
-
 
 def connect(target: str, *, tls: bool = False, ca: File | None = None, cert: File | None = None,
             key: File | None = None, token: str | None = None, timeout: float = 60.0,
@@ -75,7 +71,7 @@ class Service(UncertaintySource):
     def sea_table(self, sea: Sea) -> Table:
         """The table that the server computes of a sea, as `table` describes one of its own.
 
-        Its attributes say what the sea was taken to be, for example `x_azimuth` and `share_measured`.
+        Its attributes describe the sea with the assumptions made, for example `x_azimuth` and `share_measured`.
         """
         return _table(self._call(self._stub.CompileSea, wire.CompileSeaRequest(sea=sea.message())).table)
 
@@ -126,19 +122,14 @@ class Service(UncertaintySource):
         ...     errors=dict(position=(0.03, 0.03, 0.05), scan=0.001))   # doctest: +SKIP
         >>> budget.total_thu, budget.outcome                            # doctest: +SKIP
         """
-        columns = {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth}
-        for name in columns:
-            check_name("aircraft", name, AIRCRAFT)
         asked = read_budget_query(
             dict(wind_speed=wind_speed, fetch=fetch, incidence=incidence, azimuth=azimuth, footprint=footprint,
-                 depth=depth), columns, located=located, errors=errors, lever_arm=lever_arm,
-            refractive_index=refractive_index, datum=datum, sea_axis=sea_axis, quantities=quantities,
-            coverage=coverage, table=table, sea=sea)
-        if asked.query.size == 0:
-            raise ArgumentError("there are no pulses: give at least one")
+                 depth=depth), {**(aircraft or {}), "altitude": altitude, "beam_azimuth": beam_azimuth},
+            located=located, errors=errors, lever_arm=lever_arm, refractive_index=refractive_index, datum=datum,
+            sea_axis=sea_axis, quantities=quantities, coverage=coverage, table=table, sea=sea)
         with show_progress(asked.query.size if progress else 0) as shown:
             calls = BudgetCalls(self._target, self._stub, asked, shown, self._timeout)
-            return calls.run(Retries(self._channel, self._patience))
+            return calls.budget(self._retries())
 
     def close(self) -> None:
         self._open_stub = None
@@ -155,7 +146,7 @@ class Service(UncertaintySource):
             table = self.table(query.table) if query.sea is None else self.sea_table(query.sea)
             return Answered(table.reference)
         stream = ColumnStream(self._target, self._stub, query, columns, progress, self._timeout)
-        return stream.run(Retries(self._channel, self._patience))
+        return stream.run(self._retries())
 
     def _axes(self, query: Query, reference: TableReference) -> Mapping[str, Axis]:
         if reference.digest not in self._known_axes:
@@ -164,21 +155,23 @@ class Service(UncertaintySource):
         return self._known_axes[reference.digest]
 
     def _call(self, method: Any, request: Any) -> Any:
-        retries = Retries(self._channel, self._patience)
+        retries = self._retries()
         while True:
             try:
                 return method(request, timeout=self._timeout)
             except grpc.RpcError as error:
-                if not retries.wait_after(error):
-                    raise service_error(self._target, error) from error
+                retries.wait_after(error)
+
+    def _retries(self) -> Retries:
+        return Retries(self._target, self._channel, self._patience)
 
 
 def _table(table: Any) -> Table:
     return Table(
         TableReference.of(table.reference), table.title,
-        {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name,
-                         _SCALES[axis.scale]) for axis in table.axes},
-        {quantity.name: Quantity(quantity.units, quantity.long_name, _SCALES[quantity.scale],
+        {axis.name: Axis(np.array(axis.nodes, np.float32), axis.units, axis.long_name, SCALES[axis.scale])
+         for axis in table.axes},
+        {quantity.name: Quantity(quantity.units, quantity.long_name, SCALES[quantity.scale],
                                  quantity.has_standard_error) for quantity in table.quantities},
         table.campaign, {key: _attribute(value) for key, value in sorted(table.attributes.items())},
         ONE_SEA if table.HasField("sea") else SEA_SURFACE)

@@ -9,11 +9,10 @@ from typing import TypeVar
 
 from numpy.typing import ArrayLike
 
-from .names import refuse_unknown_keywords
+from .arguments import refuse_unknown_keywords
 from .progress import Progress, show_progress
 from .query import Query, read_query
 from .sea import Sea
-from .sides import fill_sides
 from .tables import Answered, Axis, Table, TableReference
 from .uncertainties import AnswerColumns, Uncertainties
 
@@ -49,8 +48,8 @@ class UncertaintySource(ABC):
         table:       the table of a service, NAME or NAME/VERSION. Omitted: its default table.
         coverage:    "2sigma", "1sigma", or "p95" for 95 %; THU is then the radius that contains 95 %.
         quantities:  names from albtpu.QUANTITIES. Omitted: all of them.
-        standard_errors: also return the standard error of each quantity: of the Monte Carlo, or with a sea, what is
-                     not known of the sea.
+        standard_errors: also return the standard error of each quantity: of the Monte Carlo simulation, or with a
+                     sea, of its measurement and of the short waves.
         s44_order:   "exclusive", "special", "1a", "1b" or "2": also return the part of its limits that the sea
                      surface leaves for other sources.
         best_s44_order: also return the strictest S-44 order that the sea surface alone does not exceed.
@@ -75,8 +74,7 @@ class UncertaintySource(ABC):
         columns = AnswerColumns.for_query(query)
         with show_progress(query.size if progress else 0) as shown:
             answered = self._answer(query, columns, shown)
-        fill_sides(columns.outcome_sides, columns.outcomes, columns.outcome_axes, query.columns,
-                   lambda: self._axes(query, answered.table))
+        columns.fill_sides(query.columns, lambda: self._axes(query, answered.table))
         return Uncertainties(query, columns, answered)
 
     @abstractmethod

@@ -7,21 +7,25 @@ them. The seal excludes accidental changes to either.
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
+import struct
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from .errors import TableFileError
-from .schema import (AXES_OF_KIND, BIASES, GREATEST_AZIMUTH, QUANTITIES, REFRACTIONS, SEA_SURFACE,
-                     STANDARD_ERROR)
-from .seal import check_seal
+from .schema import BIASES, KINDS, QUANTITIES, REFRACTIONS, SCALES, SEA_SURFACE, STANDARD_ERROR, Floats
 from .tables import AttributeValue, Axis, Quantity, Table, TableReference
 
-Floats = NDArray[np.float32]
+# The user block, which detects damage to any byte.
+MAGIC = b"\x89ALBTPU\n"
+_HEAD = struct.Struct("<8sI4xQ32s")  # Magic, format version, length of the file, SHA-256 of all other bytes.
+_DIGEST_BEGIN, _DIGEST_END = 24, 56
+_SIZE = 512
+_FORMAT_VERSION = 1
 # Limits of tables/FORMAT.md.
 _MOST_VALUES, _MOST_NODES, _LEAST_DISTANCE, _GREATEST_NODE, _GREATEST_VALUE = 2**28, 65536, 1e-6, 1e9, 1e6
 _FILTERS = {h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_FLETCHER32}
@@ -37,10 +41,43 @@ class TableContent(NamedTuple):
     standard_errors: dict[str, Floats]  # By quantity; only those that the table has.
 
 
+def check_seal(file: bytes) -> None:
+    """Raises TableFileError unless `file` is a sealed table. The text is to follow the name of the file."""
+    if not file:
+        raise TableFileError("is empty: not a table")
+    if file[:len(MAGIC)] != MAGIC[:len(file)]:
+        if file.startswith(b"\x89HDF\r\n\x1a\n"):
+            raise TableFileError("is an HDF5 file without the seal of albtpu: not a table, or its first 512 "
+                                 "bytes are lost")
+        raise TableFileError("is not a table of albtpu: it does not begin with its seal")
+    if len(file) < _SIZE:
+        raise TableFileError(f"is truncated: it has {len(file)} bytes, a table has more than {_SIZE}")
+    _, version, length, digest = _HEAD.unpack_from(file)
+    if version != _FORMAT_VERSION:
+        raise TableFileError(f"has format version {version}: this package reads version {_FORMAT_VERSION}")
+    if len(file) < length:
+        raise TableFileError(f"is truncated: it has {len(file)} of {length} bytes")
+    if len(file) > length:
+        raise TableFileError(f"is damaged: it has {len(file)} bytes, according to its seal {length}")
+    sha = hashlib.sha256(file[:_DIGEST_BEGIN])
+    sha.update(memoryview(file)[_DIGEST_END:])
+    if sha.digest() != digest:
+        raise TableFileError("is damaged: the SHA-256 of its bytes is not that of its seal")
+
+
 def read_table(name: str, file: bytes) -> TableContent:
     """Reads the table in `file`. Raises TableFileError, whose text is to follow the name of the file."""
     with open_sealed(file) as opened:
         return read_content(name, opened)
+
+
+@contextlib.contextmanager
+def errors_naming(file: object) -> Iterator[None]:
+    """Errors inside the `with` statement become TableFileErrors that begin with the name of the file."""
+    try:
+        yield
+    except (OSError, TableFileError) as error:
+        raise TableFileError(f"{file}: {getattr(error, 'strerror', None) or error}") from error
 
 
 @contextlib.contextmanager
@@ -59,7 +96,7 @@ def read_content(name: str, file: h5py.File) -> TableContent:
     kind = _read_kind(file)
     if (coverage := _text(file, "coverage")) != "2 sigma":
         raise TableFileError(f"attribute 'coverage' is '{coverage}': it should be '2 sigma'")
-    axes = {axis: _read_axis(file, axis, kind) for axis in AXES_OF_KIND[kind]}
+    axes = {axis: _read_axis(file, axis, kind) for axis in KINDS[kind].axes}
     values, standard_errors, quantities = {}, {}, {}
     for quantity, (units, long_name) in QUANTITIES.items():
         if not _has(file, quantity):
@@ -84,19 +121,19 @@ def _read_kind(file: h5py.File) -> str:
     kind = _text(file, _KIND)
     if kind == SEA_SURFACE:
         raise TableFileError(f"attribute '{_KIND}' is '{kind}': files of that kind do not have it")
-    if kind not in AXES_OF_KIND:
-        expected = " or ".join(f"'{known}'" for known in AXES_OF_KIND)
+    if kind not in KINDS:
+        expected = " or ".join(f"'{known}'" for known in KINDS)
         raise TableFileError(f"is a table of kind '{kind}': expected kind {expected}")
     return kind
 
 
 def _read_axis(file: h5py.File, axis: str, kind: str) -> Axis:
-    description = AXES_OF_KIND[kind][axis]
+    description = KINDS[kind].axes[axis]
     nodes = _floats(file, "axis", axis, description.units)
     if nodes.ndim != 1 or not 0 < nodes.size <= _MOST_NODES:
         raise TableFileError(f"axis '{axis}' has the shape {nodes.shape}: it should have one dimension, and "
                              f"1 to {_MOST_NODES} nodes")
-    largest = GREATEST_AZIMUTH[kind] if axis == "azimuth" else _GREATEST_NODE
+    largest = KINDS[kind].greatest_azimuth if axis == "azimuth" else _GREATEST_NODE
     increase = bool((np.diff(nodes.astype(float)) >= _LEAST_DISTANCE).all())
     if not (nodes[0] >= 0 and nodes[-1] <= largest and increase):
         raise TableFileError(f"axis '{axis}' has nodes that are not finite, are negative, do not increase, "
@@ -144,7 +181,7 @@ def _floats(file: h5py.File, kind: str, name: str, units: str) -> Floats:
 
 def _scale(dataset: h5py.Dataset, kind: str, name: str, values: Floats) -> str:
     scale = _text(dataset, "interpolation")
-    if scale not in ("linear", "log"):
+    if scale not in SCALES[1:]:
         raise TableFileError(f"{kind} '{name}' has interpolation '{scale}': it should be 'linear' or 'log'")
     if scale == "log" and not (values > 0).all():
         raise TableFileError(f"{kind} '{name}' is on a log scale and not positive everywhere")

@@ -26,15 +26,15 @@ class TableReference(NamedTuple):
 
 
 class SeaSummary(NamedTuple):
-    """What a sea was taken to be."""
+    """A sea as the service computed it, with what it assumed."""
 
-    x_azimuth: float  # degrees of the compass, from which azimuths count: albtpu.geometry.azimuth_on_sea
+    x_azimuth: float  # degrees of the compass, where azimuths are 0: albtpu.geometry.azimuth_on_sea
     significant_wave_height: float  # m, 4 sqrt(m0) of the whole sea
     wind_speed: float  # m/s at 10 m, given or taken from the waves
     water_depth: float  # m; infinity for deep water
     tail_from: float  # Hz, from where the waves of the wind are joined; 0 without known waves
     share_measured: float  # of the known waves in the variance of slope at a footprint of 0.6 m, 0 to 1
-    assumptions: tuple[str, ...]  # What was taken where nothing is known: one sentence each.
+    assumptions: tuple[str, ...]  # What was assumed: one sentence each.
 
     @classmethod
     def of(cls, message: Any) -> SeaSummary:

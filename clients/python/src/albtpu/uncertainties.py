@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,15 +11,12 @@ from numpy.typing import NDArray
 
 from .errors import ArgumentError
 from .query import Query
-from .schema import (AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS,
-                     STANDARD_ERROR)
-from .tables import Answered
+from .schema import (AXES, BIASES, INTERPOLATED, OUT_OF_DOMAIN, OUTCOMES, QUANTITIES, S44_ORDERS, STANDARD_ERROR,
+                     Floats, Numbers)
+from .tables import Answered, Axis
 
 if TYPE_CHECKING:
     import xarray
-
-Floats = NDArray[np.float32]
-Numbers = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -51,6 +48,21 @@ class AnswerColumns:
                    remaining_thu=floats() if query.s44_order else None,
                    remaining_tvu=floats() if query.s44_order else None)
 
+    def fill_sides(self, pulses: Mapping[str, NDArray[Any]], axes_of_table: Callable[[], Mapping[str, Axis]]) -> None:
+        """Sets `outcome_sides`: where a pulse out of domain is. The twin of SideOf in tables/pulse.h.
+
+        A folded azimuth is on no side. `axes_of_table` is called only if a pulse is out of domain.
+        """
+        outside = np.flatnonzero(self.outcomes == OUT_OF_DOMAIN)
+        axes = axes_of_table() if outside.size else {}
+        for number, name in enumerate(AXES, 1):
+            if name == "azimuth" or name not in axes or name not in pulses:
+                continue
+            found = outside[self.outcome_axes[outside] == number]
+            column = pulses[name]
+            coordinates = (column if column.size == 1 else column[found]).astype(np.float32)
+            self.outcome_sides[found] = np.where(coordinates > axes[name].nodes[-1], np.uint8(2), np.uint8(1))
+
 
 class Uncertainties:
     """The answer to a query. All arrays have the shape of the query; NaN where a pulse has no number.
@@ -59,7 +71,7 @@ class Uncertainties:
     in `units`. Those that the query did not request raise AttributeError.
 
     table:            the table that answered: name, id, version, digest.
-    sea:              what the sea was taken to be (albtpu.SeaSummary); None if the table is not that of a sea.
+    sea:              the sea with what was assumed (albtpu.SeaSummary); None if the table is not of one sea.
     coverage:         "2sigma", "1sigma" or "p95", of all quantities except the biases and S-44.
     azimuth_absent:   whether each value is the larger in magnitude of those at 0 and 90 degrees.
     pulses:           the coordinates of the query by axis, as arrays of its shape.
@@ -82,14 +94,10 @@ class Uncertainties:
     bias_vertical: Floats
 
     def __init__(self, query: Query, columns: AnswerColumns, answered: Answered) -> None:
-        def shaped(column: NDArray[Any]) -> NDArray[Any]:
-            return column.reshape(query.shape)
+        def shaped(column: NDArray[Any] | None) -> Any:
+            return None if column is None else column.reshape(query.shape)
 
-        def maybe_shaped(column: NDArray[Any] | None) -> NDArray[Any] | None:
-            return None if column is None else shaped(column)
-
-        self.table = answered.table
-        self.sea = answered.sea
+        self.table, self.sea = answered
         self.coverage = query.coverage
         self.azimuth_absent = "azimuth" not in query.pulses
         self.pulses = query.pulses
@@ -99,9 +107,9 @@ class Uncertainties:
         self.values: Mapping[str, Floats] = {name: shaped(column) for name, column in columns.values.items()}
         self.standard_errors: Mapping[str, Floats] = {
             name: shaped(column) for name, column in columns.standard_errors.items()}
-        self.best_s44_orders: Numbers | None = maybe_shaped(columns.best_s44_orders)
-        self.remaining_thu: Floats | None = maybe_shaped(columns.remaining_thu)
-        self.remaining_tvu: Floats | None = maybe_shaped(columns.remaining_tvu)
+        self.best_s44_orders: Numbers | None = shaped(columns.best_s44_orders)
+        self.remaining_thu: Floats | None = shaped(columns.remaining_thu)
+        self.remaining_tvu: Floats | None = shaped(columns.remaining_tvu)
         self.__dict__.update(self.values)
 
     def __getattr__(self, name: str) -> Any:
@@ -116,7 +124,7 @@ class Uncertainties:
     @property
     def outcome(self) -> NDArray[np.object_]:
         """Words: "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID"."""
-        return np.asarray(_OUTCOME_WORDS[self._outcome_numbers()], object)
+        return outcome_words(self.outcomes, self.outcome_axes, self.outcome_sides)
 
     @property
     def interpolated(self) -> NDArray[np.bool_]:
@@ -125,21 +133,13 @@ class Uncertainties:
 
     def outcome_counts(self) -> dict[str, int]:
         """The number of pulses by outcome: {"INTERPOLATED": 9, "OUT_OF_DOMAIN:depth:above": 1}."""
-        counts = np.bincount(self._outcome_numbers().reshape(-1))
+        counts = np.bincount(_outcome_numbers(self.outcomes, self.outcome_axes, self.outcome_sides).reshape(-1))
         return {_OUTCOME_WORDS[number]: int(count) for number, count in enumerate(counts) if count}
-
-    def _outcome_numbers(self) -> Numbers:
-        """Indices of _OUTCOME_WORDS."""
-        axis_and_side = self.outcome_axes * np.uint8(3) + self.outcome_sides
-        within = np.where(self.outcomes == OUT_OF_DOMAIN, axis_and_side, np.uint8(0))
-        return np.asarray(_FIRST_NUMBERS[self.outcomes] + within, np.uint8)
 
     @property
     def best_s44_order(self) -> NDArray[np.object_] | None:
         """Names: "exclusive", "special", "1a", "1b", "2", or "" for none; None if not requested."""
-        if self.best_s44_orders is None:
-            return None
-        return np.asarray(np.array(S44_ORDERS, object)[self.best_s44_orders], object)
+        return None if self.best_s44_orders is None else order_names(self.best_s44_orders)
 
     @property
     def units(self) -> dict[str, str]:
@@ -202,6 +202,21 @@ _OUTCOME_WORDS = np.array(
      *OUTCOMES[OUT_OF_DOMAIN + 1:]], object)
 _FIRST_NUMBERS = np.array([*range(OUT_OF_DOMAIN + 1),
                            *range(OUT_OF_DOMAIN + 3 * (len(AXES) + 1), len(_OUTCOME_WORDS))], np.uint8)
+
+
+def _outcome_numbers(outcomes: Numbers, axes: Numbers, sides: Numbers) -> Numbers:
+    """Indices of _OUTCOME_WORDS."""
+    within = np.where(outcomes == OUT_OF_DOMAIN, axes * np.uint8(3) + sides, np.uint8(0))
+    return np.asarray(_FIRST_NUMBERS[outcomes] + within, np.uint8)
+
+
+def outcome_words(outcomes: Numbers, axes: Numbers, sides: Numbers) -> NDArray[np.object_]:
+    return np.asarray(_OUTCOME_WORDS[_outcome_numbers(outcomes, axes, sides)], object)
+
+
+def order_names(orders: Numbers) -> NDArray[np.object_]:
+    """The names of S-44 orders by their numbers; "" for none."""
+    return np.asarray(np.array(S44_ORDERS, object)[orders], object)
 
 
 def _coordinate(axis: str, array: NDArray[Any], dims: Sequence[str]) -> tuple[Any, ...]:

@@ -16,10 +16,8 @@ import numpy as np
 import xarray
 from xarray.backends import BackendEntrypoint
 
-from .errors import TableFileError
 from .schema import AXES, QUANTITIES, REFRACTIONS, STANDARD_ERROR
-from .seal import MAGIC
-from .table_reader import TableContent, open_sealed, plain_attribute, read_content
+from .table_reader import MAGIC, TableContent, errors_naming, open_sealed, plain_attribute, read_content
 
 # Attributes that describe the HDF5 storage. Readers of netCDF hide them, too.
 _HIDDEN = {"CLASS", "NAME", "REFERENCE_LIST", "DIMENSION_LIST", "_FillValue"}
@@ -55,16 +53,15 @@ class AlbtpuBackendEntrypoint(BackendEntrypoint):
         The decoding options have no effect: a table has no times, packed values or arrays of characters.
         """
         dropped = {drop_variables} if isinstance(drop_variables, str) else set(drop_variables or ())
-        if isinstance(filename_or_obj, (str, os.PathLike)):
-            name, file = pathlib.Path(filename_or_obj).stem, _read(filename_or_obj)
-        else:
-            filename_or_obj.seek(0)
-            name, file = "table", filename_or_obj.read()
-        try:
+        with errors_naming(filename_or_obj):
+            if isinstance(filename_or_obj, (str, os.PathLike)):
+                path = pathlib.Path(filename_or_obj)
+                name, file = path.stem, path.read_bytes()
+            else:
+                filename_or_obj.seek(0)
+                name, file = "table", filename_or_obj.read()
             with open_sealed(file) as opened:
                 dataset = _dataset(read_content(name, opened), opened)
-        except TableFileError as error:
-            raise TableFileError(f"{filename_or_obj}: {error}") from error
         return dataset.drop_vars(dropped, errors="ignore")
 
 
@@ -73,13 +70,6 @@ def _peek(file: Any) -> bytes:
     head: bytes = file.read(len(MAGIC))
     file.seek(begin)
     return head
-
-
-def _read(path: str | os.PathLike[str]) -> bytes:
-    try:
-        return pathlib.Path(path).read_bytes()
-    except OSError as error:
-        raise TableFileError(f"{path}: {error.strerror or error}") from error
 
 
 def _dataset(content: TableContent, file: h5py.File) -> xarray.Dataset:

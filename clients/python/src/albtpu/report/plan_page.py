@@ -1,44 +1,36 @@
-"""plan.html: how deep each order can be met, and how much wind there may be."""
+"""plan.html: the depth to which each order is met, and the highest wind or waves at which it is."""
 
 from __future__ import annotations
 
-import html
 import json
 import pathlib
 from typing import Any
 
 import numpy as np
 
-from .page import STYLE, table
-from .pictures import BLUE, GREEN, GREY, ORANGE, PURPLE, chart, image
+from .charts import BLUE, GREEN, GREY, ORANGE, ORDERS, PURPLE, chart, image
+from .markup import numbers_table, table, text, verdict_box, write_document
 
 Plan = dict[str, Any]
 
-ORDERS = ("exclusive", "special", "1a", "1b", "2")
 COLOURS = (PURPLE, GREEN, BLUE, ORANGE, GREY)
-ENDS = {"table": "the table of the sea ends there", "water": "the table of the water column ends there"}
+ENDS = {"table": "the table of the sea has no greater depths",
+        "water": "the table of the water column has no greater depths"}
 
 
 def write_plan(folder: pathlib.Path) -> None:
     """Makes plan.html in a folder that has plan.json."""
     plan: Plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
     pictures = "".join([_by_sea(plan), *(_over(plan, axis) for axis in plan["axes"])])
-    body = (f"<h1>Plan: how deep can S-44 order {_text(plan['order'])} be met?</h1>{_answer(plan)}"
-            f"<div class='pictures'>{pictures}</div>"
-            f"<h2>How much {_text(_words(plan))} may there be?</h2>{_greatest(plan)}"
-            f"<h2>Numbers and assumptions</h2>{_numbers(plan)}")
-    page = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f"<title>Plan of a survey</title><style>{STYLE}</style></head><body>{body}</body></html>\n")
-    (folder / "plan.html").write_text(page, encoding="utf-8")
-
-
-def _text(value: object) -> str:
-    return html.escape(str(value))
+    write_document(folder / "plan.html", "Plan of a survey", (
+        f"<h1>Plan: how deep can S-44 order {text(plan['order'])} be met?</h1>{_answer(plan)}"
+        f"<div class='pictures'>{pictures}</div>"
+        f"<h2>Highest {text(_words(plan))} for each depth and order</h2>{_highest(plan)}"
+        f"<h2>Numbers and assumptions</h2>{numbers_table(plan['numbers'])}"))
 
 
 def _words(plan: Plan) -> str:
-    return "wind" if plan["sea"]["name"] == "wind_speed" else "sea (significant wave height)"
+    return "wind speed" if plan["sea"]["name"] == "wind_speed" else "significant wave height"
 
 
 def _conditions(plan: Plan) -> str:
@@ -48,19 +40,18 @@ def _conditions(plan: Plan) -> str:
 def _answer(plan: Plan) -> str:
     unit, order = plan["sea"]["unit"], plan["order"]
     met = [each for each in plan["greatest_sea"] if each[order] is not None]
-    items = [f"<li>down to {each['depth']:g} m: up to {each[order]:g} {_text(unit)}"
-             f"{' (the most that was asked about)' if each[order] == plan['seas'][-1] else ''}</li>" for each in met]
+    items = [f"down to {each['depth']:g} m: up to {each[order]:g} {text(unit)}"
+             f"{' (the highest planned)' if each[order] == plan['seas'][-1] else ''}" for each in met]
     none = [each["depth"] for each in plan["greatest_sea"] if each[order] is None]
     calmest = plan["planned"][0]
     end = ENDS.get(calmest["limited_by"][order])
     if none and end:
-        items.append(f"<li>deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}</li>")
+        items.append(f"deeper than {calmest['depth'][order] or 0:g} m: no answer, {end}")
     elif none:
-        items.append(f"<li>down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {_text(unit)} or more</li>")
-    kind = "pass" if met else "fail"
-    return (f'<div class="verdict {kind}"><b>Order {_text(order)} at {_conditions(plan)}</b><ul>{"".join(items)}</ul>'
-            "</div><p class='soft'>All shares of the uncertainty count, at 95 %, and the biases. Whether the laser sees"
-            " the bottom at these depths is another question.</p>")
+        items.append(f"down to {none[0]:g} m and deeper: not at {plan['seas'][0]:g} {text(unit)} or more")
+    return verdict_box(bool(met), f"Order {order} at {_conditions(plan)}", items) + (
+        "<p class='soft'>All contributions to the uncertainty count, at 95 %, and the biases. Whether the laser"
+        " reaches the bottom at these depths is not considered.</p>")
 
 
 def _by_sea(plan: Plan) -> str:
@@ -81,12 +72,12 @@ def _label(plan: Plan) -> str:
 
 
 def _over(plan: Plan, axis: dict[str, Any]) -> str:
-    """Depths of the order that is asked for, over the sea and another condition."""
-    depth = np.array(axis["depth"][plan["order"]], float)  # NaN where a table does not know the beam.
+    """Depths of the planned order, over the sea and another condition."""
+    depth = np.array(axis["depth"][plan["order"]], float)  # NaN where the beam is outside a table.
     limits = axis["limited_by"][plan["order"]]
     name = "Kd at 532 nm" if axis["name"] == "kd" else axis["name"]
     ends = any(limit not in ("thu", "tvu") for row in limits for limit in row)
-    figure, axes = chart(f"order {plan['order']}: depth [m] by {name}{'; +: a table ends there' if ends else ''}",
+    figure, axes = chart(f"order {plan['order']}: depth [m] by {name}{'; +: limited by a table' if ends else ''}",
                          _label(plan), f"{name} [{axis['unit']}]")
     shown = axes.imshow(depth, origin="lower", aspect="auto", cmap="cividis_r", vmin=0)
     axes.grid(False)
@@ -103,16 +94,9 @@ def _over(plan: Plan, axis: dict[str, Any]) -> str:
     return image(figure, f"chart: depth down to which order {plan['order']} is met, by {name}")
 
 
-def _greatest(plan: Plan) -> str:
-    unit = _text(plan["sea"]["unit"])
+def _highest(plan: Plan) -> str:
+    unit = text(plan["sea"]["unit"])
     rows = [[f"{each['depth']:g}", *(f"{each[order]:g}" if each[order] is not None else "–" for order in ORDERS)]
             for each in plan["greatest_sea"]]
-    note = "<p class='soft'>–: not met, or deeper than a table answers.</p>"
+    note = "<p class='soft'>–: not met, or outside a table.</p>"
     return note + table([f"to a depth of [m] ↓ order, {unit} →", *ORDERS], rows)
-
-
-def _numbers(plan: Plan) -> str:
-    rows = [[_text(each["name"].replace("_", " ")), _text(each["value"]),
-             "<span class='no'>assumed</span>" if each["assumed"] else "", _text(each["source"])]
-            for each in sorted(plan["numbers"], key=lambda each: not each["assumed"])]
-    return table(["number", "value", "", "source"], rows, "words")

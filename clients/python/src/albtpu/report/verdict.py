@@ -1,4 +1,4 @@
-"""What a report says in words: where a survey does not pass, why, which line is bad, and what would help most."""
+"""What a report says in words: where a survey fails, why, which line is the worst, and what would help most."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ from typing import Any
 
 Report = dict[str, Any]
 
+COVERAGES = {"p95": "95 %", "2sigma": "2σ", "1sigma": "1σ"}
+
+NO_OVERLAP = "No lines overlap, so the files cannot show whether the prediction is right."
+
 OUTCOMES = {"NO_TRAJECTORY": "no trajectory at their time",
-            "UNCERTAIN_TRAJECTORY": "a trajectory too uncertain for an incidence",
+            "UNCERTAIN_TRAJECTORY": "a trajectory too uncertain to give an incidence",
             "NO_SURFACE": "no water surface known above them",
             "NO_SEA": "no state of the sea at their time",
             "ABOVE_WATER": "they lie above the water",
-            "NO_WATER": "beyond what the optics of the water answer",
-            "UNKNOWN": "for a reason that the summaries do not name",
-            "INVALID": "numbers that are not valid"}
+            "NO_WATER": "outside the table of the water column",
+            "UNKNOWN": "a reason that the summaries do not name",
+            "INVALID": "invalid numbers"}
 
 REMEDIES = {"air": "the air side (scan angles, ranges, trajectory, calibration): better numbers for its sensor, or a"
                    " lower flight",
@@ -28,7 +32,7 @@ def asked(report: Report) -> str:
 
 
 def sentences(report: Report) -> list[str]:
-    """Where not, why, which line, what would help, and whether the prediction is true."""
+    """Where the survey fails and why, its worst line, what would help, and whether the prediction is right."""
     found = [*_gaps(report), *_depths(report), *_lines(report), _help(report), _truth(report)]
     assumed = sum(1 for each in report["numbers"] if each.get("assumed"))
     if assumed:
@@ -36,10 +40,21 @@ def sentences(report: Report) -> list[str]:
     return [each for each in found if each]
 
 
+def limit_text(limit: dict[str, Any] | None) -> str:
+    """ "√(0.5² + (0.013 d)²) m" """
+    if limit is None:
+        return "–"
+    if limit["of_depth"] == 0:
+        return f"{limit['constant']:g} m"
+    if limit["combined"] == "rss":
+        return f"√({limit['constant']:g}² + ({limit['of_depth']:g} d)²) m"
+    return f"{limit['constant']:g} m + {100 * limit['of_depth']:g} % d"
+
+
 def estimate_text(estimate: dict[str, Any]) -> str:
     """ "1.02 (95 %: 0.96 to 1.08)" """
     if estimate["low"] is None:
-        return f"{estimate['value']:.2f} (one place of overlap tells no interval)"
+        return f"{estimate['value']:.2f} (a single overlap gives no interval)"
     return f"{estimate['value']:.2f} (95 %: {estimate['low']:.2f} to {estimate['high']:.2f})"
 
 
@@ -51,11 +66,11 @@ def outcome_text(name: str) -> str:
 
 
 def sea_text(sea: object) -> str:
-    """The waves in a few words; the wind alone stands elsewhere."""
+    """The waves in a few words, without the wind."""
     if not isinstance(sea, dict):
-        return "by the wind"
+        return "from the wind"
     return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in sea.items()
-                     if isinstance(value, (int, float, str)))[:200] or "told"
+                     if isinstance(value, (int, float, str)))[:200] or "given"
 
 
 def _gaps(report: Report) -> list[str]:
@@ -95,7 +110,7 @@ def _lines(report: Report) -> list[str]:
         return [f"The worst line is {worst['line']}: {100 * fraction:.1f} % of its points meet it,"
                 f" {100 * gaps:.1f} % have no number."]
     worst = max((line for line in lines if "tvu" in line), key=lambda line: line["tvu"]["p95"])
-    return [f"No line is bad; line {worst['line']} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
+    return [f"No line fails; line {worst['line']} has the largest TVU ({worst['tvu']['p95']:.3f} m at its 95th"
             " percentile)."]
 
 
@@ -121,16 +136,16 @@ def _help(report: Report) -> str:
 def _truth(report: Report) -> str:
     check = report["crosscheck"]
     if check is None:
-        return "No lines overlap, so that the files cannot show whether the prediction is true."
+        return NO_OVERLAP
     factor = check["factor"]
     text = f"Overlapping lines: σ would have to be {estimate_text(factor)} times as large"
     if factor["low"] is None:
         return text + "."
     if factor["low"] <= 1 <= factor["high"]:
-        return text + ", so that they agree with the prediction."
+        return text + ", which agrees with the prediction."
     if abs(factor["value"] - 1) < 0.1 and not check["guilty_share"]:
-        return text + ", so that they agree with the prediction within 10 %."
+        return text + ", which agrees with the prediction within 10 %."
     word = "small" if factor["value"] > 1 else "large"
     name = {"air": "air side", "sea": "sea surface"}.get(check["guilty_share"])
-    guilty = f"; that of the {name} differs most" if name else ""
+    guilty = f"; the {name} differs most" if name else ""
     return text + f": the prediction is too {word}{guilty}."

@@ -1,4 +1,4 @@
-"""Maps and charts as HTML images. Colours can be told apart by the colour-blind (Okabe and Ito 2008; cividis)."""
+"""Charts as HTML images. The colour-blind can distinguish the colours (Okabe and Ito 2008; cividis)."""
 
 from __future__ import annotations
 
@@ -13,23 +13,18 @@ import matplotlib
 matplotlib.use("Agg")
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.transforms import ScaledTranslation
 
-from .limits import COVERAGES, SIGMAS, limit_at
-from .overview import Array, Overview
+from ..s44 import FACTOR_95
+from ..schema import S44_ORDERS
+from .verdict import COVERAGES, Report
 
-Report = dict[str, Any]
-
-ORDERS = ("exclusive", "special", "1a", "1b", "2", "none")
+ORDERS = S44_ORDERS[1:]
+SIGMAS = {"p95": 2 * FACTOR_95, "2sigma": 2.0, "1sigma": 1.0}  # Of one dimension.
 SHARES = ("air", "sea", "water", "datum")
 BLUE, ORANGE, GREEN, RED, PURPLE, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#777777"
 SHARE_COLOURS = (ORANGE, BLUE, GREEN, GREY)
 MOST_BARS = 50  # Of a histogram.
-GAPS = ("above water", "no answer", "no surface", "no trajectory")
-GAP_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
-ORDER_COLOURS = ("#00204d", "#31446b", "#666970", "#958f78", "#cbba69", RED)
 
 
 def image(figure: Figure, words: str) -> str:
@@ -38,73 +33,6 @@ def image(figure: Figure, words: str) -> str:
     figure.savefig(buffer, format="png", dpi=110, bbox_inches="tight", metadata={"Software": None})
     data = base64.b64encode(buffer.getvalue()).decode()
     return f'<img alt="{html.escape(words)}" src="data:image/png;base64,{data}">'
-
-
-def _map(overview: Overview, values: Array, title: str, **look: Any) -> tuple[Figure, Any, Any]:
-    west, east, south, north = overview.extent
-    aspect = min(max((north - south) / (east - west), 0.35), 1.6)
-    figure = Figure(figsize=(5.6, 0.9 + 4.2 * aspect))
-    axes = figure.subplots()
-    shown = axes.imshow(values, extent=overview.extent, interpolation="nearest", aspect="equal", **look)
-    axes.set_title(title, fontsize=11)
-    axes.set_xticks([])
-    axes.set_yticks([])
-    # Scale and north stand below the map, which may be too flat to hold them.
-    length = _round_length((east - west) / 4)
-    text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
-    points = figure.dpi_scale_trans
-    below = axes.get_xaxis_transform() + ScaledTranslation(0, -10 / 72, points)
-    corner = axes.transAxes + ScaledTranslation(-5 / 72, -2 / 72, points)
-    axes.plot([west, west + length], [0, 0], color="black", linewidth=3, solid_capstyle="butt", transform=below,
-              clip_on=False)
-    axes.annotate(text, (west + length, 0), xycoords=below, xytext=(5, 0), textcoords="offset points", va="center",
-                  fontsize=8, annotation_clip=False)
-    axes.annotate("N", xy=(1, 0), xycoords=corner, xytext=(0, -26), textcoords="offset points", ha="center", fontsize=9,
-                  arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0},
-                  annotation_clip=False)
-    return figure, axes, shown
-
-
-def _round_length(length: float) -> float:
-    power = 10.0 ** math.floor(math.log10(max(length, 1e-6)))
-    return max(step * power for step in (1, 2, 5) if step * power <= length * 1.0000001)
-
-
-def map_of_lengths(overview: Overview, layer: str, title: str) -> str:
-    """A map of depth, THU or TVU in m."""
-    values = overview.layers[layer]
-    known = values[np.isfinite(values)]
-    if known.size == 0:
-        return "<p>No cell has a number.</p>"
-    low, high = np.quantile(known, [0.01, 0.99])
-    reverse = "_r" if layer == "depth" else ""
-    figure, axes, shown = _map(overview, values, title, cmap=f"cividis{reverse}", vmin=low, vmax=max(high, low + 1e-3))
-    figure.colorbar(shown, ax=axes, shrink=0.8, label="m", extend="both")
-    return image(figure, f"map: {title}, {low:.2f} to {high:.2f} m")
-
-
-CODES = {"order_met": (ORDERS, ORDER_COLOURS), "dominant_share": (SHARES, SHARE_COLOURS), "gap": (GAPS, GAP_COLOURS)}
-
-
-def map_of_codes(overview: Overview, layer: str, title: str) -> str:
-    """A map of the order that is met, of the share that dominates, or of why points have no number."""
-    names, colours = CODES[layer]
-    norm = BoundaryNorm(np.arange(0.5, len(names) + 1), len(names))
-    figure, axes, shown = _map(overview, overview.layers[layer], title, cmap=ListedColormap(colours), norm=norm)
-    bar = figure.colorbar(shown, ax=axes, shrink=0.8, ticks=range(1, len(names) + 1))
-    bar.ax.set_yticklabels(names)
-    return image(figure, f"map: {title}")
-
-
-def maps_of_gaps(overview: Overview) -> list[str]:
-    """Where points have no number, and why."""
-    if not np.nanmax(overview.layers["without_number"]) > 0:
-        return ["<p>Every point has a number.</p>"]
-    title = "points without a number"
-    figure, axes, shown = _map(overview, 100 * overview.layers["without_number"], title, cmap="cividis", vmin=0,
-                               vmax=100)
-    figure.colorbar(shown, ax=axes, shrink=0.8, label="% of the points")
-    return [image(figure, f"map: {title}"), map_of_codes(overview, "gap", "why points have no number")]
 
 
 def chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
@@ -119,6 +47,13 @@ def chart(title: str, x: str, y: str) -> tuple[Figure, Any]:
     return figure, axes
 
 
+def limit_at(limit: dict[str, Any], depth: float) -> float:
+    """The largest uncertainty in m that a limit allows at a depth in m."""
+    of_depth: float = limit["of_depth"] * depth
+    constant: float = limit["constant"]
+    return math.hypot(constant, of_depth) if limit["combined"] == "rss" else constant + of_depth
+
+
 def against_depth(report: Report, quantity: str) -> str:
     """THU or TVU against depth, with the limits of the wanted specification."""
     bins = [each for each in report["by_depth"] if each.get(quantity)]
@@ -128,7 +63,7 @@ def against_depth(report: Report, quantity: str) -> str:
     figure, axes = chart(f"{name} against depth", "depth [m]", f"{name} at {COVERAGES[report['coverage']]} [m]")
     depth = np.array([each["from"] + 0.5 for each in bins])
     for key, style in (("median", "-"), ("p95", "--"), ("greatest", ":")):
-        label = {"median": "median", "p95": "95 % of the points are below", "greatest": "greatest"}[key]
+        label = {"median": "median", "p95": "95 % of the points are below", "greatest": "maximum"}[key]
         axes.plot(depth, [each[quantity][key] for each in bins], style, color=BLUE, marker=".", label=label)
     ends = np.linspace(0, depth[-1] + 0.5, 60)
     highest = max(each[quantity]["greatest"] for each in bins)
@@ -140,7 +75,7 @@ def against_depth(report: Report, quantity: str) -> str:
                 continue
             if of["index"] != wanted and specification["title"] != report["wanted"]["specification"]:
                 continue
-            # A vertical limit can be stated at the coverage of the points; a horizontal one has no one factor.
+            # A vertical limit converts to the coverage of the points; for a horizontal one there is no single factor.
             same = of["coverage"] == report["coverage"]
             factor = SIGMAS[report["coverage"]] / SIGMAS[of["coverage"]] if quantity == "tvu" else 1.0
             limits = [factor * limit_at(of[direction], d) for d in ends]

@@ -1,6 +1,6 @@
 """Connections to a server: in plain text and with TLS, certificates and tokens.
 
-Usage: channel_test.py TABLE.h5
+Usage: connection_test.py TABLE.h5
 """
 
 import pathlib
@@ -31,20 +31,6 @@ class PlainText(unittest.TestCase):
                     self.assertEqual([table.reference.name for table in client.tables()], ["fake"], target)
                     self.assertTrue(client.tables()[0].is_default)
 
-    def test_refuses_calls_after_close(self):
-        with Running(FakeService(TABLE)) as running:
-            client = albtpu.connect(running.address)
-            client.close()
-            pulse = dict(wind_speed=5, incidence=5, footprint=1, depth=5)
-            for call in (client.tables, client.table, lambda: client.query(**pulse)):
-                with self.assertRaisesRegex(albtpu.ArgumentError, "is closed: connect again"):
-                    call()
-
-    def test_refuses_invalid_addresses(self):
-        for target in ("", "localhost", "two words:1", None, 50051):
-            with self.assertRaisesRegex(albtpu.ArgumentError, "it should be HOST:PORT"):
-                albtpu.connect(target)
-
 
 @unittest.skipUnless(shutil.which("openssl"), "openssl is missing; apt-get install openssl")
 class Tls(unittest.TestCase):
@@ -59,11 +45,8 @@ class Tls(unittest.TestCase):
                  "-keyout", cls.folder / f"{name}.key", "-out", cls.folder / f"{name}.pem"],
                 check=True, capture_output=True)
 
-    def file(self, name):
-        return self.folder / name
-
     def read(self, name):
-        return self.file(name).read_bytes()
+        return (self.folder / name).read_bytes()
 
     def run_service(self, **options):
         service = FakeService(TABLE)
@@ -75,17 +58,17 @@ class Tls(unittest.TestCase):
 
     def test_connects_only_to_trusted_servers(self):
         _, address = self.run_service()
-        with albtpu.connect(address, ca=self.file("server.pem")) as client:
+        with albtpu.connect(address, ca=self.folder / "server.pem") as client:
             self.assertEqual(len(client.tables()), 1)
-        for trust in ({"ca": self.file("client.pem")}, {"tls": True}, {}):
+        for trust in ({"ca": self.folder / "client.pem"}, {"tls": True}, {}):
             with albtpu.connect(address, **trust, patience=0.1) as client:
                 with self.assertRaises(albtpu.UnreachableError):
                     client.tables()
 
     def test_presents_the_certificate_of_the_client(self):
         _, address = self.run_service(root_certificates=self.read("client.pem"), require_client_auth=True)
-        ca = self.file("server.pem")
-        ours = dict(cert=self.file("client.pem"), key=self.file("client.key"))
+        ca = self.folder / "server.pem"
+        ours = dict(cert=self.folder / "client.pem", key=self.folder / "client.key")
         with albtpu.connect(address, ca=ca, **ours) as client:
             self.assertEqual(len(client.tables()), 1)
         with albtpu.connect(address, ca=ca, patience=0.1) as client:
@@ -94,15 +77,15 @@ class Tls(unittest.TestCase):
 
     def test_sends_the_token(self):
         service, address = self.run_service()
-        with albtpu.connect(address, ca=self.file("server.pem"), token="open sesame") as client:
+        with albtpu.connect(address, ca=self.folder / "server.pem", token="open sesame") as client:
             client.tables()
         self.assertEqual(service.metadata["authorization"], "Bearer open sesame")
 
     def test_refuses_files_that_are_missing_or_invalid(self):
-        for files, hint in (({"ca": self.file("nowhere.pem")}, "'ca', .*nowhere.pem: No such file"),
+        for files, hint in (({"ca": self.folder / "nowhere.pem"}, "'ca', .*nowhere.pem: No such file"),
                             ({"ca": TABLE}, "should be a PEM file"),
-                            ({"cert": self.file("client.pem")}, "give both 'cert' and 'key'"),
-                            ({"key": self.file("client.key")}, "give both 'cert' and 'key'")):
+                            ({"cert": self.folder / "client.pem"}, "give both 'cert' and 'key'"),
+                            ({"key": self.folder / "client.key"}, "give both 'cert' and 'key'")):
             with self.assertRaisesRegex(albtpu.ArgumentError, hint):
                 albtpu.connect("localhost:1", **files)
 
