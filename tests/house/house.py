@@ -177,8 +177,14 @@ class Targets:
                 self._read(root, path)
 
     def _read(self, root, path):
+        variables = {}
         for name, arguments in commands(path.read_text()):
-            if name == "add_library" and "ALIAS" in arguments:
+            arguments = [value for word in arguments for value in variables.get(word, [word])]
+            if name == "albtpu_sources":  # Of cmake/house_rules.cmake: all sources in folders but those of programs.
+                found = [source for folder in arguments[1:] for source in (path.parent / folder).resolve().glob("*.cc")]
+                variables[f"${{{arguments[0]}}}"] = [
+                    source.as_posix() for source in found if not re.search(r"(^|_)main\.cc$", source.name)]
+            elif name == "add_library" and "ALIAS" in arguments:
                 self.aliases[arguments[0]] = arguments[-1]
             elif name in ("add_library", "add_executable", "target_sources"):
                 for source in arguments[1:]:

@@ -5,6 +5,7 @@ import shape
 import uses
 
 RULES = {
+    uses.code_lies_in_rooms: None,
     uses.includes_follow_the_law: None,
     uses.libraries_are_allowed: None,
     uses.headers_are_named_from_the_root: None,

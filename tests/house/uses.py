@@ -3,14 +3,20 @@ breaks it."""
 
 import house
 
+OUTSIDE = ("clients/", "tests/")  # Code of no room; what it uses is not restricted.
+
+
+def code_lies_in_rooms(tree):
+    for path in tree.code:
+        if path.endswith((".h", ".cc")) and not path.startswith(OUTSIDE) and tree.law.room_of(path) is None:
+            yield f"{path} lies in no room of rooms.toml"
+
 
 def includes_follow_the_law(tree):
     law = tree.law
     for path, header in house.includes(tree.root, tree.rooms):
         here, there = law.room_of(path), law.room_of(header)
-        if here is None:
-            yield f"{path} lies in no room of rooms.toml"
-        elif there not in (None, here) and there not in law.uses[here]:
+        if here is not None and there not in (None, here) and there not in law.uses[here]:
             yield f"{path} includes {header}: rooms.toml does not let {here} use {there}"
 
 
