@@ -16,6 +16,8 @@ EMPTY = re.compile(r"\bnamespace\s+[\w:]+\s*\{\s*\}")
 NAME = re.compile(r'"[a-z][a-z0-9_.]*"')
 UNITS_LIKE_NAMES = ("m", "s", "h", "ns", "nm", "degree", "rad", "mrad")
 UNIT = re.compile(r'"[\w/%]{1,8}"')
+FLAG = re.compile(r'"--[\w-]+"')
+DESIGNATOR = re.compile(r"\.\w+\s*=\s*")
 TEXT = re.compile(r'"[^"]*"')
 NUMBER = re.compile(r"-?\s*(\d[\d'.]*(e[-+]?\d+)?|k[A-Z]\w*|\w*::infinity\(\))(\s*[-*/]\s*\d[\d'.]*)?", re.IGNORECASE)
 LIST = re.compile(r"\w*\{(.*)\}", re.DOTALL)
@@ -90,11 +92,14 @@ def has_range(parts):
 
 
 class Key:
-    """A key as a table declares it: {"kd", "1/m", 0.001, 10}, {"scan", "degree", 5}, {"water", "kd", NumberRange{...}}.
+    """A key as a table declares it, with a range or a flag: {"kd", "1/m", 0.001, 10}, {.name = "scan",
+    .unit = "degree", .greatest = 5}, {"water", "kd", NumberRange{...}}, {"level", "--water-level", kLevel}; in a table
+    also without both, {"bias", "", Word{...}}.
 
     `statement` is the number of the statement that it stands in; a table is one."""
 
-    def __init__(self, line, statement, parts):
+    def __init__(self, line, statement, parts, in_table):
+        parts = [DESIGNATOR.sub("", part, count=1) if part.startswith(".") else part for part in parts]
         texts = [part.strip('"') for part in parts if TEXT.fullmatch(part)]
         names = [part.strip('"') for part in itertools.takewhile(NAME.fullmatch, parts)]
         self.line, self.statement = line, statement
@@ -102,12 +107,13 @@ class Key:
         self.name = self.path[-1] if self.path else ""
         self.flags = [text for text in texts if text.startswith("--")]
         greatest = len(parts) > 2 and UNIT.fullmatch(parts[1]) and NUMBER.fullmatch(parts[2])
-        self.stands = bool(self.path) and len(texts) > 1 and bool(greatest or has_range(parts))
+        with_flag = len(parts) > 2 and (FLAG.fullmatch(parts[1]) or (in_table and parts[1] == '""'))
+        self.stands = bool(self.path) and len(texts) > 1 and bool(greatest or with_flag or has_range(parts))
 
 
-def declared_keys(text):
+def declared_keys(text, in_table):
     text = without_comments(text)
-    for match in re.finditer(r'[({]\s*(?="[a-z])', text):
+    for match in re.finditer(r'[({]\s*(?=(?:\.\w+\s*=\s*)?"[a-z])', text):
         depth, end = 1, match.end()
         for bracket in re.finditer(r'"(?:\\.|[^"\\\n])*"|[({)}]', text[match.end():]):
             depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(bracket[0], 0)
@@ -115,7 +121,7 @@ def declared_keys(text):
                 end = match.end() + bracket.start()
                 break
         key = Key(text.count("\n", 0, match.end()) + 1, text.count(";", 0, match.end()),
-                  elements(text[match.end():end]))
+                  elements(text[match.end():end]), in_table)
         if key.stands:
             yield key
 
@@ -126,18 +132,19 @@ def keys_are_declared_once(tree):
     for rule in tree.law.rules["keys"]:
         tables, entries, holders, flags = rule["tables"], set(), {}, {}
         for path, text in tree.code_in(tables, (".h", ".cc")):
-            for key in declared_keys(text):
+            for key in declared_keys(text, in_table=True):
                 entry, holder = (path, key.statement, *key.path), holders.setdefault(key.name, path)
                 if entry in entries or (holder != path and key.name not in rule["shared"]):
                     yield f"{path}:{key.line} declares the key '{key.name}', which {holder} declares, too"
                 entries.add(entry)
                 flags |= {flag: path for flag in key.flags}
-        if not entries:
-            yield f"{', '.join(tables)}: no key was found there"
+        for table in tables:
+            if table not in {path for path, *_ in entries}:
+                yield f"{table}: no key was found there"
         for path, text in tree.code_in(rule["rooms"], (".h", ".cc")):
             if house.within(path, tables):
                 continue
-            for key in declared_keys(text):
+            for key in declared_keys(text, in_table=False):
                 yield f"{path}:{key.line} declares the range of '{key.name}': only {', '.join(tables)} may"
             text = without_comments(text)
             for statement in re.finditer(r"[^;]+", text):
