@@ -1,10 +1,16 @@
-"""The tree as its includes and CMake files show it, and the law of rooms.toml."""
+"""A tree as its files, includes and CMake files show it, and the law of its rooms.toml."""
 
 import collections
+import functools
+import os
 import pathlib
 import re
 import tomllib
 
+# Not of the tree: made by builds and by tools. Nor is a folder that holds a CMakeCache.txt.
+NOT_OURS = ("build", "out", "b", ".git", ".cache", "__pycache__")
+MADE = ("_pb2", "_pb2_grpc")  # By protoc; a test of the Python package holds them to the .proto files.
+CODE = (".h", ".cc", ".py", ".sh", ".proto", ".cmake")
 WIRE = ("albtpu/v1/", "google/rpc/", "grpc/health/v1/")  # What protoc makes of proto/.
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 SYSTEM = re.compile(r"(sys|arpa|netinet)/\w+\.h|(fcntl|limits|netdb|poll|pthread|spawn|stdio|stdlib|unistd)\.h")
@@ -15,11 +21,47 @@ def sources_in(folder):
     return sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cc"))
 
 
+def within(path, folders):
+    """The longest of the folders that holds a path; "." holds all; None if no folder does."""
+    holding = [folder for folder in folders if folder == "." or f"{path}/".startswith(folder + "/")]
+    return max(holding, key=lambda folder: len(folder) if folder != "." else 0, default=None)
+
+
+class Tree:
+    """The files of a tree, by their paths from its root."""
+
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        self.law = Law(self.root / "rooms.toml")
+        self.rooms = sorted({room.split("/")[0] for room in self.law.rooms})  # at the top
+
+    @functools.cached_property
+    def files(self):
+        found = []
+        for folder, subfolders, names in os.walk(self.root):
+            folder = pathlib.Path(folder)
+            subfolders[:] = [name for name in subfolders
+                             if name not in NOT_OURS and not (folder / name / "CMakeCache.txt").exists()]
+            found += [(folder / name).relative_to(self.root).as_posix() for name in names if name not in NOT_OURS]
+        return sorted(found)
+
+    @functools.cached_property
+    def code(self):
+        """The text of each file of code that people write."""
+        return {path: (self.root / path).read_text() for path in self.files
+                if path.endswith(CODE) and not pathlib.Path(path).stem.endswith(MADE)}
+
+    def code_in(self, folders, suffixes):
+        return [(path, text) for path, text in self.code.items()
+                if path.endswith(suffixes) and within(path, folders) is not None]
+
+
 class Law:
     """What rooms.toml says."""
 
     def __init__(self, path):
         law = tomllib.loads(path.read_text())
+        self.rules = law.get("rules", {})
         self.libraries = law["libraries"]
         self.rooms = law["rooms"]
         self.uses = {name: self._expand(room.get("uses", [])) - {name} for name, room in self.rooms.items()}
@@ -135,8 +177,14 @@ class Targets:
                 self._read(root, path)
 
     def _read(self, root, path):
+        variables = {}
         for name, arguments in commands(path.read_text()):
-            if name == "add_library" and "ALIAS" in arguments:
+            arguments = [value for word in arguments for value in variables.get(word, [word])]
+            if name == "albtpu_sources":  # Of cmake/house_rules.cmake: all sources in folders but those of programs.
+                found = [source for folder in arguments[1:] for source in (path.parent / folder).resolve().glob("*.cc")]
+                variables[f"${{{arguments[0]}}}"] = [
+                    source.as_posix() for source in found if not re.search(r"(^|_)main\.cc$", source.name)]
+            elif name == "add_library" and "ALIAS" in arguments:
                 self.aliases[arguments[0]] = arguments[-1]
             elif name in ("add_library", "add_executable", "target_sources"):
                 for source in arguments[1:]:
