@@ -120,6 +120,7 @@ def shown(content):
         elif found and not found[-1][1] and found[-1][0][-1].endswith("\\"):
             found[-1][0].append(line)
         else:
+            assert found, f"no command prints '{line}'"
             found[-1][1].append(line)
     return [("\n".join(command), output) for command, output in found]
 
