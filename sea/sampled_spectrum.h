@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// What a table records of the sea.
+// The description of the sea that a table records.
 struct SpectrumText {
   std::string name, reference, departures;
 };

@@ -18,7 +18,7 @@ inline constexpr std::array<AxisId, kAxisCount> kAxes = {AxisId::kWindSpeed, Axi
                                                          AxisId::kIncidence, AxisId::kAzimuth,
                                                          AxisId::kFootprint, AxisId::kDepth};
 
-// What the surface of the sea does to a pulse. All but the biases are 2 sigma.
+// The uncertainty of a pulse by the sea surface. All but the biases are 2 sigma.
 enum class Quantity {
   kRefractionAlongWind,  // degree, over all axes but depth
   kRefractionCrossWind,  // degree, over all axes but depth

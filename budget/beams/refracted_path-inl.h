@@ -5,7 +5,7 @@
 
 namespace albtpu {
 
-// Water of refractive index n >= 1, with what the steps below need of it.
+// Water of refractive index n >= 1, and the numbers derived from n that the steps below need.
 struct StillWater {
   explicit StillWater(double n)
       : square(n * n), excess((n - 1) * (n + 1)), gentlest(1 / n), flattest(1 / std::sqrt(excess)) {}

@@ -35,8 +35,7 @@ std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count)
     const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
     return 0.5 * std::erfc(-x / std::sqrt(2.0));
   };
-  const double least = optics.least_ratio > 0 ? place(optics.least_ratio) : 0,
-               most = place(optics.most_ratio);
+  const double least = optics.min_ratio > 0 ? place(optics.min_ratio) : 0, most = place(optics.max_ratio);
   for (std::size_t i = 0; i < count; ++i) {
     const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     DrawnWater draw{};

@@ -52,7 +52,7 @@ constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindS
                                                            campaign_keys::kIncidence, campaign_keys::kAzimuth,
                                                            campaign_keys::kFootprint, campaign_keys::kDepth};
 
-// Whether the sea of a file takes the place of the axis.
+// Whether a sea from a file replaces the axis.
 bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
 
 // In the order of WaterAxis.

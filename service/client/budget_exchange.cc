@@ -25,7 +25,7 @@ namespace v1 = albtpu::v1;
 
 // Bytes of columns in a message, which may have 4 MiB (uncertainty_service.proto). The rest is for everything else,
 // most of it a sea.
-constexpr std::size_t kMostColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
+constexpr std::size_t kMaxColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
 
 constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/QueryBudget";
 
@@ -47,7 +47,7 @@ std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) 
     const auto quantity = static_cast<BudgetQuantity>(i);
     if (Wants(wanted, quantity)) answered += ColumnCount(quantity) * sizeof(float);
   }
-  return std::min(kMostPulses, kMostColumnBytes / std::max(asked, answered));
+  return std::min(kMostPulses, kMaxColumnBytes / std::max(asked, answered));
 }
 
 // The column of a quantity: field i + 1 is quantity i.

@@ -54,8 +54,8 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
-constexpr double kLeastUnit = 1e-3, kGreatestUnit = 1e3;  // m
-constexpr float kGreatest = 1e6F;                         // m or m^2; beyond, nothing is an uncertainty.
+constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
+constexpr float kGreatest = 1e6F;                  // m or m^2; beyond, nothing is an uncertainty.
 
 // Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
 bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
@@ -79,8 +79,8 @@ bool IsOurs(const Json& summary) {
          std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
 }
 
-// Of a point without a number. Beams of a trajectory are not known where no surface is. Beams told by angles always
-// are; where they `may_lack_surface`, that is the graver of two reasons why a depth is missing.
+// Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
+// those `may_lack_surface`, that is the more severe of two reasons why a depth is missing.
 Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
   if (point.has_number) return Gap::kNone;
   const bool depth = point.depth >= 0, beam = std::isfinite(point.incidence);
@@ -138,7 +138,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   }
   if (classes_.empty()) classes_ = {DefaultClass(reader_.header().point_format)};
   const Json unit = summary_["parameters"].value("metres_per_unit", Json());
-  if (!unit.is_null() && !(unit.is_number() && unit >= kLeastUnit && unit <= kGreatestUnit))
+  if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
   for (const auto& [outcome, count] : summary_["answers"]["outcomes"].items())
     if (count > reader_.header().point_count)

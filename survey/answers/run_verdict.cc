@@ -38,8 +38,8 @@ std::string RunVerdict::Add(std::string_view file, const nlohmann::ordered_json&
 }
 
 std::optional<double> RunVerdict::LeastDepthWithOtherSign() const {
-  if (!all_.least_depth.has_value() || *all_.least_depth < kRarelyAllDeeper) return std::nullopt;
-  const double corrected = *all_.least_depth - 2 * context_.water_level.value_or(0);
+  if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return std::nullopt;
+  const double corrected = *all_.min_depth - 2 * context_.water_level.value_or(0);
   if (corrected >= kRarelyAllDeeper || corrected < -kAboveByWaves) return std::nullopt;
   return corrected;
 }
@@ -54,16 +54,16 @@ absl::Status RunVerdict::status() const {
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s: no %s is shallower than %g m (the least depth is %.1f m); is the sign of --water-level wrong? "
       "corrected, the least depth would be %.1f m",
-      where, record_, kRarelyAllDeeper, *all_.least_depth, *corrected));
+      where, record_, kRarelyAllDeeper, *all_.min_depth, *corrected));
 }
 
 std::string RunVerdict::DeepNote() const {
-  if (!all_.least_depth.has_value() || *all_.least_depth < kRarelyAllDeeper) return "";
+  if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return "";
   if (LeastDepthWithOtherSign().has_value()) return "";  // status() says more.
   return absl::StrFormat(
       "no %s is shallower than %g m (the least depth is %.1f m); unless the survey is that deep, check the "
       "water level and its vertical datum",
-      record_, kRarelyAllDeeper, *all_.least_depth);
+      record_, kRarelyAllDeeper, *all_.min_depth);
 }
 
 }  // namespace albtpu::client

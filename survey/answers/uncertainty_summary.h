@@ -24,9 +24,9 @@ class UncertaintySummary {
   // Adds the columns that a summary needs to a selection.
   static void Select(AnswerSelection& selection);
 
-  // Pulses that were asked.
+  // Pulses that were queried.
   void Add(const PulseBatch& pulses, const AnswerBatch& answers);
-  // Chosen points that were not asked; those above the water by the next function.
+  // Chosen points without a query; those above the water by the next function.
   void Add(NoPulse why, std::uint64_t count = 1) { outcomes_.Add(why, count); }
   // A chosen point above the water surface, at this negative depth [m].
   void AddAboveWater(float depth);
@@ -75,8 +75,8 @@ class UncertaintySummary {
   std::array<CoordinateSpread, OutcomeCounts::kAskedCount> outside_;  // By OutcomeCounts::Number.
   CoordinateSpread above_water_;                                      // Depths.
   std::array<Band, kBandEnds.size() + 1> bands_ = {};
-  float least_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
-  float greatest_depth_ = -std::numeric_limits<float>::infinity();
+  float min_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
+  float max_depth_ = -std::numeric_limits<float>::infinity();
 };
 
 }  // namespace albtpu::client

@@ -47,7 +47,7 @@ nlohmann::ordered_json Parameters(const CsvOptions& options, const ToldSea& sea)
   return json;
 }
 
-// None where only the columns of each file tell.
+// None where only the columns of each file give it.
 std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
   if (fixed[PulseInput::kFootprint].has_value()) return false;
   if (fixed[PulseInput::kAltitude].has_value() || fixed[PulseInput::kDivergence].has_value()) return true;
@@ -96,7 +96,7 @@ absl::Status RunCsv(const CsvOptions& flags) {
   if (!total.ok()) return total.status();
   AnswerStyle style = options.style;
   if (total->has_value())
-    style.coverage = Coverage::kTwoSigma;  // Of the sea's share, which a total takes so.
+    style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", {".csv"}, options.files);
   if (!jobs.ok()) return jobs.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
@@ -181,9 +181,9 @@ void AddCsvCommand(CLI::App& program, Run& run) {
   AddSeaOptions(*command, options->sea);
   AddTotalOptions(*command, options->total);
   command
-      ->add_flag(
-          "--details", options->details,
-          "With a total also append the shares of air side and sea, and the covariance (north, east, down)")
+      ->add_flag("--details", options->details,
+                 "With a total also append the contributions of air side and sea, and the covariance (north, "
+                 "east, down)")
       ->group(group::kOutput);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);

@@ -18,8 +18,8 @@ namespace {
 
 // The message for a file that has no point of the given classes.
 std::string ClassHint(const Job& job, const AnnotatedLas& annotated) {
-  const int least_class = *annotated.chosen_classes.begin();
-  const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < least_class;
+  const int min_class = *annotated.chosen_classes.begin();
+  const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < min_class;
   return absl::StrCat(
       job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
       never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ", kLegacyClassMask,
@@ -39,7 +39,7 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
   return json;
 }
 
-// The share of the sea, and the total beside it.
+// The contribution of the sea, and the total beside it.
 nlohmann::ordered_json AnswersJson(const LasAnnotation& annotation, const AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
@@ -124,7 +124,7 @@ absl::Status OpenFilesOf(BeamPlan& plan) {
   return ReadWaterLevels(*plan.water_level_file, PointTimeForm::kAdjustedStandard).status();
 }
 
-// What a mistake in the coordinates would be sought in.
+// The inputs in which a mistake in the coordinates is sought.
 CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
   CauseContext context{.axes = table.axes,
                        .water_level = {},

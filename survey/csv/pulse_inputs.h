@@ -1,4 +1,4 @@
-// What a pulse may be given by: the coordinates of the table, or what two of them follow from.
+// The inputs of a pulse: the coordinates of the table, or inputs from which two of them follow.
 #pragma once
 
 #include <array>
@@ -48,8 +48,8 @@ using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
 struct FixedInputs {
   FixedCoordinates coordinates = {};
   std::array<std::optional<float>, kBeamInputs.size()> beam = {};
-  // A sea is told, which has its own wind: pulses have no wind speed, fetch and direction of the wind, and an azimuth
-  // that stands for a beam_azimuth counts from north.
+  // A sea is given, which has its own wind: pulses have no wind speed, fetch and direction of the wind, and an azimuth
+  // from a beam_azimuth counts from north.
   bool any_sea = false;
 
   const std::optional<float>& operator[](PulseInput input) const {

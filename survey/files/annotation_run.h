@@ -15,7 +15,7 @@
 
 namespace albtpu::client {
 
-// A complete output that only lacks its name.
+// A complete output without its final name.
 struct AnnotatedFile {
   OutputFile file;
   Findings findings;
@@ -26,7 +26,7 @@ struct AnnotationRun {
   std::string command;                // "las"
   std::string records;                // What the files contain, for the user: "points".
   nlohmann::ordered_json parameters;  // Everything that decides the output, apart from input and table.
-  std::vector<std::filesystem::path> files = {};  // Which are read beside the inputs.
+  std::vector<std::filesystem::path> files = {};  // Read beside the inputs.
   bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
   std::function<absl::StatusOr<AnnotatedFile>(const Job&, FileProgress&)> annotate;

@@ -26,7 +26,7 @@ class OutputFile {
 
   // Unbuffered: write large pieces.
   absl::Status Write(std::string_view bytes);
-  // Replaces bytes that were written: what was not known then. Requires offset + bytes.size() <= size().
+  // Replaces bytes that were written before. Requires offset + bytes.size() <= size().
   absl::Status WriteAt(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const;  // Bytes written.
 

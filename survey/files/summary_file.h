@@ -18,19 +18,19 @@ namespace albtpu::client {
 // OUT.las.json
 std::filesystem::path SummaryPath(const std::filesystem::path& output);
 
-// Everything that decides the output, apart from the input.
+// Everything that determines the output, apart from the input.
 struct OutputSettings {
   std::string command;                // "las"
   nlohmann::ordered_json parameters;  // The flags, including defaults.
   TableSummary table;
-  std::vector<std::filesystem::path> files = {};  // Which were read beside the input, such as trajectories.
+  std::vector<std::filesystem::path> files = {};  // Read beside the input, such as trajectories.
 };
 
-// What was read and answered.
+// The results of a run over one file.
 struct Findings {
   std::uint64_t input_bytes = 0;
   nlohmann::ordered_json input;                                      // Further properties: points, classes.
-  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // The same: format.
+  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // Further properties: format.
   nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
 };
 

@@ -34,8 +34,8 @@ struct AnnotatedLas {
   SurfaceCounts surface;
   CoordinateSpread incidence;       // degree
   nlohmann::ordered_json geometry;  // How the beams were found, for a summary.
-  nlohmann::ordered_json sea;       // The same of the sea; null where a table of winds answers.
-  std::vector<std::string> notes;   // The same for the user, a line each.
+  nlohmann::ordered_json sea;       // The same for the sea; null where a table of winds answers.
+  std::vector<std::string> notes;   // For the user, a line each.
   OutputFile file;                  // Complete; Commit() gives it its name.
 };
 

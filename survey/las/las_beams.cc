@@ -28,7 +28,7 @@ absl::Status CheckTimes(const LasReader& reader, const LasAnnotation& annotation
   if (GoesByTime(annotation)) {
     return absl::FailedPreconditionError(absl::StrCat(
         reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
-        "), so that the records of the sea cannot be told apart; choose one of them by --sea-time"));
+        "), so that no record of the sea can be assigned to them; choose one of them by --sea-time"));
   }
   if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat(
@@ -97,7 +97,7 @@ absl::Status LasBeams::FindSeas(const LasReader& reader, const SeaTimeline& seas
   }
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a sea.
   const absl::StatusOr<double> utc =
-      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.told().file);
+      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
   if (!utc.ok()) return utc.status();
   utc_ = *utc;
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);

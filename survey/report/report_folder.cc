@@ -121,7 +121,7 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
   if (status.ok()) status = Move(hidden.path() / kGrid, folder / kGrid);
   if (status.ok()) status = Move(hidden.path() / kJson, folder / kJson);
   if (status.ok() && with_page) status = Move(hidden.path() / kPage, folder / kPage);
-  // The page of an earlier report would not be that of the new numbers.
+  // The page of an earlier report would show old numbers.
   std::error_code ignored;
   if (status.ok() && !with_page) fs::remove(folder / kPage, ignored);
   return status;

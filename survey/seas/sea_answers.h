@@ -1,4 +1,4 @@
-// Answers for pulses from the sea at their times.
+// Answers pulses from the sea at their times.
 #pragma once
 
 #include <cstddef>

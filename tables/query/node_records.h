@@ -22,7 +22,7 @@ struct RecordPlace {
 struct NodeRecords {
   explicit NodeRecords(const Table& table);
 
-  // The most sets that a table may need: three quantities over one number of axes, six over the other.
+  // The maximum number of sets of a table: three quantities over one number of axes, six over the other.
   static constexpr std::size_t kMaxSets = 6;
   static_assert(kMaxQuantities == 9 && kRecordSize == 4);
 

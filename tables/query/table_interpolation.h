@@ -17,7 +17,7 @@ namespace albtpu {
 // The answer for one pulse, at the indices of the schema. NaN wherever there is no number.
 struct TableValues {
   Outcome outcome = Outcome::kInvalid;
-  std::optional<std::size_t> axis;  // The first axis that made the outcome; none if interpolated.
+  std::optional<std::size_t> axis;  // The first axis that caused the outcome; none if interpolated.
   std::array<float, kMaxQuantities> values;
   std::array<float, kMaxQuantities> standard_errors;  // Interpolated linearly.
   std::optional<Side> side;  // On which side of `axis` the pulse is, if it is out of domain: SideOf.

@@ -20,9 +20,9 @@ CauseContext Context() {
 }
 
 // As a summary states the answers of a file.
-Json Answers(int interpolated, int footprint_above, double least_depth = 1, double footprint = 60) {
+Json Answers(int interpolated, int footprint_above, double min_depth = 1, double footprint = 60) {
   Json json = {{"outcomes", {{"INTERPOLATED", interpolated}}}};
-  if (interpolated > 0) json["depth"] = {{"least", least_depth}, {"greatest", 50.0}};
+  if (interpolated > 0) json["depth"] = {{"least", min_depth}, {"greatest", 50.0}};
   if (footprint_above > 0) {
     json["outcomes"]["OUT_OF_DOMAIN:footprint:above"] = footprint_above;
     json["outside"]["OUT_OF_DOMAIN:footprint:above"] = {

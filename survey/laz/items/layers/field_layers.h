@@ -1,4 +1,4 @@
-// Layers of one stream each, for a field of its own in the record, that are coded together.
+// Layers of one stream and one field each, which are coded in one loop.
 #pragma once
 
 #include <array>
