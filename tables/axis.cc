@@ -40,8 +40,8 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
   if (scale == Scale::kLog && node == 0) {
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
-  if (schema.fold != Fold::kNone && node > GreatestAngle(schema.fold)) {
-    const double greatest = GreatestAngle(schema.fold);
+  if (schema.fold != Fold::kNone && node > MaxAngle(schema.fold)) {
+    const double greatest = MaxAngle(schema.fold);
     return absl::StrFormat(
         "%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",
         WithUnits(node, schema), greatest, greatest);

@@ -63,7 +63,7 @@ class Axis {
 double FoldAzimuth(double azimuth, Fold fold = Fold::kQuadrant);
 
 // The largest angle after folding. Requires `fold` other than kNone.
-constexpr double GreatestAngle(Fold fold) { return fold == Fold::kQuadrant ? 90 : 180; }
+constexpr double MaxAngle(Fold fold) { return fold == Fold::kQuadrant ? 90 : 180; }
 
 // The two azimuths [degree] of IfAbsent::kLargerOfEnds.
 inline constexpr double kFoldedEnds[] = {0, 90};

@@ -57,22 +57,7 @@ struct QuantitySchema {
   bool over_last_axis;
   bool is_bias;  // Biases may be negative, and may be absent; the other quantities may not.
 
-  // A copy of `over_last_axis`. No list of initial values can give it another value.
-  class OverDepth {
-   public:
-    constexpr explicit OverDepth(bool over_last_axis) : value_(over_last_axis) {}
-    constexpr operator bool() const { return value_; }
-
-   private:
-    bool value_;
-  };
-  // The former name of `over_last_axis`, for existing source; depth is the last axis of the sea surface.
-  OverDepth over_depth = OverDepth(over_last_axis);
-
-  constexpr bool operator==(const QuantitySchema& other) const {
-    return name == other.name && units == other.units && long_name == other.long_name &&
-           over_last_axis == other.over_last_axis && is_bias == other.is_bias;
-  }
+  constexpr bool operator==(const QuantitySchema&) const = default;
 };
 
 inline constexpr std::string_view kStandardErrorSuffix = "_standard_error";

@@ -34,7 +34,7 @@ struct StillWater {
 inline constexpr int kRefractionSteps = 5;
 
 // The start: the larger of the two lower bounds of t. 0 / 0 (no depth, index 1) makes the second one no number.
-inline double LeastTangent(double distance, double height, double depth, const StillWater& water) {
+inline double MinTangent(double distance, double height, double depth, const StillWater& water) {
   const double all_gentle = height + depth * water.gentlest;
   const double in_air = distance - depth * water.flattest;
   const bool flat = in_air * all_gentle > distance * height;
@@ -66,7 +66,7 @@ inline double DistanceAt(double t, double distance, double height) {
 }
 
 inline double DistanceToStillWater(double distance, double height, double depth, const StillWater& water) {
-  const double least = LeastTangent(distance, height, depth, water);
+  const double least = MinTangent(distance, height, depth, water);
   double t = least;
   for (int step = 0; step < kRefractionSteps; ++step) {
     t = NextTangent(t, least, distance, height, depth, water);

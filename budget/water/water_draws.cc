@@ -45,7 +45,7 @@ std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count)
         1.001 * kPureWaterAbsorption,
         optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
     draw.ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * NormalQuantile(even));
-    draw.ratio = std::min(draw.ratio, WaterOptics::GreatestRatio(draw.attenuation, draw.fraction));
+    draw.ratio = std::min(draw.ratio, WaterOptics::MaxRatio(draw.attenuation, draw.fraction));
     draws.push_back(draw);
   }
   return draws;

@@ -84,7 +84,7 @@ Attenuation AttenuationOf(const OpticsInput& given) {
 
 }  // namespace
 
-double WaterOptics::GreatestRatio(double attenuation, double backscatter_fraction) {
+double WaterOptics::MaxRatio(double attenuation, double backscatter_fraction) {
   const double relative = attenuation / kPureWaterAbsorption;
   return std::max(0.0, (relative * relative - 1) / (6 * backscatter_fraction));
 }
@@ -109,7 +109,7 @@ absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {
                                 " 1/m at 532 nm; an attenuation or absorption of its kind is above ", least,
                                 " 1/m"));
   }
-  const double greatest = WaterOptics::GreatestRatio(optics.attenuation, fraction);
+  const double greatest = WaterOptics::MaxRatio(optics.attenuation, fraction);
   const double omega0 = given.omega0.value_or(kDefaultOmega0);
   const double ratio = direct ? *given.scattering / *given.absorption : omega0 / (1 - omega0);
   if (!direct && ratio > greatest && given.omega0.has_value()) {

@@ -49,7 +49,7 @@ struct WaterOptics {
   double least_fraction = 0, most_fraction = 0;
 
   // The largest b / a at an attenuation: no water absorbs less than pure water.
-  static double GreatestRatio(double attenuation, double backscatter_fraction);
+  static double MaxRatio(double attenuation, double backscatter_fraction);
 };
 
 // Absorption of pure water at 532 nm, 1/m: Pope and Fry (1997), doi:10.1364/AO.36.008710.

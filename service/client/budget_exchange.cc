@@ -36,7 +36,7 @@ constexpr std::size_t kCallsAtATime = 4;
 constexpr std::chrono::seconds kDeadline{60};
 
 // The number of pulses that a message of these columns takes, request and answer.
-std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
+std::size_t MaxPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
   std::size_t asked = sizeof(float);  // The depth may be repeated.
   for (const std::span<const float> column : pulses.pulses.axis)
     asked += column.size() > 1 ? sizeof(float) : 0;
@@ -136,7 +136,7 @@ class Calls {
   Calls(grpc::GenericStub& stub, const BudgetTask& task, std::size_t begin)
       : stub_(stub),
         task_(task),
-        most_(MostPulses(task.pulses, task.answers)),
+        most_(MaxPulses(task.pulses, task.answers)),
         sent_(begin),
         answered_(begin) {
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;

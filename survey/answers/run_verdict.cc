@@ -37,7 +37,7 @@ std::string RunVerdict::Add(std::string_view file, const nlohmann::ordered_json&
   return absl::StrCat(std::string(file), ": ", Problem(tally));
 }
 
-std::optional<double> RunVerdict::LeastDepthWithOtherSign() const {
+std::optional<double> RunVerdict::MinDepthWithOtherSign() const {
   if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return std::nullopt;
   const double corrected = *all_.min_depth - 2 * context_.water_level.value_or(0);
   if (corrected >= kRarelyAllDeeper || corrected < -kAboveByWaves) return std::nullopt;
@@ -49,7 +49,7 @@ absl::Status RunVerdict::status() const {
   if (all_.mostly_without_number()) {
     return absl::FailedPreconditionError(absl::StrCat(where, ": ", Problem(all_)));
   }
-  const std::optional<double> corrected = LeastDepthWithOtherSign();
+  const std::optional<double> corrected = MinDepthWithOtherSign();
   if (!corrected.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s: no %s is shallower than %g m (the least depth is %.1f m); is the sign of --water-level wrong? "
@@ -59,7 +59,7 @@ absl::Status RunVerdict::status() const {
 
 std::string RunVerdict::DeepNote() const {
   if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return "";
-  if (LeastDepthWithOtherSign().has_value()) return "";  // status() says more.
+  if (MinDepthWithOtherSign().has_value()) return "";  // status() says more.
   return absl::StrFormat(
       "no %s is shallower than %g m (the least depth is %.1f m); unless the survey is that deep, check the "
       "water level and its vertical datum",

@@ -33,7 +33,7 @@ class RunVerdict {
 
  private:
   // m; of a run in which all depths are beyond 20 m, where a wrong sign of the water level explains it.
-  std::optional<double> LeastDepthWithOtherSign() const;
+  std::optional<double> MinDepthWithOtherSign() const;
   std::string Problem(const AnswerTally& tally) const;
 
   CauseContext context_;

@@ -29,7 +29,7 @@ struct SurveyPlan {
 
 // The highest sea state of `plan` at which the order is met from 0 to `depth` under planned conditions, and at all
 // lower ones; absent if it is met at none.
-std::optional<double> GreatestSea(const SurveyPlan& plan, S44Order order, double depth);
+std::optional<double> HighestSea(const SurveyPlan& plan, S44Order order, double depth);
 
 // {"order", "sea", "seas", "conditions", "planned": [by sea {"depth": {"1a": m, ...}, "limited_by": {"1a": ...}}],
 //  "greatest_sea": [{"depth", "1a", ...}],

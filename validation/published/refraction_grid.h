@@ -46,7 +46,7 @@ struct SimulationSize {
 RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& size, std::uint64_t seed);
 
 // Of the along-wind angles.
-double GreatestRelativeStandardError(const RefractionGrid& grid);
+double LargestRelativeStandardError(const RefractionGrid& grid);
 
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);

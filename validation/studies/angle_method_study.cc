@@ -65,7 +65,7 @@ void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours
   }
 }
 
-double GreatestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
+double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
                          double per_depth) {
   double greatest = 0;
   for (std::size_t i = 0; i < depth.size(); ++i)
@@ -74,8 +74,8 @@ double GreatestDeparture(const std::vector<double>& depth, const std::vector<dou
 }
 
 void CompareByDraws(const Table5& paper, const AngleMethodUncertainty& draws, Study& study) {
-  const double greatest = std::max(GreatestDeparture(paper.depth, paper.thu, draws.thu_per_depth),
-                                   GreatestDeparture(paper.depth, paper.tvu, draws.tvu_per_depth));
+  const double greatest = std::max(LargestDeparture(paper.depth, paper.thu, draws.thu_per_depth),
+                                   LargestDeparture(paper.depth, paper.tvu, draws.tvu_per_depth));
   study.comparisons.push_back({.quantity = "Greatest departure of the 20 values with 10,000 draws",
                                .unit = "m",
                                .ours = greatest,

@@ -60,7 +60,7 @@ struct Twin {
       const double fraction = 0.01 * std::pow(3, even(random));
       double ratio = 0;
       while (ratio < 1 || ratio > 19) ratio = 4 * std::exp(0.625 * normal(random));
-      ratio = std::min(ratio, WaterOptics::GreatestRatio(attenuation, fraction));
+      ratio = std::min(ratio, WaterOptics::MaxRatio(attenuation, fraction));
       const double tau = attenuation * depth;
       const WaterAnswer answer = *Shipped()
                                       .Of(fraction, ratio)
