@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
 #include "budget/beams/arctangent.h"
 #include "budget/beams/refracted_path-inl.h"

@@ -1,7 +1,6 @@
 #include "budget/beams/facing_slopes.h"
 
 #include <Eigen/Core>
-#include <cmath>
 
 #include "sea/response/refraction.h"
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <vector>
 
 #include "budget/beams/facing_slopes.h"

@@ -6,9 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace albtpu {

@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"

@@ -1,7 +1,5 @@
 #include "generator/campaign/unit.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <utility>

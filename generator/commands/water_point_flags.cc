@@ -1,6 +1,5 @@
 #include "generator/commands/water_point_flags.h"
 
-#include <limits>
 #include <string>
 
 #include "absl/strings/str_cat.h"

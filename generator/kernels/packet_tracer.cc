@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "generator/kernels/packet_sums.h"
-
 // The following is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "generator/kernels/packet_tracer.cc"

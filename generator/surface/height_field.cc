@@ -1,6 +1,5 @@
 #include "generator/surface/height_field.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "generator/math/random_stream.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"

@@ -1,9 +1,7 @@
 #include "sea/files/sea_csv.h"
 
-#include <array>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"

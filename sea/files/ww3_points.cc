@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 

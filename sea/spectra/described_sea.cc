@@ -1,7 +1,5 @@
 #include "sea/spectra/described_sea.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 

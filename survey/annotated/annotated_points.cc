@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "survey/answers/batch.h"
+#include "survey/beams/beam_plan.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/summary_file.h"
 #include "survey/las/las_crs.h"
@@ -126,7 +127,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
                                        size.dump(), " (the file was changed later)", kRemedy));
   }
   const Json beams = summary_["parameters"].value("incidence_from", Json());
-  may_lack_surface_ = (beams == "scan angle" || beams == "one angle") &&
+  may_lack_surface_ = beams.is_string() && IsByAngle(beams.get<std::string>()) &&
                       summary_["answers"]["outcomes"].contains("NO_SURFACE");
   const Json classes = summary_["parameters"].value("classes", Json());
   if (!classes.is_null() && !classes.is_array())

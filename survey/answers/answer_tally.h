@@ -20,10 +20,10 @@ struct AnswerTally {
   };
 
   std::uint64_t chosen = 0, interpolated = 0;
-  std::map<std::string, WithoutNumber> without_number;  // By outcome, as OutcomeCounts::Json() names it.
+  std::map<std::string, WithoutNumber> without_number;  // By outcome, as summaries name it.
   std::optional<double> min_depth;                      // m, of interpolated pulses.
 
-  // From UncertaintySummary::Json(). Takes what is there: any JSON gives a tally.
+  // From the answers in a summary file. Any JSON gives a tally; missing members count as 0.
   static AnswerTally FromJson(const nlohmann::ordered_json& answers);
 
   // The median becomes that of the tally with more of the outcome.

@@ -44,6 +44,8 @@ class OutcomeCounts {
 
   std::uint64_t total() const;  // All chosen points, queried or not.
   std::uint64_t interpolated() const { return asked_[0]; }
+  std::uint64_t count(std::size_t number) const { return asked_[number]; }  // By Number().
+  std::uint64_t count(NoPulse why) const { return without_pulse_[static_cast<std::size_t>(why)]; }
 
   // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth:above", and the number without azimuth, if any, with
   // what the answers to these are.

@@ -1,7 +1,5 @@
 #include "survey/answers/run_verdict.h"
 
-#include <nlohmann/json.hpp>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
@@ -28,13 +26,12 @@ std::string RunVerdict::Problem(const AnswerTally& tally) const {
   return absl::StrCat(how_many, " (", outcomes, ": ", cause->why, "); ", cause->suggestion);
 }
 
-std::string RunVerdict::Add(std::string_view file, const nlohmann::ordered_json& answers) {
-  const AnswerTally tally = AnswerTally::FromJson(answers);
-  all_.Merge(tally);
+std::string RunVerdict::Add(std::string_view file, const AnswerTally& answers) {
+  all_.Merge(answers);
   ++files_;
   last_file_ = file;
-  if (!tally.mostly_without_number()) return "";
-  return absl::StrCat(std::string(file), ": ", Problem(tally));
+  if (!answers.mostly_without_number()) return "";
+  return absl::StrCat(std::string(file), ": ", Problem(answers));
 }
 
 std::optional<double> RunVerdict::MinDepthWithOtherSign() const {

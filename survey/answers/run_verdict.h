@@ -1,7 +1,6 @@
 // Decides whether a run over files succeeded: a run without answers fails, although its outputs are complete.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +20,7 @@ class RunVerdict {
 
   // Counts a file that was written, or was complete already. Returns a message that names the file and the likely cause
   // if fewer than half of its pulses got a number, otherwise an empty text.
-  std::string Add(std::string_view file, const nlohmann::ordered_json& answers);
+  std::string Add(std::string_view file, const AnswerTally& answers);
 
   // Of all files: fails if fewer than half of the pulses got a number, or if all of them are deeper than 20 m and would
   // not be with the other sign of --water-level. Names the file if there is only one.

@@ -98,6 +98,25 @@ void UncertaintySummary::Merge(const UncertaintySummary& other) {
   max_depth_ = std::max(max_depth_, other.max_depth_);
 }
 
+AnswerTally UncertaintySummary::Tally() const {
+  AnswerTally tally{.chosen = outcomes_.total(), .interpolated = outcomes_.interpolated()};
+  const auto add = [&tally](std::string_view outcome, std::uint64_t count, const CoordinateSpread& spread) {
+    if (count == 0) return;
+    AnswerTally::WithoutNumber& without_number = tally.without_number[std::string(outcome)];
+    without_number.count = count;
+    if (spread.count() > 0) without_number.coordinate = {spread.least(), spread.middle(), spread.greatest()};
+  };
+  for (std::size_t i = 1; i < outside_.size(); ++i)
+    add(OutcomeCounts::Name(i), outcomes_.count(i), outside_[i]);
+  for (std::size_t i = 0; i < kNoPulseCount; ++i) {
+    const auto why = static_cast<NoPulse>(i);
+    add(OutcomeName(why), outcomes_.count(why),
+        why == NoPulse::kAboveWater ? above_water_ : CoordinateSpread());
+  }
+  if (std::isfinite(min_depth_)) tally.min_depth = min_depth_;
+  return tally;
+}
+
 std::string UncertaintySummary::BandText(std::size_t index) const {
   const Band& band = bands_[index];
   const double begin = index == 0 ? 0 : kBandEnds[index - 1];

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "survey/answers/answer_tally.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/coordinate_spread.h"
 #include "survey/answers/outcome_counts.h"
@@ -33,6 +34,7 @@ class UncertaintySummary {
   void Merge(const UncertaintySummary& other);
 
   const OutcomeCounts& outcomes() const { return outcomes_; }
+  AnswerTally Tally() const;
 
   // Several lines: the outcomes, then a table of depth bands.
   std::string Text(std::string_view without_azimuth = kWorseOfTheWind) const;

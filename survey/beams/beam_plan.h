@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -46,6 +47,15 @@ struct TrajectoryFromReturns {
 
 using BeamSource =
     std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
+
+// The alternatives of BeamSource, as summaries name them in `incidence_from`.
+inline constexpr std::array<std::string_view, std::variant_size_v<BeamSource>> kIncidenceSources = {
+    "one angle", "scan angle", "trajectory", "returns"};
+
+// Whether beams of this source are known without a water surface.
+constexpr bool IsByAngle(std::string_view incidence_from) {
+  return incidence_from == kIncidenceSources[0] || incidence_from == kIncidenceSources[1];
+}
 
 struct DivergingBeam {
   double divergence = 0;  // mrad, full angle

@@ -8,7 +8,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
-#include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/sea_options.h"
@@ -117,11 +116,12 @@ absl::Status RunCsv(const CsvOptions& flags) {
     if (!csv.ok()) return csv.status();
     const std::string outcomes = csv->summary.outcomes().Text(WithoutAzimuth(source.table()));
     if (!total->has_value()) {
-      return AnnotatedFile{
-          std::move(csv->file),
-          Findings{
-              .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
-          absl::StrCat(" ", outcomes, notes)};
+      return AnnotatedFile{std::move(csv->file),
+                           Findings{.input_bytes = csv->input_bytes,
+                                    .input = answerer->SeaJson(),
+                                    .answers = csv->summary.Json(),
+                                    .tally = csv->summary.Tally()},
+                           absl::StrCat(" ", outcomes, notes)};
     }
     TotalPlan plan = (*total)->plan;
     if (csv->took_divergence) {
@@ -135,33 +135,28 @@ absl::Status RunCsv(const CsvOptions& flags) {
     return AnnotatedFile{std::move(csv->file),
                          Findings{.input_bytes = csv->input_bytes,
                                   .input = answerer->SeaJson(),
-                                  .answers = WithTotal(csv->summary.Json(), plan, csv->totals)},
+                                  .answers = WithTotal(csv->summary.Json(), plan, csv->totals),
+                                  .tally = csv->summary.Tally()},
                          text + notes};
-  };
-  RunVerdict verdict(
-      {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)},
-      "pulse");
-  const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
-    const std::string problem = verdict.Add(job.output.string(), answers);
-    if (!problem.empty() && jobs->size() > 1) Note(problem);
   };
   nlohmann::ordered_json parameters = Parameters(options, *sea);
   if (total->has_value()) {
     parameters["details"] = (*total)->details;
     parameters["total"] = Parameters((*total)->plan);
   }
-  const absl::Status status = AnnotateFiles(*jobs,
-                                            {.command = "csv",
-                                             .records = "pulses",
-                                             .parameters = parameters,
-                                             .files = files,
-                                             .resume = options.files.resume,
-                                             .existing = options.existing,
-                                             .annotate = annotate,
-                                             .finished = judge},
-                                            source.table());
-  if (const std::string note = verdict.DeepNote(); !note.empty()) Note(note);
-  return status.ok() ? verdict.status() : status;
+  return AnnotateFiles(*jobs,
+                       {.command = "csv",
+                        .records = "pulses",
+                        .record = "pulse",
+                        .parameters = parameters,
+                        .files = files,
+                        .resume = options.files.resume,
+                        .existing = options.existing,
+                        .annotate = annotate,
+                        .cause = {.axes = source.table().axes,
+                                  .water_level = {},
+                                  .footprint_from_beam = IsFootprintFromBeam(fixed)}},
+                       source.table());
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>

@@ -1,6 +1,5 @@
 #include "survey/csv/csv_aircraft.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>

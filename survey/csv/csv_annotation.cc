@@ -1,10 +1,7 @@
 #include "survey/csv/csv_annotation.h"
 
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"

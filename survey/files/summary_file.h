@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
+#include "survey/answers/answer_tally.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/output_file.h"
 
@@ -32,6 +33,7 @@ struct Findings {
   nlohmann::ordered_json input;                                      // Further properties: points, classes.
   nlohmann::ordered_json output = nlohmann::ordered_json::object();  // Further properties: format.
   nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
+  AnswerTally tally;                                                 // The same, for the verdict.
 };
 
 // The text of a summary. It states no time, host or path, so that equal runs give equal bytes.

@@ -1,7 +1,5 @@
 #include "survey/las/las_beams.h"
 
-#include <utility>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "survey/beams/file_track.h"

@@ -1,6 +1,5 @@
 #include "survey/las/las_header.h"
 
-#include <array>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "survey/laz/coding/arithmetic_decoder.h"
 #include "survey/laz/coding/arithmetic_encoder.h"

@@ -17,7 +17,6 @@
 #include "survey/laz/batch_ring.h"
 #include "survey/laz/coding/damage.h"
 #include "survey/laz/coding/little_endian.h"
-#include "survey/laz/items/chunk_decoder.h"
 
 namespace albtpu::laz {
 namespace {

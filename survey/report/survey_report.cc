@@ -1,13 +1,11 @@
 #include "survey/report/survey_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "survey/answers/batch.h"
-#include "survey/crosscheck/overlap_check.h"
 #include "tables/s44.h"
 #include "tables/version.h"
 

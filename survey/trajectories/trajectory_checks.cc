@@ -5,7 +5,6 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"
@@ -42,7 +41,7 @@ std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeli
 
 // Least distance in m of projected positions from the box; infinite where none can be projected.
 double MinDistance(const std::vector<MapPosition>& positions, const MapMetric& metric,
-                     const PointExtent& extent) {
+                   const PointExtent& extent) {
   double least = HUGE_VAL;
   for (const MapPosition& position : positions) {
     const double x = std::max({extent.x_min - position.x, 0.0, position.x - extent.x_max});

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <random>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_format.h"

@@ -1,6 +1,5 @@
 #include "service/server/seas/sea_request.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
