@@ -31,7 +31,7 @@ enum class Outcome {
   kInvalid,       // A coordinate is not finite (except a fetch of +infinity). There are no numbers.
 };
 
-// Where a coordinate that is outside the nodes of its axis lies: below the first one, or above the last.
+// The side of a coordinate outside the nodes of its axis: below the first one, or above the last.
 enum class Side { kBelow, kAbove };
 std::string_view Name(Side side);  // "below", "above"
 

@@ -59,7 +59,7 @@ RayWeight WeightOf(const RayNoise& noise, double separation, double square) {
   const double bad_variance = std::max(noise.outlier_sigma * noise.outlier_sigma,
                                        kMinOutlierRatio * kMinOutlierRatio * good_variance);
   const double difference = 1 / good_variance - 1 / bad_variance;
-  // The odds of an outlier: the ratio of the two densities times that of the shares.
+  // The odds of an outlier: the ratio of the two densities times that of the fractions.
   const double odds = noise.outlier_share / (1 - noise.outlier_share) * good_variance / bad_variance *
                       std::exp(std::min(square * difference / 2, 700.0));
   const double good = 1 / (1 + odds);
@@ -96,7 +96,7 @@ RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> se
         [](Sums a, const Sums& b) { return a += b; });
     if (!(sums.good > 0)) break;
     SolveVariances(sums, noise);
-    // One pseudo-observation of each kind keeps the share away from 0 and 1.
+    // One pseudo-observation of each kind keeps the fraction away from 0 and 1.
     noise.outlier_share = std::clamp((sums.bad + 0.5) / (sums.good + sums.bad + 1), 1e-4, 0.6);
     const double least = kMinOutlierRatio * std::sqrt(sums.variance / sums.good);
     const double prior = 0.09;  // rad^2: 0.3 rad, one observation.

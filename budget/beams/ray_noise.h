@@ -1,4 +1,4 @@
-// How far rays deviate from a track: a model of the errors of their directions, estimated from the residuals.
+// A model of the errors of ray directions, estimated from their residuals to a track.
 #pragma once
 
 #include <cstddef>

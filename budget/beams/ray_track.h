@@ -30,7 +30,7 @@
 
 namespace albtpu {
 
-// Where the sensor was, in the frame of the rays.
+// The estimated state of the sensor, in the frame of the rays.
 struct TrackEstimate {
   Eigen::Vector3d position, velocity;  // m, m/s
   Eigen::Matrix3d covariance;          // m^2, of the position.

@@ -14,7 +14,7 @@ struct StillWater {
   double flattest;  // 1/sqrt(n^2 - 1): the tangent in water at an incidence of 90 degrees. Infinite if n = 1.
 };
 
-// How r of DistanceToWater (refracted_path.h) is found, for depth >= 0.
+// The iteration for r of DistanceToWater (refracted_path.h), for depth >= 0.
 //
 // In terms of t = r / H, the tangent of the incidence, Snell's law is
 //     g(t) = H t + d h(t) = D,    h(t) = t / w, w = sqrt(n^2 + (n^2 - 1) t^2),

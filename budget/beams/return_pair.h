@@ -25,7 +25,7 @@ struct ReturnPair {
 // The straight line of a beam in air.
 struct AirRay {
   double time = 0;
-  Eigen::Vector3d water_point;  // Where it met the water.
+  Eigen::Vector3d water_point;  // The point where it met the water.
   Eigen::Vector3d direction;    // Unit vector from the sensor down to the water.
   double separation = 0;        // m between the two returns; the longer, the better the direction is known.
 };

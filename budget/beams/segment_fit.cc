@@ -208,10 +208,10 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
     if (solution == nullptr || bin.first == bin.last) continue;
     fitted += bin.information * solution->PositionCovariance(times_.Find(bin.mean_time)) * bin.information;
   }
-  // The fit takes the share f from the scores at lags far below the step of the knots: of their variance A_c K, it
+  // The fit takes the fraction f from the scores at lags far below the step of the knots: of their variance A_c K, it
   // takes A_c C A_c in each of the lags, which Bartlett's weights count lags + 1 times.
   const double f_per_lag = whitened(fitted).trace() / (3 * last);
-  // A lag of more than a tenth of a segment has too few pairs of bins, and the fit may not take a great share.
+  // A lag of more than a tenth of a segment has too few pairs of bins, and the fraction that the fit takes is limited.
   constexpr double kMaxShare = 0.3;
   const double longest = std::min(
       {kLongestCorrelation / width, duration / 10 / width, kMaxShare / std::max(f_per_lag, 1e-9) - 1});

@@ -155,7 +155,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   check.median_angle = MedianAngle(tracked);
   CompareIncidence(tracked, offset, check);
 
-  // What a beam of the median incidence by the rays changes with each component of the offset.
+  // The change of the median incidence with each component of the offset.
   const double incidence = MedianIncidence(kept);
   const double per_across = std::cos(incidence) / check.range, per_up = std::sin(incidence) / check.range;
   const auto matters = [&](const Correction& c, double per) {

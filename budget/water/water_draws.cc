@@ -29,7 +29,7 @@ double Radical(std::size_t i, std::size_t base) {
 
 std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count) {
   std::vector<DrawnWater> draws;
-  // Where the limits of b / a lie in its distribution.
+  // The limits of b / a as probabilities of its distribution.
   const auto place = [&](double ratio) {
     if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0.0 : 1.0;
     const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;

@@ -84,7 +84,7 @@ class WaterShare {
   // m; a wider beam would be cut by the field of view, which the table does not know.
   double greatest_footprint() const { return max_footprint_; }
 
-  // Nothing if the pulse is beyond; incidence in degree, depth in m, 0 or more.
+  // nullopt if the pulse is beyond; incidence in degree, depth in m, 0 or more.
   std::optional<WaterAnswerOfSurvey> At(double incidence, double depth) const;
 
   // The same for many pulses. A column of one number holds for all pulses.

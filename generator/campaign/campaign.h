@@ -31,7 +31,7 @@ struct Campaign {
   std::string text;  // the whole file
   std::string id, version, title;
   std::uint64_t seed = 1;
-  // Of `kind`; the last fetch, `inf` in the file, is the least at which all winds are fully developed.
+  // Of `kind`; the last fetch, `inf` in the file, is the shortest at which all winds are fully developed.
   UncertaintyTable::Axes axes;
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();

@@ -20,14 +20,14 @@ std::vector<double> InSinglePrecision(std::vector<double> nodes) {
   return nodes;
 }
 
-// The least float at or above `x`.
+// The smallest float at or above `x`.
 double FloatNotBelow(double x) {
   const float nearest = static_cast<float>(x);
   return nearest >= x ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
-// `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
-// there the seas of all winds are, and beyond it nothing changes.
+// `inf` as the last fetch becomes the shortest fetch at which the sea of the strongest wind is fully developed: there
+// the seas of all winds are, and beyond it nothing changes.
 absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
                           const std::vector<double>& wind_speed) {
   if (fetch.empty() || fetch.back() != kInfinity) {

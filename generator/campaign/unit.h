@@ -17,7 +17,7 @@ namespace albtpu {
 
 enum class UnitKind {
   kSeaCase,    // `index` counts the sea cases of the campaign
-  kWaterCase,  // the same of a campaign of the water column
+  kWaterCase,  // the same for a campaign of the water column
   kPulse,      // `index` counts the pulses at which the table is checked (interpolation_check.h)
 };
 

@@ -140,7 +140,7 @@ absl::StatusOr<Table::Variables> VariablesOf(const Campaign& campaign,
         return absl::FailedPreconditionError(absl::StrCat(
             "the echo of water case ", i, " has no clear end at an optical depth of ",
             Nodes(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
-            " (too few photons come back); give a lesser greatest optical depth, or more photons"));
+            " (too few photons come back); give a smaller maximum optical depth, or more photons"));
       }
       const Estimate rounded = Rounded(cases[i][at]);
       variables[quantity]->values.push_back(static_cast<float>(rounded.value));

@@ -21,8 +21,8 @@
 namespace albtpu {
 namespace {
 
-// At least so many realizations make the standard error of a variance reliable; at most so many are computed even if
-// the relative error is not reached.
+// The minimum number of realizations for a reliable standard error of a variance, and the maximum number, which is
+// computed even if the relative error is not reached.
 constexpr int kMinRealizations = 1000, kMaxRealizations = 40'000;
 
 // The azimuths [degree, from the x axis] of the beams of which the worst is taken if none is given.

@@ -20,7 +20,7 @@ namespace {
 constexpr double kCoarse = 0.02;
 constexpr double kMostWithin = 0.99;
 
-// The attribute interpolation_error_NAME: rms, 99th percentile, greatest, noise, number of pulses.
+// The attribute interpolation_error_NAME: rms, 99th percentile, maximum, noise, number of pulses.
 void PrintInterpolationErrors(const Provenance& provenance) {
   std::string coarse;
   for (const Quantity quantity : kChecked) {

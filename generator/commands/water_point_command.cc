@@ -80,7 +80,7 @@ absl::Status RunWaterPoint(const WaterPointOptions& options) {
   if (!bias.by_pulse.front().has_value() || bias.energy.standard_error > kMaxRelative * bias.energy.value) {
     return absl::FailedPreconditionError(absl::StrCat(
         "no echo comes back from ", depth, " m that is significant with these photons (the water scatters ",
-        column.scattering, " times on the way down); give a lesser depth, clearer water or more photons"));
+        column.scattering, " times on the way down); give a smaller depth, clearer water or more photons"));
   }
   options.json ? PrintJson(bias, depth) : PrintText(bias, options);
   return absl::OkStatus();

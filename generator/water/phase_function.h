@@ -40,9 +40,9 @@ class PhaseFunction {
   template <typename Value>
   double Mean(const Value& value) const;
 
-  // At nodes of the angle: psi, sin^2(psi / 2), and the share below. The first node is 0.
+  // At nodes of the angle: psi, sin^2(psi / 2), and the fraction below. The first node is 0.
   std::vector<double> psi_, sin2_half_, share_;
-  std::vector<std::uint32_t> guide_;  // The last node whose share is not above i / (size - 1).
+  std::vector<std::uint32_t> guide_;  // The last node whose fraction is not above i / (size - 1).
 };
 
 }  // namespace albtpu

@@ -202,7 +202,7 @@ class Reader {
     return absl::OkStatus();
   }
 
-  // A number of things from 1 to `most` on a line of its own.
+  // A count from 1 to `most`, alone on a line.
   absl::StatusOr<std::size_t> Count(std::size_t most) {
     if (absl::Status status = NextKeyword(); !status.ok()) return status;
     const auto count = ParseCount(keyword_);

@@ -11,7 +11,7 @@
 
 namespace albtpu {
 
-// What is known. Directions are of the compass, in rad.
+// The given properties. Directions are of the compass, in rad.
 struct SeaDescription {
   // Null: none are known, and the wind's spectrum, fully developed, is the whole sea.
   std::shared_ptr<const FrequencySpectrum> waves = {};

@@ -8,7 +8,7 @@
 namespace albtpu {
 namespace {
 
-constexpr double kGravityCapillary = 370;  // k_m, rad/m, of the least phase speed; Eq. 24
+constexpr double kGravityCapillary = 370;  // k_m, rad/m, of the minimum phase speed; Eq. 24
 constexpr double kMinPhaseSpeed = 0.23;    // c_m, m/s
 constexpr double kFetchScale = 2.2e4;      // X_0 of Eq. 37
 constexpr double kAlmostDevelopedOmega = 1.01 * kFullyDevelopedOmega;

@@ -56,7 +56,7 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
 constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
-constexpr float kGreatest = 1e6F;                  // m or m^2; beyond, nothing is an uncertainty.
+constexpr float kGreatest = 1e6F;                  // m or m^2; larger values are not plausible.
 
 // Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
 bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }

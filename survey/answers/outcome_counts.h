@@ -1,4 +1,4 @@
-// How many pulses had each outcome.
+// The number of pulses with each outcome.
 #pragma once
 
 #include <array>

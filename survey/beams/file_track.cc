@@ -47,7 +47,7 @@ std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<con
                          .sigma = Median(std::move(sigmas))};
 }
 
-// Positions of `track` in the local frame, `shift` [s] after the times that are asked for.
+// Positions of `track` in the local frame, `shift` [s] after the given times.
 TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame, double shift = 0) {
   return [&track, &frame, shift](std::span<const double> times, std::span<Eigen::Vector3d> positions) {
     std::vector<double> shifted(times.begin(), times.end());

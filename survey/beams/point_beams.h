@@ -1,5 +1,5 @@
-// The beam of each point: incidence, azimuth, footprint, slant range and depth, and the pulses that a table is asked
-// about.
+// The beam of each point: incidence, azimuth, footprint, slant range and depth, and the pulses with which a table is
+// queried.
 #pragma once
 
 #include <array>

@@ -56,7 +56,7 @@ std::string Row(const SeaFacts& facts, const SlopeFacts& slopes) {
   return row + "\n";
 }
 
-// The records that are asked for: all, or the one at --sea-time.
+// The selected records: all, or the one at --sea-time.
 std::vector<std::size_t> RecordsOf(const SeaTimeline& seas) {
   std::vector<std::size_t> records;
   if (!seas.by_time()) {

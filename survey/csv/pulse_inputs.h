@@ -60,7 +60,7 @@ struct FixedInputs {
   }
 };
 
-// Two inputs that stand for an axis.
+// Two inputs that replace an axis.
 struct OtherWay {
   AxisId axis;
   PulseInput first, second;
@@ -84,7 +84,7 @@ constexpr bool IsOfSea(PulseInput input) {
 // float32 becomes the largest float32 of its sign: it is out of domain, not infinite.
 float FromOtherWay(AxisId axis, const PulseNumbers& numbers);
 
-// Where the inputs come from.
+// The sources of the inputs.
 enum class InputOrigin { kNone, kColumn, kFlag };
 using InputOrigins = std::array<InputOrigin, kPulseInputCount>;
 

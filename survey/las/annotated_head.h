@@ -15,7 +15,7 @@ namespace albtpu::client {
 
 struct LasHead {
   std::string bytes;                        // Up to the points.
-  std::optional<laz::LaszipRecord> record;  // How the points are compressed; LAZ only.
+  std::optional<laz::LaszipRecord> record;  // The compression of the points; LAZ only.
   std::vector<ReplacedFloat> replaced;      // The floats that replace existing ones.
 };
 

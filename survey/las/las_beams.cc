@@ -63,7 +63,7 @@ TrackedFile FileOf(const LasReader& reader, const LasPlace& place, const LasPres
 }  // namespace
 
 absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a position.
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   const bool all_zero = file.times.span.first == 0 && file.times.span.last == 0;
   if (all_zero || !(file.times.span.first <= file.times.span.last)) {
@@ -93,7 +93,7 @@ absl::Status LasBeams::FindSeas(const LasReader& reader, const SeaTimeline& seas
     records_ = {seas.fixed().first, seas.fixed().second};
     return absl::OkStatus();
   }
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a sea.
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
   const absl::StatusOr<double> utc =
       UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
   if (!utc.ok()) return utc.status();

@@ -20,7 +20,7 @@ struct AppendedFloat {
 
 inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of angles is NaN.
 
-// What is appended to each record.
+// The floats that are appended to each record.
 struct Appended {
   Coverage coverage = Coverage::kTwoSigma;
   bool total = false;  // The total uncertainty, not the contribution of the sea surface alone.

@@ -20,7 +20,7 @@ constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is t
 // ASPRS, LAS 1.4 R15, tables 8 and 17.
 constexpr int kLowNoise = 7, kHighNoise = 18;
 
-// What one chunk contributes.
+// The contribution of one chunk.
 struct Part {
   LasRun run;  // Some records of the next chunk follow.
   std::vector<double> times;

@@ -19,7 +19,7 @@ struct LazExtent {
   LaszipRecord record;
   std::uint64_t points_begin = 0;  // The header's offset to the points.
   std::uint64_t point_count = 0;
-  std::uint64_t points_end = 0;  // Where other data begins at the latest: EVLRs, or the end of the file.
+  std::uint64_t points_end = 0;  // Upper bound of the end: the begin of EVLRs, or the end of the file.
 };
 
 class LazPoints {

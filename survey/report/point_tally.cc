@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What a horizontal covariance is at each coverage, m.
+// The horizontal uncertainty at each coverage, m.
 struct HorizontalUncertainty {
   explicit HorizontalUncertainty(const AnnotatedPoint& point) {
     const float mean = (point.variance_x + point.variance_y) / 2;

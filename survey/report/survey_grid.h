@@ -47,8 +47,8 @@ class SurveyGrid {
 
   double cell() const { return cell_; }
   bool empty() const { return tiles_.empty(); }
-  // The least index of a column (x / cell, rounded down) and of a row, multiples of kTile, and their number. Of a grid
-  // that is not empty.
+  // The smallest index of a column (x / cell, rounded down) and of a row, multiples of kTile, and their number. Of a
+  // grid that is not empty.
   std::int64_t first_column() const { return min_column_ * kTile; }
   std::int64_t first_row() const { return min_row_ * kTile; }
   std::size_t columns() const { return static_cast<std::size_t>(max_column_ - min_column_ + 1) * kTile; }

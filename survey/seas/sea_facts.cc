@@ -45,7 +45,7 @@ double PeakOfComponents(const std::vector<JonswapWaves>& waves, double depth) {
   return period;
 }
 
-// Where E(f) = S(k) dk/df is greatest.
+// The wavenumber at which E(f) = S(k) dk/df has its maximum.
 double PeakOfSpectrum(const HarmonicSpectrum& spectrum, double depth) {
   double period = 0, highest = 0;
   for (std::size_t i = 0; i < spectrum.size(); ++i) {

@@ -39,7 +39,7 @@ std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeli
   return samples;
 }
 
-// Least distance in m of projected positions from the box; infinite where none can be projected.
+// Minimum distance in m of projected positions from the box; infinite where none can be projected.
 double MinDistance(const std::vector<MapPosition>& positions, const MapMetric& metric,
                    const PointExtent& extent) {
   double least = HUGE_VAL;

@@ -11,7 +11,7 @@ namespace albtpu::client {
 struct TimeSpan {
   double first = 0, last = 0;
 };
-// How long two intervals overlap, s; negative: how far they are apart.
+// The overlap of two intervals, s; negative: the gap between them.
 double Overlap(const TimeSpan& a, const TimeSpan& b);
 
 // The form of GPS times in a LAS file, global encoding bit 0.

@@ -44,7 +44,7 @@ class AxisLookup {
   void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
                      std::int32_t* rows) const;
 
-  // What the kernels read.
+  // The data that the kernels read.
   struct Nodes {
     std::vector<float> nodes;
     // 1 / the distance of two neighbours; on a log scale, the distance of their logarithms.

@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// Where the values or the standard errors of a quantity are.
+// The place of the values or the standard errors of a quantity.
 struct RecordPlace {
   std::size_t set = 0;   // index into NodeRecords::sets
   std::size_t lane = 0;  // which of the 4 numbers of a record

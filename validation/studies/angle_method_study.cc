@@ -18,9 +18,9 @@ namespace {
 constexpr int kDraws = 10'000;  // the paper's
 
 // Half a unit of the second decimal printed, and as much again for the paper's draws, whose standard error is 1 /
-// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the greatest).
+// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the largest).
 constexpr double kQuadratureTolerance = 0.010;  // m
-// The rounding, and three standard errors of our draws and the paper's together at the greatest value, 1.05 m,
+// The rounding, and three standard errors of the difference of our draws and the paper's at the largest value, 1.05 m,
 // rounded down.
 constexpr double kDrawsTolerance = 0.03;  // m
 // Half a unit of the second decimal, since a limit has no other error; 1e-9 for the rounding of binary fractions.
@@ -66,7 +66,7 @@ void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours
 }
 
 double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
-                         double per_depth) {
+                        double per_depth) {
   double greatest = 0;
   for (std::size_t i = 0; i < depth.size(); ++i)
     greatest = std::max(greatest, std::abs(depth[i] * per_depth - published[i]));

@@ -23,7 +23,7 @@ double WaveHeight(const SeaState& sea) { return 4 * std::sqrt(ElevationVariance(
 // In the order of the tables' columns.
 constexpr const SpectrumModel* kSpectra[] = {&kApelModel, &kElfouhailyModel};
 
-// The range of winds observed by Cox and Munk, and the least wind at which Elfouhaily's sea has short waves, m/s.
+// The range of winds observed by Cox and Munk, and the lowest wind at which Elfouhaily's sea has short waves, m/s.
 constexpr int kMinObserved = 1, kMaxObserved = 14, kShortWavesFrom = 3;
 
 // The rms departure of the total mean square slope from Cox and Munk's line, over their winds from `first` on in

@@ -16,7 +16,7 @@ absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options);
 // degrees and 5.25 m/s, by quadrature and with the paper's 10,000 draws.
 absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options);
 
-// Where the small-slope theory holds over the domain of a survey, and where it fails.
+// The range of validity of the small-slope theory over the domain of a survey.
 absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options);
 
 // The spectra beside measurements of real seas, and how the choice of spectrum changes the uncertainty of a beam.

@@ -32,7 +32,7 @@ class CallLog {
   long left_out_ = 0;
 };
 
-// Where calls, and callers that are refused, are recorded.
+// The records of calls, and of callers that are refused.
 struct Recorders {
   CallMetrics& metrics;
   AccessMetrics& access;

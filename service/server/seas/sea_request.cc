@@ -17,7 +17,7 @@
 namespace albtpu::server {
 namespace {
 
-// What a number of the wire may be. sea.proto states the same ranges.
+// The range of a number on the wire. sea.proto states the same ranges.
 struct Range {
   double lowest, highest;
   std::string_view unit;
@@ -162,7 +162,7 @@ class Reader {
     return std::make_shared<const HarmonicSpectrum>(std::move(sea));
   }
 
-  // Checks the lists of a spectrum; `longest(i)` is the greatest length of a harmonic at i. Returns the number of
+  // Checks the lists of a spectrum; `longest(i)` is the maximum length of a harmonic at i. Returns the number of
   // harmonics.
   template <typename Longest>
   std::size_t CheckSpectrum(const std::string& path, const std::string& axis_name, const Numbers& axis,

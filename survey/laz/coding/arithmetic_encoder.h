@@ -89,7 +89,7 @@ class ArithmeticEncoder {
       room_ = Grow(room_.next, *bytes_);
   }
 
-  // Where the next bytes are written. Four have room as long as `next` is not behind `last`.
+  // The place of the next bytes. Four have room as long as `next` is not behind `last`.
   struct Room {
     char *next = nullptr, *last = nullptr;
   };

@@ -96,7 +96,7 @@ class SymbolModel {
       sum += shares_[i].count;
       if constexpr (kForDecoding) FillSlots(i, below, scale * sum >> (31 - kProbabilityBits));
     }
-    shares_[symbols_].below = 0xFFFF;  // Above all numbers that SymbolAt() is asked for.
+    shares_[symbols_].below = 0xFFFF;  // Above all arguments of SymbolAt().
     if constexpr (kForDecoding) first_[std::size_t{1} << kSlotBits] = static_cast<Slot>(last_symbol());
     cycle_ = std::min((5 * cycle_) >> 2, (symbols_ + 6) << 3);
     until_update_ = cycle_;

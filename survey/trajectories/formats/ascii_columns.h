@@ -18,7 +18,7 @@
 
 namespace albtpu::client {
 
-// What a column holds.
+// The quantity of a column.
 enum class AsciiField : unsigned char {
   kTime,
   kLongitude,
@@ -47,7 +47,7 @@ struct AsciiColumn {
   const char* name;
   const char* unit;
   double least, largest;  // Values beyond them show that the column is another quantity.
-  const char* names;      // How a header may name it: in lower case, each between bars.
+  const char* names;      // Its names in headers: in lower case, each between bars.
 };
 
 inline constexpr std::size_t kMaxAsciiColumns = 20;
