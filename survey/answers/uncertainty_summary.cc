@@ -99,7 +99,9 @@ void UncertaintySummary::Merge(const UncertaintySummary& other) {
 }
 
 AnswerTally UncertaintySummary::Tally() const {
-  AnswerTally tally{.chosen = outcomes_.total(), .interpolated = outcomes_.interpolated()};
+  AnswerTally tally;
+  tally.chosen = outcomes_.total();
+  tally.interpolated = outcomes_.interpolated();
   const auto add = [&tally](std::string_view outcome, std::uint64_t count, const CoordinateSpread& spread) {
     if (count == 0) return;
     AnswerTally::WithoutNumber& without_number = tally.without_number[std::string(outcome)];

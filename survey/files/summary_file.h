@@ -33,7 +33,7 @@ struct Findings {
   nlohmann::ordered_json input;                                      // Further properties: points, classes.
   nlohmann::ordered_json output = nlohmann::ordered_json::object();  // Further properties: format.
   nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
-  AnswerTally tally;                                                 // The same, for the verdict.
+  AnswerTally tally = {};                                            // The same, for the verdict.
 };
 
 // The text of a summary. It states no time, host or path, so that equal runs give equal bytes.
