@@ -7,7 +7,7 @@ file(GLOB shipped_sensors CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/survey/sensors
 install(FILES ${shipped_sensors} DESTINATION ${data}/sensors)
 file(GLOB specifications CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/survey/report/specifications/*.toml)
 install(FILES ${specifications} DESTINATION ${data}/specifications)
-# What draws the page of a report, for albtpu-query.
+# The Python modules that draw the page of a report, for albtpu-query.
 install(DIRECTORY clients/python/src/albtpu DESTINATION ${data}/python PATTERN "__pycache__" EXCLUDE)
 install(FILES CONTRIBUTING.md LICENSE README.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/FORMAT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tables)

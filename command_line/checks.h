@@ -1,4 +1,4 @@
-// What several programs check alike about the value of an option. Each answers with what is wrong, as CLI11 asks for.
+// Checks of option values that several programs use. Each returns the problem, as CLI11 requires.
 #pragma once
 
 #include <string>

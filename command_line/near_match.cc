@@ -7,8 +7,9 @@
 namespace albtpu {
 namespace {
 
-constexpr std::size_t kMostEdits = 3;
-constexpr std::size_t kEditsPer = 2, kCharactersPer = 5;  // at most so many edits for so many characters
+constexpr std::size_t kMaxEdits = 3;
+constexpr std::size_t kEditsPer = 2,
+                      kCharactersPer = 5;  // the maximum number of edits per number of characters
 
 }  // namespace
 
@@ -32,11 +33,11 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> NearMatch(std::string_view word, const std::vector<std::string>& candidates) {
   std::optional<std::string> nearest;
-  std::size_t least = kMostEdits + 1;
+  std::size_t least = kMaxEdits + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t longer = std::max(word.size(), candidate.size());
     const std::size_t shorter = std::min(word.size(), candidate.size());
-    if (longer - shorter > kMostEdits) continue;  // Each further character takes an edit.
+    if (longer - shorter > kMaxEdits) continue;  // Each further character takes an edit.
     const std::size_t edits = EditDistance(word, candidate);
     if (edits >= least || edits * kCharactersPer > longer * kEditsPer) continue;
     least = edits;

@@ -1,4 +1,4 @@
-// Which known word a misspelt one probably stands for.
+// Finds the known word that a misspelt one probably stands for.
 #pragma once
 
 #include <cstddef>

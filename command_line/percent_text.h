@@ -1,4 +1,4 @@
-// Fractions as people read them.
+// Fractions as text in per cent.
 #pragma once
 
 #include <string>

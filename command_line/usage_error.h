@@ -1,4 +1,4 @@
-// What to say about arguments that a program does not take.
+// Messages about arguments that a program does not take.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@ double Direction(int j) { return std::numbers::pi * (j + 0.5) / kDirections; }
 // as infinitely high. The small ridge keeps the Hessian regular.
 Eigen::VectorXd Exponent(const Eigen::VectorXd& harmonics, const Eigen::MatrixXd& functions) {
   constexpr double kRidge = 1e-7, kExact = 1e-10, kMostInOneDirection = 0.25;
-  constexpr int kMostSteps = 50;
+  constexpr int kMaxSteps = 50;
   constexpr double kShortestStep = 1e-6;
   const auto exponentials = [&](const Eigen::VectorXd& c, double& greatest) -> Eigen::VectorXd {
     const Eigen::VectorXd exponents = functions * c;
@@ -38,7 +38,7 @@ Eigen::VectorXd Exponent(const Eigen::VectorXd& harmonics, const Eigen::MatrixXd
     return greatest + std::log(sum) - c.dot(harmonics) + 0.5 * kRidge * c.squaredNorm();
   };
   Eigen::VectorXd c = Eigen::VectorXd::Zero(harmonics.size());
-  for (int step = 0; step < kMostSteps; ++step) {  // Newton's method
+  for (int step = 0; step < kMaxSteps; ++step) {  // Newton's method
     double greatest = 0;
     Eigen::VectorXd density = exponentials(c, greatest);
     density /= density.sum();

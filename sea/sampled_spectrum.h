@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// What a table records of the sea.
+// The description of the sea that a table records.
 struct SpectrumText {
   std::string name, reference, departures;
 };
@@ -26,7 +26,7 @@ class SampledSpectrum final : public WaveSpectrum {
   double operator()(double k) const override;
   double Spreading(double k, double psi) const override;
   bool spreading_varies_with_wavenumber() const override { return true; }
-  double peak_wavenumber() const override;  // where k S(k) is greatest
+  double peak_wavenumber() const override;  // where k S(k) has its maximum
   WavenumberRange energetic_range() const override { return range_; }
   std::string name() const override { return text_.name; }
   std::string reference() const override { return text_.reference; }

@@ -16,7 +16,7 @@ struct CivilTime {
 // 2200.
 std::optional<double> SecondsOf(const CivilTime& time);
 
-// The same of a text; nullopt for other text.
+// The same for a text; nullopt for other text.
 std::optional<double> ParseSeaTime(std::string_view text);
 
 // The inverse of ParseSeaTime(), rounded to whole seconds, which are left out if they are 0.

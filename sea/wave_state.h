@@ -1,4 +1,4 @@
-// What is known of the waves, and the spectrum that follows from it.
+// A description of the waves, and the spectrum that follows from it.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct KnownWaves {
   std::shared_ptr<const WaveSpectrum> MakeSpectrum() const { return spectrum; }
 };
 
-// Another kind of knowledge is another alternative with a MakeSpectrum().
+// Another kind of description is another alternative with a MakeSpectrum().
 using WaveState = std::variant<WindSea, KnownWaves>;
 
 std::shared_ptr<const WaveSpectrum> MakeSpectrum(const WaveState& waves);

@@ -1,6 +1,6 @@
 // Programs that constantly allocate and free messages of megabytes on all cores use jemalloc. The allocator of the C
 // library either returns such blocks to the system at once, and the page faults then cost more than the messages, or it
-// keeps in each of its arenas the most that was ever in use there.
+// keeps in each of its arenas the maximum that was ever in use there.
 #include <jemalloc/jemalloc.h>
 
 // Read by jemalloc when the program starts (jemalloc(3), TUNING); the environment variable MALLOC_CONF overrides it.

@@ -1,7 +1,6 @@
 #include "survey/exit_status.h"
 
 #include <cstdio>
-#include <string>
 
 #include "absl/strings/cord.h"
 #include "absl/strings/match.h"

@@ -1,5 +1,5 @@
-// What the program tells the shell: one message on standard error, and the exit code: 0 when every pulse got an
-// outcome, and of the pulses in files at least half a number, 2 for bad usage, 1 for any other failure.
+// Failures of the program: one message on standard error, and the exit code: 0 when every pulse got an outcome, and of
+// the pulses in files at least half a number, 2 for bad usage, 1 for any other failure.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace albtpu::client {
 // A message for the user reads
 //     PROBLEM (WHY); SUGGESTION
 // on one line and in plain English: what is wrong, and with which file, line, column, flag or server; in
-// parentheses the detail that explains it; after the semicolon what to do about it. Leave out what would say
-// nothing. The file or flag comes first, before a colon:
+// parentheses the detail that explains it; after the semicolon what to do about it. Leave out empty phrases. The file
+// or flag comes first, before a colon:
 //     in.csv line 4, column 'depth': 'deep' is not a number; write a number in m, such as 12.5
 
 // An InvalidArgument whose cause is the command line, rather than a file or a server.

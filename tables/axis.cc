@@ -19,7 +19,7 @@ double Scaled(double coordinate, Scale scale) {
   return scale == Scale::kLog ? std::log(coordinate) : coordinate;
 }
 
-// "12 m", "3 m s-1": a coordinate as messages print it. Nine digits tell any two floats apart.
+// "12 m", "3 m s-1": a coordinate as messages print it. Nine digits distinguish any two floats.
 std::string WithUnits(double value, const AxisSchema& schema) {
   return absl::StrFormat("%.9g %s", value, std::string(schema.units));
 }
@@ -34,14 +34,14 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
                            std::string(schema.units), static_cast<float>(node));
   }
   if (node < 0) return absl::StrCat(WithUnits(node, schema), ": nodes must not be negative");
-  if (node > format::kGreatestNode) {
-    return absl::StrFormat("%s: nodes must not be above %g", WithUnits(node, schema), format::kGreatestNode);
+  if (node > format::kMaxNode) {
+    return absl::StrFormat("%s: nodes must not be above %g", WithUnits(node, schema), format::kMaxNode);
   }
   if (scale == Scale::kLog && node == 0) {
     return absl::StrCat(WithUnits(node, schema), ": nodes on a log scale must be positive");
   }
-  if (schema.fold != Fold::kNone && node > GreatestAngle(schema.fold)) {
-    const double greatest = GreatestAngle(schema.fold);
+  if (schema.fold != Fold::kNone && node > MaxAngle(schema.fold)) {
+    const double greatest = MaxAngle(schema.fold);
     return absl::StrFormat(
         "%s: nodes must not be above %g degree (larger azimuths are folded into 0 to %g degree)",
         WithUnits(node, schema), greatest, greatest);
@@ -50,9 +50,9 @@ std::string Problem(const AxisSchema& schema, Scale scale, const std::vector<dou
     return absl::StrFormat("%s, not above node %d (%s): nodes must increase", WithUnits(node, schema),
                            index - 1, WithUnits(nodes[index - 1], schema));
   }
-  if (index > 0 && node - nodes[index - 1] < format::kLeastNodeDistance) {
+  if (index > 0 && node - nodes[index - 1] < format::kMinNodeDistance) {
     return absl::StrFormat("%s, too close to node %d (%s): nodes must be %g apart", WithUnits(node, schema),
-                           index - 1, WithUnits(nodes[index - 1], schema), format::kLeastNodeDistance);
+                           index - 1, WithUnits(nodes[index - 1], schema), format::kMinNodeDistance);
   }
   return "";
 }

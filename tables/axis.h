@@ -24,7 +24,7 @@ class Axis {
  public:
   // Fails with InvalidArgument, naming the axis and the node, if there is no node, or if a node is not finite, is not
   // representable in float32, is negative, does not increase, is not positive on a log scale, breaks the limits of
-  // format.h, or is above the greatest angle of a folded axis. Without a scale, the axis has that of its schema. The
+  // format.h, or is above the largest angle of a folded axis. Without a scale, the axis has that of its schema. The
   // axis copies `schema`, but not its texts (name, units, long_name): they must outlive the axis.
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes);
   static absl::StatusOr<Axis> Create(const AxisSchema& schema, std::vector<double> nodes, Scale scale);
@@ -38,8 +38,8 @@ class Axis {
   const std::vector<double>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
 
-  // Where `coordinate`, in the units of the axis, lies; nothing if it is outside the nodes or not a number. A
-  // folded axis folds it first. An endless axis holds it at the last node; if it has one node only, it answers as
+  // The place of `coordinate`, in the units of the axis; nullopt if it is outside the nodes or not a number. A folded
+  // axis folds it first. An endless axis holds it at the last node; if it has one node only, it answers as
   // AxisSchema::is_endless says.
   std::optional<Bracket> Locate(double coordinate) const;
 
@@ -62,8 +62,8 @@ class Axis {
 // which coordinates and nodes have.
 double FoldAzimuth(double azimuth, Fold fold = Fold::kQuadrant);
 
-// The greatest angle that `fold`, which is not kNone, leaves.
-constexpr double GreatestAngle(Fold fold) { return fold == Fold::kQuadrant ? 90 : 180; }
+// The largest angle after folding. Requires `fold` other than kNone.
+constexpr double MaxAngle(Fold fold) { return fold == Fold::kQuadrant ? 90 : 180; }
 
 // The two azimuths [degree] of IfAbsent::kLargerOfEnds.
 inline constexpr double kFoldedEnds[] = {0, 90};

@@ -1,7 +1,6 @@
 #include "tables/coverage.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

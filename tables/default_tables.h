@@ -1,4 +1,4 @@
-// Where the tables and other data of an installation are.
+// The places of the tables and other data of an installation.
 #pragma once
 
 #include <filesystem>

@@ -32,18 +32,18 @@ inline constexpr std::string_view kInterpolation = "interpolation";
 inline constexpr std::string_view kAncillaryVariables = "ancillary_variables";
 inline constexpr std::string_view kFillValue = "_FillValue";
 
-// The most nodes of an axis, and the most values of a variable (1 GiB): they bound the memory that a malformed file
-// can make a reader allocate.
+// The maximum number of nodes of an axis and of values of a variable (1 GiB): they bound the memory that a malformed
+// file can make a reader allocate.
 inline constexpr std::size_t kMaxNodeCount = std::size_t{1} << 16;
 inline constexpr std::size_t kMaxValueCount = std::size_t{1} << 28;
 
-// The greatest node, the least distance between two nodes and the greatest magnitude of a value, each in its own
-// units. They are far beyond any sea, and let single precision interpolate between them.
-inline constexpr double kGreatestNode = 1e9;
-inline constexpr double kLeastNodeDistance = 1e-6;
-inline constexpr float kGreatestValue = 1e6f;
+// The largest node, the smallest distance between two nodes and the largest magnitude of a value, each in its own
+// units. They are far beyond any sea, and within them single precision suffices to interpolate.
+inline constexpr double kMaxNode = 1e9;
+inline constexpr double kMinNodeDistance = 1e-6;
+inline constexpr float kMaxValue = 1e6f;
 
-// The most bytes of an attribute. The longest attribute, the campaign, has a few thousand.
+// The maximum size of an attribute in bytes. The longest one, the campaign, has a few thousand.
 inline constexpr std::size_t kMaxAttributeBytes = std::size_t{1} << 24;
 
 // A chunk holds at most this many values (256 KiB).

@@ -1,8 +1,6 @@
 #include "tables/provenance.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "absl/strings/ascii.h"

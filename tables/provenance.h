@@ -13,8 +13,8 @@ namespace albtpu {
 
 using AttributeValue = std::variant<std::string, std::int64_t, double, std::vector<double>>;
 
-// What is needed to trust a table and to make it again. `id` names what the table is, `version` which edition of it.
-// Neither is the name of its file.
+// The origin of a table, from which it can be checked and made again. `id` names what the table is, `version` which
+// edition of it. Neither is the name of its file.
 struct Provenance {
   std::string id;        // [a-z0-9][a-z0-9_-]*
   std::string version;   // not empty

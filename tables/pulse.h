@@ -11,13 +11,13 @@
 
 namespace albtpu {
 
-// A laser pulse, in the units of the axes. Single precision, like the wire format and the nodes, so that a query at
-// 0.1 m is at the node 0.1 m whichever way it takes.
+// A laser pulse, in the units of the axes. Single precision, like the wire format and the nodes, so that a query at 0.1
+// m hits the node 0.1 m through every interface.
 struct Pulse {
-  float wind_speed = 0;  // m/s at 10 m; of no effect in a table of one sea
-  float fetch =
-      std::numeric_limits<float>::infinity();  // m; infinity: a fully developed sea; as the wind speed
-  float incidence = 0;                         // degree from the vertical, in air
+  float wind_speed = 0;  // m/s at 10 m; no effect in a table of one sea
+  float fetch = std::numeric_limits<
+      float>::infinity();  // m; infinity: a fully developed sea; no effect in a table of one sea
+  float incidence = 0;     // degree from the vertical, in air
   // Degree from downwind; absent: the worse of 0 and 90 degrees. In a table of one sea, from its x axis towards its y
   // axis; absent: the worst node.
   std::optional<float> azimuth = {};
@@ -31,7 +31,7 @@ enum class Outcome {
   kInvalid,       // A coordinate is not finite (except a fetch of +infinity). There are no numbers.
 };
 
-// Where a coordinate that is outside the nodes of its axis lies: below the first one, or above the last.
+// The side of a coordinate outside the nodes of its axis: below the first one, or above the last.
 enum class Side { kBelow, kAbove };
 std::string_view Name(Side side);  // "below", "above"
 

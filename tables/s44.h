@@ -24,13 +24,12 @@ double TvuLimit(S44Order order, double depth);
 // says 5 %.
 double ThuLimitAsPrintedByBirkebak(double depth);
 
-// The strictest order whose limits exceed `thu` and `tvu`, both at 95 %, in m; nothing if there is none. The
-// surface is one of several components: this is the best order that it leaves possible, not the order of the
-// survey.
+// The strictest order whose limits exceed `thu` and `tvu`, both at 95 %, in m; nullopt if there is none. The surface is
+// one of several error sources: this is the best order that it leaves possible, not the order of the survey.
 std::optional<S44Order> BestOrder(double thu, double tvu, double depth);
 
-// What remains for all other, independent sources: sqrt(limit^2 - ours^2), at 95 %, in m; nothing if `ours` exceeds
-// `limit`.
+// The part that remains for all other, independent sources: sqrt(limit^2 - ours^2), at 95 %, in m; nullopt if `ours`
+// exceeds `limit`.
 std::optional<double> RemainingBudget(double limit, double ours);
 
 }  // namespace albtpu

@@ -33,7 +33,7 @@ constexpr std::array<AxisSchema, kAxisCount> kAxisSchemas = {{
     {.name = "depth", .units = "m", .long_name = "depth below the located surface", .scale = Scale::kLinear},
 }};
 
-// A sea of any waves keeps the turn, but not the mirror. Its wind and fetch are what they are.
+// A sea of any waves keeps the turn, but not the mirror. Its wind and fetch are fixed.
 constexpr std::array<AxisSchema, kAxisCount> kAxisSchemasOfOneSea = [] {
   std::array<AxisSchema, kAxisCount> axes = kAxisSchemas;
   AxisSchema& wind_speed = axes[Index(AxisId::kWindSpeed)];

@@ -18,7 +18,7 @@ inline constexpr std::array<AxisId, kAxisCount> kAxes = {AxisId::kWindSpeed, Axi
                                                          AxisId::kIncidence, AxisId::kAzimuth,
                                                          AxisId::kFootprint, AxisId::kDepth};
 
-// What the surface of the sea does to a pulse. All but the biases are 2 sigma.
+// The uncertainty of a pulse by the sea surface. All but the biases are 2 sigma.
 enum class Quantity {
   kRefractionAlongWind,  // degree, over all axes but depth
   kRefractionCrossWind,  // degree, over all axes but depth
@@ -54,7 +54,7 @@ const QuantitySchema& Describe(Quantity quantity);
 // means a fully developed sea, and the larger of the values along and across the wind.
 inline bool MayBeAbsent(AxisId axis) { return Describe(axis).if_absent != IfAbsent::kRefuse; }
 
-// The inverse of `Describe(...).name`; nothing if there is no such name.
+// The inverse of `Describe(...).name`; nullopt if there is no such name.
 std::optional<AxisId> FindAxis(std::string_view name);
 std::optional<Quantity> FindQuantity(std::string_view name);
 

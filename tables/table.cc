@@ -36,7 +36,7 @@ struct ValueRules {
 // The rule that a value breaks; empty if it breaks none.
 std::string_view Problem(float value, const ValueRules& rules) {
   if (!std::isfinite(value)) return "values must be finite";
-  if (std::abs(value) > format::kGreatestValue) return "magnitudes must not be above 1e6";
+  if (std::abs(value) > format::kMaxValue) return "magnitudes must not be above 1e6";
   if (value < 0 && !rules.may_be_negative) return "it must not be negative";
   if (!(value > 0) && rules.must_be_positive) return "on a log scale it must be positive";
   return "";

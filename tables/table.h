@@ -1,4 +1,4 @@
-// A table of any kind in memory: axes, quantities with their standard errors, and where they come from.
+// A table of any kind in memory: axes, quantities with their standard errors, and provenance.
 #pragma once
 
 #include <cstddef>

@@ -14,16 +14,16 @@ enum class Scale { kLinear, kLog };
 
 std::string_view Name(Scale scale);  // "linear", "log": the value of the attribute `interpolation`.
 
-// The symmetry by which an angle in degrees is brought among the nodes of its axis: FoldAzimuth in axis.h.
+// The symmetry by which an angle in degrees is folded into the range of its axis: FoldAzimuth in axis.h.
 enum class Fold {
   kNone,      // It is not.
   kQuadrant,  // Into 0 to 90: nothing changes by half a turn, or when mirrored at 0 degrees.
   kHalfTurn   // Into 0 to 180: nothing changes by half a turn.
 };
 
-// What a query means that has no coordinate on an axis.
+// The meaning of a query without a coordinate on an axis.
 enum class IfAbsent {
-  kRefuse,        // Nothing: the axis needs a coordinate.
+  kRefuse,        // Invalid: the axis needs a coordinate.
   kLastNode,      // The last node.
   kLargerOfEnds,  // The worse of 0 and 90 degrees: of the two answers, each value is the larger in magnitude.
   kLargestOfNodes  // The worst node: of the answers at all nodes, each value is the largest in magnitude.
@@ -57,27 +57,12 @@ struct QuantitySchema {
   bool over_last_axis;
   bool is_bias;  // Biases may be negative, and may be absent; the other quantities may not.
 
-  // A copy of `over_last_axis`. No list of initial values can give it another value.
-  class OverDepth {
-   public:
-    constexpr explicit OverDepth(bool over_last_axis) : value_(over_last_axis) {}
-    constexpr operator bool() const { return value_; }
-
-   private:
-    bool value_;
-  };
-  // The former name of `over_last_axis`, for existing source; depth is the last axis of the sea surface.
-  OverDepth over_depth = OverDepth(over_last_axis);
-
-  constexpr bool operator==(const QuantitySchema& other) const {
-    return name == other.name && units == other.units && long_name == other.long_name &&
-           over_last_axis == other.over_last_axis && is_bias == other.is_bias;
-  }
+  constexpr bool operator==(const QuantitySchema&) const = default;
 };
 
 inline constexpr std::string_view kStandardErrorSuffix = "_standard_error";
 
-// The most axes and quantities that a table may have: the interpolator keeps arrays of these sizes.
+// The maximum numbers of axes and quantities of a table: the interpolator keeps arrays of these sizes.
 inline constexpr std::size_t kMaxAxes = 6;
 inline constexpr std::size_t kMaxQuantities = 9;
 
@@ -88,7 +73,7 @@ struct TableSchema {
   std::span<const AxisSchema> axes;
   std::span<const QuantitySchema> quantities;
   // Every axis once, as an index into `axes`, from the one that changes least along a flight line; the last axis of
-  // the table comes last. The interpolator blends the axes in this order and keeps what the first ones give from
+  // the table comes last. The interpolator blends the axes in this order and keeps the result of the first ones from
   // pulse to pulse. The order decides the rounding of an answer, too.
   std::span<const std::size_t> blend_order;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
 #include "budget/beams/arctangent.h"
 #include "budget/beams/refracted_path-inl.h"
@@ -61,7 +60,7 @@ void ComputeBlock(const StillWater& water, Block& block) {
     depth[i] = block.depth[i] <= 0 ? 0.0 : block.depth[i];
     // Vertically, from the sensor to where the path in air ends.
     in_air[i] = block.depth[i] <= 0 ? height[i] + block.depth[i] : height[i];
-    least[i] = LeastTangent(distance[i], height[i], depth[i], water);
+    least[i] = MinTangent(distance[i], height[i], depth[i], water);
     tangent[i] = least[i];
   }
   for (int step = 0; step < kRefractionSteps; ++step) {

@@ -7,7 +7,7 @@
 
 namespace albtpu {
 
-// Where points lie, seen from the sensor: one element for each pulse in each column.
+// The places of points relative to the sensor: one element for each pulse in each column.
 struct PointColumns {
   std::span<const double> east;   // m, point minus sensor, true horizontal metres along the axes of the grid.
   std::span<const double> north;  // m, the same.

@@ -17,13 +17,13 @@ namespace albtpu {
 using TrackPositions =
     std::function<void(std::span<const double> times, std::span<Eigen::Vector3d> positions)>;
 
-// A ray, where the given track has the sensor then, and how fast it moves.
+// A ray, and the position and velocity of the sensor at its time by the given track.
 struct TrackedRay {
   AirRay ray;
   Eigen::Vector3d position, velocity;
 };
 
-// The rays at whose time plus `shift` the track knows a position and a velocity, in order.
+// The rays for which the track has a position and a velocity at their time plus `shift`, in order.
 std::vector<TrackedRay> FollowTrack(std::span<const AirRay> rays, const TrackPositions& track, double shift);
 
 // Forward and right are horizontal, along and across the course of the track.

@@ -1,7 +1,6 @@
 #include "budget/beams/facing_slopes.h"
 
 #include <Eigen/Core>
-#include <cmath>
 
 #include "sea/response/refraction.h"
 
@@ -9,7 +8,7 @@ namespace albtpu {
 namespace {
 
 // The angles, in the plane of incidence and across it, between the beam at `incidence` towards +x and the ray in air
-// that its path behind a facet of slope `slope` tells.
+// that follows from its path behind a facet of slope `slope`.
 Eigen::Vector2d AngleBehind(double incidence, double index, const Eigen::Vector2d& slope) {
   const Eigen::Vector3d beam(std::sin(incidence), 0, -std::cos(incidence));
   const RefractedRay refracted = RefractAtSlope(beam, slope, index);

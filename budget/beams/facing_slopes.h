@@ -1,4 +1,4 @@
-// What the waves of a sea do to the mean direction that pairs of returns tell.
+// The effect of waves on the mean of the beam directions that are derived from pairs of returns.
 //
 // Two effects do not average out over waves whose slopes m have the variance s^2 along each axis. A beam meets a facet
 // with a probability proportional to the facet's area across the beam, 1 + m . t, t the horizontal vector of length

@@ -10,10 +10,10 @@
 namespace albtpu {
 namespace {
 
-// No survey knows directions better: a return of 1 mm and a separation of 10 m, or slopes of 1e-4.
-constexpr double kLeastSigma = 2e-5;
-// Outliers lie outside of the good ones, else the two could not be told apart.
-constexpr double kLeastOutlierRatio = 4;
+// Lower bound of the errors of directions: 1 mm of a return over a separation of 10 m, or slopes of 1e-4.
+constexpr double kMinSigma = 2e-5;
+// Outliers must deviate more than good rays, or the fit could not separate the two.
+constexpr double kMinOutlierRatio = 4;
 
 // Sums over rays of what the maximization step needs. The good rays' part is a regression of |r|^2 / 2 on
 // 1 and 1 / separation^2, weighted by p / sigma^4.
@@ -42,7 +42,7 @@ void SolveVariances(const Sums& s, RayNoise& noise) {
     slopes = by_slopes ? only_slopes : 0;
     points = by_slopes ? 0 : only_points;
   }
-  noise.slopes = std::max(std::sqrt(slopes), kLeastSigma);
+  noise.slopes = std::max(std::sqrt(slopes), kMinSigma);
   noise.points = std::sqrt(points);
 }
 
@@ -57,9 +57,9 @@ double Median(std::vector<double> values) {
 RayWeight WeightOf(const RayNoise& noise, double separation, double square) {
   const double good_variance = noise.Variance(separation);
   const double bad_variance = std::max(noise.outlier_sigma * noise.outlier_sigma,
-                                       kLeastOutlierRatio * kLeastOutlierRatio * good_variance);
+                                       kMinOutlierRatio * kMinOutlierRatio * good_variance);
   const double difference = 1 / good_variance - 1 / bad_variance;
-  // The odds of an outlier: the ratio of the two densities times that of the shares.
+  // The odds of an outlier: the ratio of the two densities times that of the fractions.
   const double odds = noise.outlier_share / (1 - noise.outlier_share) * good_variance / bad_variance *
                       std::exp(std::min(square * difference / 2, 700.0));
   const double good = 1 / (1 + odds);
@@ -96,9 +96,9 @@ RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> se
         [](Sums a, const Sums& b) { return a += b; });
     if (!(sums.good > 0)) break;
     SolveVariances(sums, noise);
-    // One pseudo-observation of each kind keeps the share away from 0 and 1.
+    // One pseudo-observation of each kind keeps the fraction away from 0 and 1.
     noise.outlier_share = std::clamp((sums.bad + 0.5) / (sums.good + sums.bad + 1), 1e-4, 0.6);
-    const double least = kLeastOutlierRatio * std::sqrt(sums.variance / sums.good);
+    const double least = kMinOutlierRatio * std::sqrt(sums.variance / sums.good);
     const double prior = 0.09;  // rad^2: 0.3 rad, one observation.
     noise.outlier_sigma = std::max(std::sqrt((sums.bad_squares / 2 + prior) / (sums.bad + 1)), least);
   }
@@ -107,14 +107,13 @@ RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> se
 
 RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double> separations) {
   // |r|^2 of two normal components has the median 2 ln 2 sigma^2. Half of the variance goes to each cause.
-  const double variance =
-      std::max(Median({squares.begin(), squares.end()}) / 1.386, kLeastSigma * kLeastSigma);
+  const double variance = std::max(Median({squares.begin(), squares.end()}) / 1.386, kMinSigma * kMinSigma);
   const double separation = Median({separations.begin(), separations.end()});
   const double sigma = std::sqrt(variance / 2);
   return {.slopes = sigma,
           .points = sigma * separation,
           .outlier_share = 0.1,
-          .outlier_sigma = std::max(0.3, kLeastOutlierRatio * std::sqrt(variance))};
+          .outlier_sigma = std::max(0.3, kMinOutlierRatio * std::sqrt(variance))};
 }
 
 }  // namespace albtpu

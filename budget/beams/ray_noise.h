@@ -1,4 +1,4 @@
-// How far rays deviate from a track: a model of the errors of their directions, estimated from the residuals.
+// A model of the errors of ray directions, estimated from their residuals to a track.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace albtpu {
 // variance, in rad^2,
 //     sigma^2 = slopes^2 + (points / separation)^2
 // for a good ray: the slopes of the water turn all rays alike, the errors of the returns (`points` in m) turn those of
-// long separation less. A share of the rays (mixed returns, vegetation) has the variance `outlier_sigma`^2 instead.
+// long separation less. A fraction of the rays (mixed returns, vegetation) has the variance `outlier_sigma`^2 instead.
 struct RayNoise {
   double slopes = 0.02, points = 0.05;
   double outlier_share = 0.1, outlier_sigma = 0.3;

@@ -49,7 +49,7 @@ std::vector<AirRay> ThinRays(std::span<const AirRay> rays, const RayThinning& th
   for (std::size_t i = 0; i < places.size(); ++i)
     bins += i == 0 || bin_of(places[i]) != bin_of(places[i - 1]);
   const std::size_t cap =
-      std::clamp<std::size_t>(thinning.most_rays / std::max<std::size_t>(bins, 1), 1, thinning.rays_per_bin);
+      std::clamp<std::size_t>(thinning.max_rays / std::max<std::size_t>(bins, 1), 1, thinning.rays_per_bin);
 
   std::vector<AirRay> kept;
   kept.reserve(std::min(places.size(), bins * cap));

@@ -1,4 +1,4 @@
-// Fewer rays of a long recording: the ones that tell most, with a bound on their number.
+// Thins the rays of a long recording: keeps the most informative ones, at most a given number.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 namespace albtpu {
 
 struct RayThinning {
-  double bin = 0.005;               // s; shorter than a revolution of a scanner, so that all azimuths stay.
-  std::size_t rays_per_bin = 20;    // At most 4000 rays a second.
-  std::size_t most_rays = 2000000;  // Of all bins together; beyond it, `rays_per_bin` falls, down to 1.
+  double bin = 0.005;              // s; shorter than a revolution of a scanner, so that all azimuths stay.
+  std::size_t rays_per_bin = 20;   // At most 4000 rays a second.
+  std::size_t max_rays = 2000000;  // Of all bins together; beyond it, `rays_per_bin` falls, down to 1.
 };
 
 // The rays in order of time, those that are not finite left out, at most `rays_per_bin` in each `bin` of time. The ones

@@ -38,8 +38,8 @@ RayTrack::RayTrack(std::vector<RaySegment> segments, const RayTrackOptions& opti
     for (std::size_t i = 0; i <= parts; ++i) {
       const double time = segment.times.start + segment.times.step * static_cast<double>(i) / kParts;
       const TrackEstimate at = EstimateAt(segment, time);
-      const bool aircraft = at.height >= options_.least_height && at.height <= options_.greatest_height &&
-                            at.velocity.norm() < options_.greatest_speed;
+      const bool aircraft = at.height >= options_.min_height && at.height <= options_.max_height &&
+                            at.velocity.norm() < options_.max_speed;
       table.sigma.push_back(aircraft ? at.incidence_sigma : std::numeric_limits<double>::infinity());
     }
   }

@@ -1,4 +1,4 @@
-// The track of the sensor from the rays that pairs of returns tell, where a survey has no trajectory.
+// The track of the sensor where a survey has no trajectory, from the rays of pairs of returns.
 //
 // All rays of a recording pass through the sensor. The track is the smooth curve for which the directions from the
 // sensor to the water points of the rays agree with the directions of the rays:
@@ -11,7 +11,7 @@
 //      angles are unbiased where distances from the lines are not.
 //   4. The weights w come from the residuals (ray_noise.h), the spectral density q of the acceleration from the
 //      roughness of the track, by expectation-maximization: a calm flight is smoothed more.
-//   5. Waves flatten the mean direction of rays a little; facing_slopes.h has by how much, from the estimated slopes.
+//   5. Waves flatten the mean direction of rays a little; facing_slopes.h derives the angle from the estimated slopes.
 //   6. Posterior. Neighbouring rays meet the same wave, so their errors are not independent. With A = sum of w Q / R^2
 //      and the long-run covariance B of the scores w r / R (over lags up to 0.5 s, with Bartlett's weights), the
 //      covariance of a position from all rays is A^-1 B A^-1 instead of A^-1. The information of each part of the track
@@ -30,7 +30,7 @@
 
 namespace albtpu {
 
-// Where the sensor was, in the frame of the rays.
+// The estimated state of the sensor, in the frame of the rays.
 struct TrackEstimate {
   Eigen::Vector3d position, velocity;  // m, m/s
   Eigen::Matrix3d covariance;          // m^2, of the position.

@@ -2,15 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace albtpu {
 namespace {
 
 // More rays do not make a better start.
-constexpr std::size_t kMostRays = 600;
-constexpr std::size_t kLeastRays = 6;
+constexpr std::size_t kMaxRays = 600;
+constexpr std::size_t kMinRays = 6;
 
 double Median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -21,8 +20,8 @@ double Median(std::vector<double>& values) {
 }  // namespace
 
 std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time) {
-  if (rays.size() < kLeastRays) return std::nullopt;
-  const std::size_t stride = (rays.size() + kMostRays - 1) / kMostRays;
+  if (rays.size() < kMinRays) return std::nullopt;
+  const std::size_t stride = (rays.size() + kMaxRays - 1) / kMaxRays;
   const std::size_t count = (rays.size() + stride - 1) / stride;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < count; ++i) centre += rays[i * stride].water_point / static_cast<double>(count);

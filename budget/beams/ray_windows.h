@@ -1,4 +1,4 @@
-// Where the rays of a few seconds meet, without a start value.
+// The point at which the rays of a few seconds meet, without a start value.
 #pragma once
 
 #include <optional>

@@ -5,7 +5,7 @@
 
 namespace albtpu {
 
-// Water of refractive index n >= 1, with what the steps below need of it.
+// Water of refractive index n >= 1, and the numbers derived from n that the steps below need.
 struct StillWater {
   explicit StillWater(double n)
       : square(n * n), excess((n - 1) * (n + 1)), gentlest(1 / n), flattest(1 / std::sqrt(excess)) {}
@@ -14,7 +14,7 @@ struct StillWater {
   double flattest;  // 1/sqrt(n^2 - 1): the tangent in water at an incidence of 90 degrees. Infinite if n = 1.
 };
 
-// How r of DistanceToWater (refracted_path.h) is found, for depth >= 0.
+// The iteration for r of DistanceToWater (refracted_path.h), for depth >= 0.
 //
 // In terms of t = r / H, the tangent of the incidence, Snell's law is
 //     g(t) = H t + d h(t) = D,    h(t) = t / w, w = sqrt(n^2 + (n^2 - 1) t^2),
@@ -34,7 +34,7 @@ struct StillWater {
 inline constexpr int kRefractionSteps = 5;
 
 // The start: the larger of the two lower bounds of t. 0 / 0 (no depth, index 1) makes the second one no number.
-inline double LeastTangent(double distance, double height, double depth, const StillWater& water) {
+inline double MinTangent(double distance, double height, double depth, const StillWater& water) {
   const double all_gentle = height + depth * water.gentlest;
   const double in_air = distance - depth * water.flattest;
   const bool flat = in_air * all_gentle > distance * height;
@@ -66,7 +66,7 @@ inline double DistanceAt(double t, double distance, double height) {
 }
 
 inline double DistanceToStillWater(double distance, double height, double depth, const StillWater& water) {
-  const double least = LeastTangent(distance, height, depth, water);
+  const double least = MinTangent(distance, height, depth, water);
   double t = least;
   for (int step = 0; step < kRefractionSteps; ++step) {
     t = NextTangent(t, least, distance, height, depth, water);

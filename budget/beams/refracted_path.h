@@ -8,10 +8,10 @@ namespace albtpu {
 // the sea surface are made with 1.33 (kRefractiveIndex).
 inline constexpr double kSeaWaterIndex = 1.34;
 
-// Where a beam meets the water, as the horizontal distance r [m] from the sensor, in [0, distance]. The sensor is
-// `height` > 0 above the surface, the point `depth` below it, at the horizontal distance `distance` >= 0; all in m.
-// `index` is that of the water, at least 1. A point at or above the surface (`depth` <= 0) is reached in a straight
-// line and needs no water: r is `distance`.
+// The horizontal distance r [m], in [0, distance], from the sensor to the point where a beam meets the water. The
+// sensor is `height` > 0 above the surface, the point `depth` below it, at the horizontal distance `distance` >= 0; all
+// in m. `index` is that of the water, at least 1. A point at or above the surface (`depth` <= 0) is reached in a
+// straight line and needs no water: r is `distance`.
 //
 // r is the root of Snell's law, sin(incidence) = n sin(refracted):
 //     f(r) = r / sqrt(r^2 + H^2) - n (D - r) / sqrt((D - r)^2 + d^2) = 0,

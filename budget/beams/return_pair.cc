@@ -5,11 +5,11 @@
 namespace albtpu {
 
 std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index,
-                                double least_separation) {
+                                double min_separation) {
   if (!(pair.upper.z() < water_height) || !(pair.lower.z() < pair.upper.z())) return std::nullopt;
   const Eigen::Vector3d between = pair.lower - pair.upper;
   const double separation = between.norm();
-  if (!(separation >= least_separation)) return std::nullopt;
+  if (!(separation >= min_separation)) return std::nullopt;
   const Eigen::Vector3d in_water = between / separation;
   const Eigen::Vector2d in_air = index * in_water.head<2>();
   const double cosine_squared = 1 - in_air.squaredNorm();

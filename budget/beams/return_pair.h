@@ -1,4 +1,4 @@
-// Two returns of one pulse, both from below the water, and the ray in air that they tell.
+// Two returns of one pulse, both from below the water, and the ray in air that follows from them.
 //
 // Derivation. The returns of a pulse lie on its straight path in water, so their difference has the direction w of the
 // beam there. Snell's law keeps the horizontal part of n times the direction at a level surface: u_h = n w_h, and the
@@ -25,15 +25,15 @@ struct ReturnPair {
 // The straight line of a beam in air.
 struct AirRay {
   double time = 0;
-  Eigen::Vector3d water_point;  // Where it met the water.
+  Eigen::Vector3d water_point;  // The point where it met the water.
   Eigen::Vector3d direction;    // Unit vector from the sensor down to the water.
   double separation = 0;        // m between the two returns; the longer, the better the direction is known.
 };
 
 // The ray of a pair over water at height `water_height`, of index `index`. None if a return lies above the water, if
-// the two are nearer than `least_separation` [m] or the lower one is not below the upper one, if no ray in air refracts
+// the two are nearer than `min_separation` [m] or the lower one is not below the upper one, if no ray in air refracts
 // into their direction, or if a number is not finite.
 std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index,
-                                double least_separation = 1);
+                                double min_separation = 1);
 
 }  // namespace albtpu

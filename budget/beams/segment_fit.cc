@@ -17,11 +17,11 @@ namespace {
 constexpr std::size_t kBinsPerStep = 30;     // Of rays that share a derivative; 0.05 s.
 constexpr double kLongestCorrelation = 0.5;  // s; waves of tens of metres pass under a scan line.
 constexpr double kShortestStep = 0.1;        // s between the knots of a short segment.
-constexpr int kLeastIterations = 8, kMostIterations = 25;
-constexpr double kConverged = 1e-3;  // m; a hundredth of what is asked for.
+constexpr int kMinIterations = 8, kMaxIterations = 25;
+constexpr double kConverged = 1e-3;  // m; a hundredth of the accuracy that is needed.
 
-// q: the prior is one step with the density of light turbulence; the bounds are a flight on rails and a wild one.
-constexpr double kUsualDensity = 0.3, kLeastDensity = 0.003, kGreatestDensity = 30;
+// q: the prior is one step with the density of light turbulence; the bounds lie far below and far above any flight.
+constexpr double kUsualDensity = 0.3, kMinDensity = 0.003, kMaxDensity = 30;
 
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -92,8 +92,8 @@ SegmentFit::SegmentFit(std::span<const AirRay> rays, const RayTrackOptions& opti
   }
 }
 
-// Around each knot a window of two steps, or as many as hold enough rays. Windows without a plausible track take the
-// state of the nearest one that has it.
+// Around each knot a window of two steps, or as many as hold enough rays. A window without a plausible track takes the
+// state of the nearest window that has one.
 bool SegmentFit::Start() {
   constexpr std::size_t kEnoughRays = 40;
   constexpr double kWidest = 4;
@@ -112,8 +112,8 @@ bool SegmentFit::Start() {
       if (window.size() < kEnoughRays && half < kWidest && window.size() < rays_.size()) continue;
       if (auto state = WhereRaysMeet(window, time)) {
         state->head<3>() -= centre_;
-        if (state->z() > 0 && state->z() < options_.greatest_height &&
-            state->tail<3>().norm() < options_.greatest_speed) {
+        if (state->z() > 0 && state->z() < options_.max_height &&
+            state->tail<3>().norm() < options_.max_speed) {
           found[k] = state;
           return;
         }
@@ -208,13 +208,13 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
     if (solution == nullptr || bin.first == bin.last) continue;
     fitted += bin.information * solution->PositionCovariance(times_.Find(bin.mean_time)) * bin.information;
   }
-  // The fit takes the share f from the scores at lags far below the step of the knots: of their variance A_c K, it
+  // The fit takes the fraction f from the scores at lags far below the step of the knots: of their variance A_c K, it
   // takes A_c C A_c in each of the lags, which Bartlett's weights count lags + 1 times.
   const double f_per_lag = whitened(fitted).trace() / (3 * last);
-  // A lag of more than a tenth of a segment has too few pairs of bins, and the fit may not take a great share.
-  constexpr double kGreatestShare = 0.3;
+  // A lag of more than a tenth of a segment has too few pairs of bins, and the fraction that the fit takes is limited.
+  constexpr double kMaxShare = 0.3;
   const double longest = std::min(
-      {kLongestCorrelation / width, duration / 10 / width, kGreatestShare / std::max(f_per_lag, 1e-9) - 1});
+      {kLongestCorrelation / width, duration / 10 / width, kMaxShare / std::max(f_per_lag, 1e-9) - 1});
   const auto lags = static_cast<std::size_t>(std::max(longest, 0.0));
   const double f = std::min(static_cast<double>(lags + 1) * f_per_lag, 0.6);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -225,11 +225,11 @@ Eigen::Matrix3d SegmentFit::Correlation(const Eigen::Matrix3d& root, const KnotS
     const double bartlett = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
     sum += lag == 0 ? products : (bartlett * (products + products.transpose())).eval();
   }
-  // Redescending weights lessen the curvature of the likelihood below A.
+  // Redescending weights reduce the curvature of the likelihood below A.
   const double curvature = std::clamp(response / weight, 0.3, 1.0);
   Eigen::Matrix3d k = whitened(sum) / (curvature * curvature * (1 - f));
-  // Each correlation time is one observation of K. A few of them more, of K = 1, keep short segments from believing in
-  // errors that happened to cancel. Student's 97.5 % quantile exceeds 1.96 by the factor 1 + 1.2 / freedom.
+  // Each correlation time is one observation of K. A few more observations of K = 1 keep a short segment, whose errors
+  // may cancel by chance, from an optimistic K. Student's 97.5 % quantile exceeds 1.96 by the factor 1 + 1.2 / freedom.
   constexpr double kUsual = 4, kLeast = 0.4;
   const double freedom = std::max(1.0, duration / (width * static_cast<double>(lags + 1)));
   const double student = 1 + 1.2 / (freedom + kUsual);
@@ -262,7 +262,7 @@ void SegmentFit::Iterate() {
     for (const Bin& bin : bins_) information += bin.information;
     root = information.llt().matrixL();
   };
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     ComputeResiduals();
     if (iteration == 0) noise_ = RobustRayNoise(squares_, separations_);
     noise_ = FitRayNoise(squares_, separations_, noise_, iteration == 0 ? 10 : 3);
@@ -289,10 +289,10 @@ void SegmentFit::Iterate() {
       const double before = density_;
       density_ = std::clamp(
           (MotionRoughness(times_.step, states_, solution_) + 6 * kUsualDensity) / (6 * (steps + 1)),
-          kLeastDensity, kGreatestDensity);
+          kMinDensity, kMaxDensity);
       if (std::abs(density_ / before - 1) > 0.1) greatest = std::max(greatest, 2 * kConverged);
     }
-    if (iteration + 1 >= kLeastIterations && greatest < kConverged) break;
+    if (iteration + 1 >= kMinIterations && greatest < kConverged) break;
   }
   // The posterior at the solution: M of A_c -> M' A_c M with M = A^-1/2 (A^1/2 B^-1 A^1/2)^1/2 A^1/2 makes the
   // information of all bins together A B^-1 A, whose inverse is the covariance of correlated errors.
@@ -329,7 +329,7 @@ RaySegment SegmentFit::Result() const {
 }  // namespace
 
 std::optional<RaySegment> FitSegment(std::span<const AirRay> rays, const RayTrackOptions& options) {
-  if (rays.size() < std::max<std::size_t>(options.least_rays, 6) || !(rays.back().time > rays.front().time))
+  if (rays.size() < std::max<std::size_t>(options.min_rays, 6) || !(rays.back().time > rays.front().time))
     return std::nullopt;
   SegmentFit fit(rays, options);
   if (!fit.Start()) return std::nullopt;

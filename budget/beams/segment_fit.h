@@ -15,13 +15,15 @@
 namespace albtpu {
 
 struct RayTrackOptions {
-  double longest_gap = 5;       // s without a ray; a longer one divides segments.
-  double knot_step = 1.5;       // s
-  std::size_t least_rays = 20;  // In a segment.
-  double largest_incidence_sigma = 0.3 * std::numbers::pi / 180;  // rad; beyond it, a position is uncertain.
-  double least_height = 20, greatest_height = 6000;  // m above the water; beyond, it is no aircraft.
-  double greatest_speed = 200;                       // m/s
-  double index = kSeaWaterIndex;                     // Of the water, as in RayOfPair.
+  double longest_gap = 5;     // s without a ray; a longer one divides segments.
+  double knot_step = 1.5;     // s
+  std::size_t min_rays = 20;  // In a segment.
+  double largest_incidence_sigma =
+      0.3 * std::numbers::pi / 180;  // rad; above it, a position counts as uncertain.
+  double min_height = 20,
+         max_height = 6000;       // m above the water; outside, the sensor is not on an aircraft.
+  double max_speed = 200;         // m/s
+  double index = kSeaWaterIndex;  // Of the water, as in RayOfPair.
   RayThinning thinning;
 };
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <vector>
 
 #include "budget/beams/facing_slopes.h"
@@ -28,15 +26,15 @@ double Median(std::vector<double> values) {
 }
 
 std::vector<AirRay> EvenlyThinned(std::span<const AirRay> rays, std::size_t most) {
-  const std::vector<AirRay> sorted = ThinRays(rays, {.rays_per_bin = 4, .most_rays = 8 * most});
+  const std::vector<AirRay> sorted = ThinRays(rays, {.rays_per_bin = 4, .max_rays = 8 * most});
   const std::size_t stride = (sorted.size() + most - 1) / std::max<std::size_t>(most, 1);
   std::vector<AirRay> kept;
   for (std::size_t i = 0; i < sorted.size(); i += std::max<std::size_t>(stride, 1)) kept.push_back(sorted[i]);
   return kept;
 }
 
-// By how much rays deviate from where those of a few seconds meet: the median angle to a straight track of their own,
-// which no trajectory can fall far below.
+// The scatter of the rays themselves: their median angle to a straight track fitted to a few seconds of them. No
+// trajectory can be much nearer to the rays.
 double AngleAmongRays(std::span<const AirRay> rays) {
   constexpr double kWindow = 3;  // s
   std::vector<double> angles;
@@ -79,7 +77,7 @@ TimeSearch FindTimeOffset(std::span<const AirRay> rays, const TrackPositions& tr
     double offset = scan[i].second;
     for (int round = 0; round < 3; ++round) {
       const std::vector<TrackedRay> tracked = FollowTrack(rays, track, offset);
-      if (tracked.size() < options.least_rays) break;
+      if (tracked.size() < options.min_rays) break;
       const DisplacementFit fit = FitDisplacement(tracked, Displacement::kTime, options.index);
       if (fit.median_angle < best.angle) best = {offset + fit.values[0], fit.sigmas[0], fit.median_angle};
       offset += std::clamp(fit.values[0], -2.0, 2.0);
@@ -144,10 +142,10 @@ bool Disagrees(TrackVerdict verdict) {
 TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
                       const TrackCheckOptions& options) {
   TrackCheck check;
-  const std::vector<AirRay> kept = EvenlyThinned(rays, options.most_rays);
+  const std::vector<AirRay> kept = EvenlyThinned(rays, options.max_rays);
   const std::vector<TrackedRay> tracked = FollowTrack(kept, track, 0);
   check.rays = tracked.size();
-  if (tracked.size() < std::max<std::size_t>(options.least_rays, 8)) return check;
+  if (tracked.size() < std::max<std::size_t>(options.min_rays, 8)) return check;
 
   const DisplacementFit offset = FitDisplacement(tracked, Displacement::kOffset, options.index);
   check.forward = {offset.values[0], offset.sigmas[0]};
@@ -157,7 +155,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   check.median_angle = MedianAngle(tracked);
   CompareIncidence(tracked, offset, check);
 
-  // What a beam of the median incidence by the rays changes with each component of the offset.
+  // The change of the median incidence with each component of the offset.
   const double incidence = MedianIncidence(kept);
   const double per_across = std::cos(incidence) / check.range, per_up = std::sin(incidence) / check.range;
   const auto matters = [&](const Correction& c, double per) {
@@ -184,8 +182,8 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   check.height_ratio = 1 + check.up.value / heights;
 
   if (!far && !across && !up && !rotates && !matters(check.mean_difference, 1)) {
-    const bool tells = options.significance * check.mean_difference.sigma < RadiansOfDegrees(1);
-    check.verdict = tells ? TrackVerdict::kAgrees : TrackVerdict::kTooFewRays;
+    const bool significant = options.significance * check.mean_difference.sigma < RadiansOfDegrees(1);
+    check.verdict = significant ? TrackVerdict::kAgrees : TrackVerdict::kTooFewRays;
     return check;
   }
 
@@ -199,7 +197,7 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   double angle_with_both = std::numeric_limits<double>::infinity();
   if (std::isfinite(search.angle)) {
     const std::vector<TrackedRay> shifted = FollowTrack(kept, track, search.offset);
-    if (shifted.size() >= options.least_rays) {
+    if (shifted.size() >= options.min_rays) {
       const DisplacementFit rest = FitDisplacement(shifted, Displacement::kOffset, options.index);
       check.up_with_time = rest.values[2];
       beside_time = rest.values.head<2>().norm();
@@ -213,8 +211,8 @@ TrackCheck CheckTrack(std::span<const AirRay> rays, const TrackPositions& track,
   const double inverse = 1 / kInternationalFoot;
   const auto near_ratio = [&](double ratio) { return std::abs(check.height_ratio / ratio - 1) < 0.08; };
 
-  // A right track, displaced, is as near to the rays as they are to each other. The windows of the rays have tracks of
-  // their own, with 6 parameters for as few as 12 rays of two components each: by sqrt(24 / 18) = 1.15 too near.
+  // A correct track, once displaced, is as near to the rays as the rays are to each other. The tracks of single windows
+  // have 6 parameters for as few as 12 rays of two components each, so they are too near by sqrt(24 / 18) = 1.15.
   const bool unexplained = best > 1.3 * among + RadiansOfDegrees(0.1);
   if (!unexplained && moved > kLargestLeverArm && Significant(check.time, options) &&
       explains(angle_with_both) && beside_time < std::max(kLargestLeverArm, 0.02 * moved)) {

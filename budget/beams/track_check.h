@@ -1,13 +1,13 @@
-// Does a given trajectory agree with the rays that pairs of returns tell? And if not: what is wrong with it?
+// Checks whether a given trajectory agrees with the rays of pairs of returns and, if not, finds the likely mistake.
 //
-// A right trajectory sends its beams along the rays: over flat water the mean of the differences of incidence, with
-// their sign, is about 0.001 degree, over waves below 0.15 degree, whatever the spread of single rays. A wrong one is
-// displaced, and what displacement the rays ask for tells the cause as far as geometry can:
+// The beams of a correct trajectory follow the rays: the mean signed difference of incidence is about 0.001 degree over
+// flat water and below 0.15 degree over waves, whatever the spread of single rays. A wrong trajectory is displaced, and
+// the displacement that fits the rays shows the cause as far as geometry allows:
 //   * a shift in time puts the sensor elsewhere along its own track;
 //   * a height is off by a constant (geoid separation) or by the ratio of feet and metres;
 //   * a lever arm displaces in the axes of the aircraft. Forward by less than 10 m is a lever arm, farther a time;
 //   * a rotation in the horizontal (convergence, datum) displaces the ends of a line to opposite sides;
-//   * a track that no displacement of up to 100 m brings near the rays belongs to something else.
+//   * a track that no displacement of up to 100 m brings near the rays is of another flight, zone or datum.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ namespace albtpu {
 
 enum class TrackVerdict {
   kAgrees,
-  kTooFewRays,  // Too few at times that the track knows, or too uncertain ones to tell.
+  kTooFewRays,  // Too few rays at times of the track, or too uncertain ones for a verdict.
   kTimeOffset,
   kHeightOffset,
   kHeightUnit,        // Heights in feet where metres are expected, or the reverse.
@@ -36,14 +36,14 @@ enum class TrackVerdict {
 
 struct TrackCheckOptions {
   double limit = 0.3 * std::numbers::pi / 180;  // rad; differences of incidence up to it agree.
-  double significance = 4;                      // Standard errors; what is not above them is not believed.
-  std::size_t least_rays = 30;
-  std::size_t most_rays = 20000;    // More are thinned evenly in time.
+  double significance = 4;                      // Standard errors; a smaller difference is not significant.
+  std::size_t min_rays = 30;
+  std::size_t max_rays = 20000;     // More are thinned evenly in time.
   double longest_time_offset = 20;  // s
   double index = kSeaWaterIndex;
 };
 
-// What the rays say of a parameter: `value` is what must be added to the track to agree with them.
+// The correction of a parameter by the rays: `value` must be added to the track for it to agree with them.
 struct Correction {
   double value = 0, sigma = 0;
 };

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace albtpu {
 namespace {

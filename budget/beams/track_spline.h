@@ -19,8 +19,8 @@ namespace albtpu {
 using KnotState = Eigen::Matrix<double, 6, 1>;  // Position [m], velocity [m/s].
 using KnotMatrix = Eigen::Matrix<double, 6, 6>;
 
-// Where a time lies between the knots, and the weights of the position and velocity of the knots `first` and
-// `first` + 1 in the position there and in its rate.
+// The place of a time between the knots, and the weights of the position and velocity of the knots `first` and `first`
+// + 1 in the position there and in its rate.
 struct KnotPlace {
   std::size_t first;
   double fraction;

@@ -6,9 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace albtpu {
@@ -18,7 +16,7 @@ constexpr double kCell = 5, kSlot = 60;  // m, s
 constexpr int kTile = 8;                 // Cells along the side of a tile.
 constexpr int kWindow = 4;               // Cells along the side of the window.
 constexpr std::size_t kKept = 8;
-constexpr std::size_t kLeastReturns = 3;
+constexpr std::size_t kMinReturns = 3;
 constexpr double kFarthest = 1e8, kLatest = 1e11;
 
 // A kept return: its hash above the bits of its height, so that the smallest ones are a random sample.
@@ -178,8 +176,8 @@ LocalWaterSurface SurfaceReturns::Finish() const {
     Tiles::Heights heights;
     for (std::int32_t row = 0; row < kTile * kTile; ++row) {
       const std::size_t count = Tiles::ReadWindow(neighbours, row % kTile, row / kTile, heights);
-      tile->second[row] = count < kLeastReturns ? std::numeric_limits<float>::quiet_NaN()
-                                                : MedianOf(std::span(heights).first(count));
+      tile->second[row] = count < kMinReturns ? std::numeric_limits<float>::quiet_NaN()
+                                              : MedianOf(std::span(heights).first(count));
     }
   });
   return surface;

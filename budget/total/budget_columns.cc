@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include "budget/total/limits_met.h"
@@ -69,7 +68,7 @@ HWY_INLINE F CovarianceOnAxes(F var_x, F var_y, F cosine, F sine, F cosine_refra
   return gxy * (gxx * slope_x + gyy * slope_y);
 }
 
-// The share of the sea surface.
+// The contribution of the sea surface.
 HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wave_height,
                                     const BeamNumbers& beam) {
   const Floats d;
@@ -97,7 +96,7 @@ HWY_INLINE NedCovariance SeaShareOf(F thu, F tvu, F along, F cross, F axis, F wa
   return c;
 }
 
-// The part of the water column that all pulses of a survey share. Too shallow is up.
+// The error of the water column that is common to all pulses of a survey. A positive vertical error is too shallow.
 HWY_INLINE NedCovariance WaterShareOf(F along, F vertical, F correlation, const BeamNumbers& beam) {
   const F held = hn::Max(Constant(-1), hn::Min(correlation, Constant(1)));
   const F along2 = along * along, up = held * (along * vertical);

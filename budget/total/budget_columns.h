@@ -1,5 +1,5 @@
-// The total uncertainty of many pulses: the shares of the air side, the sea surface, the water column and the datum,
-// added as covariances.
+// The total uncertainty of many pulses: the contributions of air side, sea surface, water column and datum, added as
+// covariances.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace albtpu {
 
-// What is known of a pulse. A column has one number for each pulse, or one for all, or none where the comment allows
-// it.
+// The inputs of a pulse. A column has one number for each pulse, one for all, or none where the comment says what none
+// means.
 enum class BudgetInput : std::uint8_t {
   kIncidence,    // degree from the vertical, in air: 0 or more, below 90.
   kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to.
@@ -38,7 +38,7 @@ enum class BudgetInput : std::uint8_t {
   kRollSigma,           // degree
   kPitchSigma,          // degree
   kHeadingSigma,        // degree
-  // The share of the sea surface at 2 sigma, as a table answers it (tables/pulse.h). NaN: no answer.
+  // The contribution of the sea surface at 2 sigma, as a table answers it (tables/pulse.h). NaN: no answer.
   kSeaThu,           // m
   kSeaTvu,           // m
   kRefractionAlong,  // degree, along the axis of the sea.
@@ -46,14 +46,14 @@ enum class BudgetInput : std::uint8_t {
   kBiasAlongBeam,    // m. None: not known, taken as 0.
   kBiasVertical,     // m. None: not known, taken as 0.
   kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
-  kWaveHeight,  // m, standard deviation of the elevation that the location of the surface does not see. None: 0.
-  // The share of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
+  kWaveHeight,  // m, standard deviation of the waves that the located surface does not follow. None: 0.
+  // The contribution of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
   kWaterSigmaAlong,     // m, along the beam, of all pulses of a survey alike.
   kWaterSigmaVertical,  // m, the same, vertical.
-  kWaterCorrelation,    // of the two, too far along with too shallow: -1 to 1; beyond counts as the nearer end.
-  kWaterNoise,          // m, vertical, of the photons of this echo alone.
-  kWaterBiasAlong,      // m, as kBiasAlongBeam, to which it is added.
-  kWaterBiasVertical,   // m, as kBiasVertical, to which it is added.
+  kWaterCorrelation,  // of the two, too far along with too shallow: -1 to 1; beyond counts as the nearer end.
+  kWaterNoise,        // m, vertical, of the photons of this echo alone.
+  kWaterBiasAlong,    // m, as kBiasAlongBeam, to which it is added.
+  kWaterBiasVertical,  // m, as kBiasVertical, to which it is added.
 };
 inline constexpr std::size_t kBudgetInputCount = 33;
 // clang-format off
@@ -75,7 +75,7 @@ struct BudgetInputs {
   }
 };
 
-// What all pulses have in common.
+// Constants of all pulses.
 struct BudgetOptions {
   AirErrors errors = {};
   SurfaceLocation located = SurfaceLocation::kPulse;
@@ -96,12 +96,12 @@ inline constexpr std::array<std::string_view, 6> kCovarianceNames = {"NN", "EE",
 // the radius that holds 95 % of the two-dimensional normal distribution with this covariance, and 1.96 standard
 // deviations. At 1 sigma half of 2 sigma.
 struct BudgetOutputs {
-  std::span<float> thu = {}, tvu = {};                           // m, of all shares.
+  std::span<float> thu = {}, tvu = {};                           // m, of all contributions.
   std::span<float> thu_air = {}, tvu_air = {};                   // m, of the air side alone.
   std::span<float> thu_sea = {}, tvu_sea = {};                   // m, of sea surface and unseen waves.
   std::span<float> thu_water = {}, tvu_water = {};               // m, of the water column.
-  CovarianceColumns air = {}, sea = {}, water = {}, total = {};  // Of shares and their sum.
-  std::array<CovarianceColumns, kErrorGroups> groups = {};       // Of the same sum by ErrorGroup.
+  CovarianceColumns air = {}, sea = {}, water = {}, total = {};  // Of contributions and their sum.
+  std::array<CovarianceColumns, kErrorGroups> groups = {};       // Of the total, by ErrorGroup.
   // 0: none; otherwise 1 plus the number of the strictest order of S-44 (kS44Orders) whose limits exceed the total at
   // 95 % plus the magnitude of the bias, horizontally and vertically.
   std::span<std::uint8_t> best_orders = {};
@@ -116,9 +116,9 @@ struct BudgetOutputs {
 // in the proportion of the squared refractions, and the covariance of the two that Snell's law makes of uncorrelated
 // slopes (docs/budget.md); its covariance with up is sin r cos r (r: the angle in water) times the covariance with the
 // direction of the beam, because the table's errors are those of a spot that moves on a level bottom; vertically
-// (TVU/2)^2. Waves that the location of the surface does not see add as an error of its height. C_water
-// is in the plane of the beam: the ignorance of the water's bias, shared by all pulses, and the noise of a range along
-// the refracted ray. Biases are in no covariance.
+// (TVU/2)^2. Waves that the located surface does not follow add as an error of its height. C_water is in the plane of
+// the beam: the uncertainty of the water's bias, common to all pulses, and the noise of a range along the refracted
+// ray. Biases are in no covariance.
 //
 // Errors of rounding are below 1e-5 of the standard deviations.
 void ComputeBudget(const BudgetInputs& inputs, const BudgetOptions& options, const BudgetOutputs& outputs);

@@ -18,9 +18,9 @@ struct WaterIndex {
 //     SeaWaterIndex(15, 35).phase  // 1.34199
 WaterIndex SeaWaterIndex(double temperature, double salinity, double wavelength = kGreenWavelength);
 
-// What it does to a point that its processing bent and ranged by one index `used`, for the phase and the group alike.
-// Over the reported depth; reported minus true: positive is too shallow, and too far along the beam. `incidence` is in
-// air [radian]. Exact over a level bottom.
+// The bias of a point whose processing refracted and ranged with one index `used`, for the phase and the group alike.
+// Relative to the reported depth; reported minus true: positive is too shallow, and too far along the beam. `incidence`
+// is in air [radian]. Exact over a level bottom.
 //
 //     BiasOfIndex(0, SeaWaterIndex(15, 35), 1.33).vertical  // -0.0252: 25 cm too deep at 10 m
 struct IndexBias {

@@ -29,14 +29,13 @@ double Radical(std::size_t i, std::size_t base) {
 
 std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count) {
   std::vector<DrawnWater> draws;
-  // Where the limits of b / a lie in its distribution.
+  // The limits of b / a as probabilities of its distribution.
   const auto place = [&](double ratio) {
     if (!(optics.ratio_log_sigma > 0)) return ratio < optics.scattering_over_absorption ? 0.0 : 1.0;
     const double x = std::log(ratio / optics.scattering_over_absorption) / optics.ratio_log_sigma;
     return 0.5 * std::erfc(-x / std::sqrt(2.0));
   };
-  const double least = optics.least_ratio > 0 ? place(optics.least_ratio) : 0,
-               most = place(optics.most_ratio);
+  const double least = optics.min_ratio > 0 ? place(optics.min_ratio) : 0, most = place(optics.max_ratio);
   for (std::size_t i = 0; i < count; ++i) {
     const double even = least + (most - least) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     DrawnWater draw{};
@@ -46,7 +45,7 @@ std::vector<DrawnWater> DrawWaters(const WaterOptics& optics, std::size_t count)
         1.001 * kPureWaterAbsorption,
         optics.attenuation * std::exp(optics.attenuation_log_sigma * NormalQuantile(Radical(i + 1, 2))));
     draw.ratio = optics.scattering_over_absorption * std::exp(optics.ratio_log_sigma * NormalQuantile(even));
-    draw.ratio = std::min(draw.ratio, WaterOptics::GreatestRatio(draw.attenuation, draw.fraction));
+    draw.ratio = std::min(draw.ratio, WaterOptics::MaxRatio(draw.attenuation, draw.fraction));
     draws.push_back(draw);
   }
   return draws;

@@ -1,4 +1,4 @@
-// Waters as they may be, by what is known of them.
+// Random waters that are consistent with what is known.
 #pragma once
 
 #include <cstddef>

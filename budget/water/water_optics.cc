@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kSunCosine = 0.85;
 constexpr double kDefaultOmega0 = 0.8, kDefaultOmega0Sigma = 0.1;
-constexpr double kLeastFraction = 0.01, kMostFraction = 0.03;
+constexpr double kMinFraction = 0.01, kMaxFraction = 0.03;
 constexpr double kMiddleFraction = 0.0183;
 
-// Standard deviations of ln Kd where none is told. A tenth is what instruments agree within; 0.26 is what ocean colour
+// Standard deviations of ln Kd where none is given. A tenth is what instruments agree within; 0.26 is what ocean colour
 // reaches in coastal water; Secchi depths add 0.3 to it; a Jerlov type stands for half the step to its neighbours.
 constexpr double kMeasured = 0.1, kOceanColour = 0.26, kSecchi = 0.4, kJerlov = 0.25, kSystem = 0.175;
 
@@ -48,82 +48,82 @@ Attenuation OfKd(double kd, KdKind kind) {
 
 absl::Status Invalid(const std::string& message) { return absl::InvalidArgumentError(message); }
 
-absl::Status CheckWays(const ToldOptics& told) {
-  const bool direct = told.absorption.has_value() || told.scattering.has_value();
-  const int ways = told.kd.has_value() + told.secchi.has_value() + told.jerlov.has_value() + direct;
+absl::Status CheckWays(const OpticsInput& given) {
+  const bool direct = given.absorption.has_value() || given.scattering.has_value();
+  const int ways = given.kd.has_value() + given.secchi.has_value() + given.jerlov.has_value() + direct;
   if (ways != 1) {
     return Invalid(
         absl::StrCat(ways == 0 ? "nothing says how clear the water is"
-                               : "the clarity of the water is told in several ways",
+                               : "the clarity of the water is given in several ways",
                      "; give one of kd with kd_kind, secchi, jerlov, or absorption with scattering"));
   }
-  if (told.kd.has_value() != told.kd_kind.has_value())
+  if (given.kd.has_value() != given.kd_kind.has_value())
     return Invalid("kd and kd_kind go together (an attenuation of 490 nm is not one of 532 nm); give both");
-  if (told.absorption.has_value() != told.scattering.has_value())
+  if (given.absorption.has_value() != given.scattering.has_value())
     return Invalid("absorption and scattering go together; give both");
-  if (direct && told.omega0.has_value())
+  if (direct && given.omega0.has_value())
     return Invalid("omega0 contradicts absorption and scattering, which give it; leave it out");
   return absl::OkStatus();
 }
 
-Attenuation AttenuationOf(const ToldOptics& told) {
-  if (told.kd.has_value()) return OfKd(*told.kd, *told.kd_kind);
-  if (told.secchi.has_value()) {
-    const double clearest = 0.94 / *told.secchi;
+Attenuation AttenuationOf(const OpticsInput& given) {
+  if (given.kd.has_value()) return OfKd(*given.kd, *given.kd_kind);
+  if (given.secchi.has_value()) {
+    const double clearest = 0.94 / *given.secchi;
     return {std::max(clearest, Kd532Of490(clearest)), kSunCosine, kSecchi};
   }
-  if (told.jerlov.has_value()) {
+  if (given.jerlov.has_value()) {
     const auto type = static_cast<std::size_t>(
-        std::find(kJerlovTypes.begin(), kJerlovTypes.end(), *told.jerlov) - kJerlovTypes.begin());
+        std::find(kJerlovTypes.begin(), kJerlovTypes.end(), *given.jerlov) - kJerlovTypes.begin());
     return {kJerlovKd[type], type < kOceanicTypes ? 1 : kSunCosine, kJerlov};
   }
-  const double a = *told.absorption, b = *told.scattering;
-  const double fraction = told.backscatter_fraction.value_or(kMiddleFraction);
+  const double a = *given.absorption, b = *given.scattering;
+  const double fraction = given.backscatter_fraction.value_or(kMiddleFraction);
   return {std::sqrt(a * a + 6 * fraction * a * b), 1, kMeasured};
 }
 
 }  // namespace
 
-double WaterOptics::GreatestRatio(double attenuation, double backscatter_fraction) {
+double WaterOptics::MaxRatio(double attenuation, double backscatter_fraction) {
   const double relative = attenuation / kPureWaterAbsorption;
   return std::max(0.0, (relative * relative - 1) / (6 * backscatter_fraction));
 }
 
-absl::StatusOr<WaterOptics> OpticsOf(const ToldOptics& told) {
-  if (absl::Status status = CheckWays(told); !status.ok()) return status;
-  const Attenuation attenuation = AttenuationOf(told);
+absl::StatusOr<WaterOptics> OpticsOf(const OpticsInput& given) {
+  if (absl::Status status = CheckWays(given); !status.ok()) return status;
+  const Attenuation attenuation = AttenuationOf(given);
   WaterOptics optics;
   optics.attenuation = attenuation.kd * attenuation.factor;
-  const double told_or_derived = told.kd.value_or(attenuation.kd);
-  const double slope = told.kd_kind == KdKind::kSatellite490 ? kSlopeOf490 : 1;
+  const double given_or_derived = given.kd.value_or(attenuation.kd);
+  const double slope = given.kd_kind == KdKind::kSatellite490 ? kSlopeOf490 : 1;
   optics.attenuation_log_sigma =
-      told.kd_sigma.has_value() ? slope * *told.kd_sigma / attenuation.kd : attenuation.log_sigma;
-  optics.least_fraction = told.backscatter_fraction.value_or(kLeastFraction);
-  optics.most_fraction = told.backscatter_fraction.value_or(kMostFraction);
+      given.kd_sigma.has_value() ? slope * *given.kd_sigma / attenuation.kd : attenuation.log_sigma;
+  optics.least_fraction = given.backscatter_fraction.value_or(kMinFraction);
+  optics.most_fraction = given.backscatter_fraction.value_or(kMaxFraction);
   const double fraction = std::sqrt(optics.least_fraction * optics.most_fraction);
-  const bool direct = told.absorption.has_value();
-  if (direct ? *told.absorption < kPureWaterAbsorption : !(optics.attenuation > kPureWaterAbsorption)) {
+  const bool direct = given.absorption.has_value();
+  if (direct ? *given.absorption < kPureWaterAbsorption : !(optics.attenuation > kPureWaterAbsorption)) {
     const double least =
-        direct ? kPureWaterAbsorption : told_or_derived * kPureWaterAbsorption / optics.attenuation;
+        direct ? kPureWaterAbsorption : given_or_derived * kPureWaterAbsorption / optics.attenuation;
     return Invalid(absl::StrCat("the water is clearer than pure water, which absorbs ", kPureWaterAbsorption,
                                 " 1/m at 532 nm; an attenuation or absorption of its kind is above ", least,
                                 " 1/m"));
   }
-  const double greatest = WaterOptics::GreatestRatio(optics.attenuation, fraction);
-  const double omega0 = told.omega0.value_or(kDefaultOmega0);
-  const double ratio = direct ? *told.scattering / *told.absorption : omega0 / (1 - omega0);
-  if (!direct && ratio > greatest && told.omega0.has_value()) {
+  const double greatest = WaterOptics::MaxRatio(optics.attenuation, fraction);
+  const double omega0 = given.omega0.value_or(kDefaultOmega0);
+  const double ratio = direct ? *given.scattering / *given.absorption : omega0 / (1 - omega0);
+  if (!direct && ratio > greatest && given.omega0.has_value()) {
     return Invalid(absl::StrCat("omega0 = ", omega0, " leaves an attenuation of ", optics.attenuation,
                                 " 1/m less absorption than pure water has; give at most ",
                                 greatest / (1 + greatest)));
   }
   const double albedo = ratio / (1 + ratio);
   optics.scattering_over_absorption = direct ? ratio : std::min(ratio, greatest);
-  if (!direct && !told.omega0.has_value()) {
-    optics.least_ratio = std::min(kLeastAlbedo / (1 - kLeastAlbedo), optics.scattering_over_absorption);
-    optics.most_ratio = kGreatestAlbedo / (1 - kGreatestAlbedo);
+  if (!direct && !given.omega0.has_value()) {
+    optics.min_ratio = std::min(kMinAlbedo / (1 - kMinAlbedo), optics.scattering_over_absorption);
+    optics.max_ratio = kMaxAlbedo / (1 - kMaxAlbedo);
   }
-  const double sigma = told.omega0_sigma.value_or(direct ? 0 : kDefaultOmega0Sigma);
+  const double sigma = given.omega0_sigma.value_or(direct ? 0 : kDefaultOmega0Sigma);
   // d ln(w / (1 - w)) = dw / (w (1 - w)); measured coefficients are as good as an attenuation.
   optics.ratio_log_sigma = direct ? std::hypot(kMeasured, kMeasured) : sigma / (albedo * (1 - albedo));
   return optics;

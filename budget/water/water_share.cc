@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "budget/water/water_draws.h"
@@ -22,7 +21,7 @@ const double kSigmaOfWidth = 1 / (2 * std::sqrt(2 * std::log(2.0)));
 constexpr double kMostOfOtherSign = 0.02;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// The vertical bias, that along the beam, and spot, stretch and energy: all over the depth.
+// The vertical bias, the bias along the beam, and spot, stretch and energy: each divided by the depth.
 struct Looked {
   double vertical = 0, along = 0, spot = 0, stretch = 0, energy = 0;
 };
@@ -32,7 +31,7 @@ class Lookup {
   Lookup(const WaterColumnTable& table, const WaterReceiver& receiver, const DrawnWater& draw)
       : receiver_(receiver),
         draw_(draw),
-        least_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
+        min_ratio_(table.Range(WaterAxis::kScatteringOverAbsorption).first),
         last_(table.Range(WaterAxis::kOpticalDepth).second),
         water_(table.Of(draw.fraction, draw.ratio)) {}
 
@@ -45,8 +44,8 @@ class Lookup {
          .field_of_view = receiver_.field_of_view / depth,
          .pulse_length = PulseLengthOverDepth(receiver_.pulse_length, depth, receiver_.group_index)});
     assert(answer.has_value());
-    // Water that scatters less than the table's least does so in proportion.
-    const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / least_ratio_);
+    // Below the lowest scattering of the table, values are in proportion to the scattering.
+    const double beyond = std::max(1.0, tau / last_) * std::min(1.0, draw_.ratio / min_ratio_);
     const std::size_t detector = static_cast<std::size_t>(receiver_.detector);
     return {.vertical = (*answer)[Index(WaterQuantity::kBiasVerticalPeak) + detector] * beyond,
             .along = (*answer)[Index(WaterQuantity::kBiasAlongPeak) + detector] * beyond,
@@ -58,11 +57,11 @@ class Lookup {
  private:
   WaterReceiver receiver_;
   DrawnWater draw_;
-  double least_ratio_, last_;
+  double min_ratio_, last_;
   OneWater water_;
 };
 
-// What the table knows of waters.
+// Whether the table covers the waters.
 absl::Status CheckOptics(const WaterColumnTable& table, const WaterOptics& optics) {
   const auto [least, most] = table.Range(WaterAxis::kBackscatterFraction);
   // The ends of the table are floats.
@@ -130,15 +129,15 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
   if (absl::Status status = CheckOptics(table, optics); !status.ok()) return status;
   WaterShare share;
   share.receiver_ = receiver;
-  share.greatest_incidence_ = table.Range(WaterAxis::kIncidence).second;
-  share.greatest_footprint_ = receiver.field_of_view / kFootprintsInView;
+  share.max_incidence_ = table.Range(WaterAxis::kIncidence).second;
+  share.max_footprint_ = receiver.field_of_view / kFootprintsInView;
   const double by_turbidity = table.Range(WaterAxis::kOpticalDepth).second /
                               (optics.attenuation * std::exp(optics.attenuation_log_sigma));
   const double by_view = receiver.field_of_view / table.Range(WaterAxis::kFieldOfView).first;
   const double by_pulse = PulseLengthOverDepth(
       receiver.pulse_length, table.Range(WaterAxis::kPulseLength).first, receiver.group_index);
-  share.greatest_depth_ = std::min({by_turbidity, by_view, by_pulse});
-  if (!(share.greatest_depth_ > 0)) {
+  share.max_depth_ = std::min({by_turbidity, by_view, by_pulse});
+  if (!(share.max_depth_ > 0)) {
     return absl::InvalidArgumentError(
         "a field of view and a pulse above 0 are needed; give field_of_view in m and pulse_length in ns");
   }
@@ -146,32 +145,31 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
   std::vector<Lookup> lookups;
   lookups.reserve(draws.size());
   for (const DrawnWater& draw : draws) lookups.emplace_back(table, receiver, draw);
-  // A point was reported: its water is one of those that let an echo back. At the greatest depth, half of them do.
+  // The point was reported, so only waters that return an echo count. At the largest depth, half of the draws do.
   const auto sees = [&](double depth) {
     const auto seeing = std::count_if(lookups.begin(), lookups.end(), [&](const Lookup& lookup) {
-      return lookup.At(0, depth).energy >= kLeastEchoEnergy;
+      return lookup.At(0, depth).energy >= kMinEchoEnergy;
     });
     return 2 * static_cast<std::size_t>(seeing) >= lookups.size();
   };
-  if (!sees(share.greatest_depth_)) {
+  if (!sees(share.max_depth_)) {
     double seen = 0;
     for (int step = 0; step < 30; ++step) {
-      const double middle = (seen + share.greatest_depth_) / 2;
-      (sees(middle) ? seen : share.greatest_depth_) = middle;
+      const double middle = (seen + share.max_depth_) / 2;
+      (sees(middle) ? seen : share.max_depth_) = middle;
     }
   }
-  if (absl::Status status = CheckTreatment(treatment, share.greatest_depth_); !status.ok()) return status;
+  if (absl::Status status = CheckTreatment(treatment, share.max_depth_); !status.ok()) return status;
   const double first = table.Range(WaterAxis::kIncidence).first;
-  share.incidences_ = static_cast<std::size_t>((share.greatest_incidence_ - first) / kIncidenceStep) + 1;
+  share.incidences_ = static_cast<std::size_t>((share.max_incidence_ - first) / kIncidenceStep) + 1;
   share.incidence_step_ =
-      share.incidences_ > 1 ? (share.greatest_incidence_ - first) / static_cast<double>(share.incidences_ - 1)
-                            : 1;
+      share.incidences_ > 1 ? (share.max_incidence_ - first) / static_cast<double>(share.incidences_ - 1) : 1;
   share.nodes_.resize(share.incidences_ * kDepths);
   std::vector<char> disagrees(share.incidences_, 0);
   tbb::parallel_for(std::size_t{0}, share.incidences_, [&](std::size_t i) {
     const double incidence =
-        std::min(first + static_cast<double>(i) * share.incidence_step_, share.greatest_incidence_);
-    // What each water's bias has to be multiplied with to be the one that was measured.
+        std::min(first + static_cast<double>(i) * share.incidence_step_, share.max_incidence_);
+    // The factor by which each water's bias must be multiplied to equal the measured one.
     std::vector<double> scales(draws.size(), 1.0);
     double noise = 0;
     if (treatment.handling == BiasHandling::kCalibrated) {
@@ -190,13 +188,13 @@ absl::StatusOr<WaterShare> WaterShare::Create(const WaterColumnTable& table, con
     std::vector<double> verticals;
     for (std::size_t k = 0; k < kDepths; ++k) {
       const double root = std::max(0.25, static_cast<double>(k)) / static_cast<double>(kDepths - 1);
-      const double depth = share.greatest_depth_ * root * root;
+      const double depth = share.max_depth_ * root * root;
       Moments before, scaled;
       Looked sums;
       verticals.clear();
       for (std::size_t j = 0; j < draws.size(); ++j) {
         const Looked looked = lookups[j].At(incidence, depth);
-        if (looked.energy < kLeastEchoEnergy) continue;
+        if (looked.energy < kMinEchoEnergy) continue;
         before.Add(looked.vertical, looked.along);
         scaled.Add(scales[j] * looked.vertical, scales[j] * looked.along);
         verticals.push_back(looked.vertical);
@@ -259,11 +257,11 @@ WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
   const double x =
       incidences_ > 1
           ? std::clamp(
-                (incidence - (greatest_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
+                (incidence - (max_incidence_ - incidence_step_ * static_cast<double>(incidences_ - 1))) /
                     incidence_step_,
                 0.0, static_cast<double>(incidences_ - 1))
           : 0;
-  const double y = std::sqrt(std::min(1.0, depth / greatest_depth_)) * static_cast<double>(kDepths - 1);
+  const double y = std::sqrt(std::min(1.0, depth / max_depth_)) * static_cast<double>(kDepths - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(x), std::max<std::size_t>(incidences_, 2) - 2);
   const std::size_t k = std::min(static_cast<std::size_t>(y), kDepths - 2);
   const auto u = static_cast<float>(x - static_cast<double>(i)),
@@ -280,7 +278,7 @@ WaterShare::Node WaterShare::Blend(double incidence, double depth) const {
 }
 
 std::optional<WaterAnswerOfSurvey> WaterShare::At(double incidence, double depth) const {
-  if (!(incidence >= 0 && incidence <= greatest_incidence_ && depth >= 0 && depth <= greatest_depth_))
+  if (!(incidence >= 0 && incidence <= max_incidence_ && depth >= 0 && depth <= max_depth_))
     return std::nullopt;
   const Node node = Blend(incidence, depth);
   const auto root = [&](Number n) { return depth * std::sqrt(std::max(0.0f, node[n])); };
@@ -310,7 +308,7 @@ void WaterShare::Compute(std::span<const float> incidence, std::span<const float
   };
   for (std::size_t i = 0; i < size; ++i) {
     const double theta = incidence[incidence.size() == 1 ? 0 : i], z = depth[depth.size() == 1 ? 0 : i];
-    const bool known = theta >= 0 && theta <= greatest_incidence_ && z >= 0 && z <= greatest_depth_;
+    const bool known = theta >= 0 && theta <= max_incidence_ && z >= 0 && z <= max_depth_;
     const Node node = Blend(known ? theta : 0, known ? z : 0);
     const double length = known ? z : kNan;
     put(columns.bias_vertical, i, length * node[kBiasVertical]);

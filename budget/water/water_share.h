@@ -1,4 +1,4 @@
-// The share of the water column in a survey: the bias of the bottom by scattering, for all that the water may be.
+// The contribution of the water column: the bias of the bottom by scattering, over all waters that are possible.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace albtpu {
 
-// How the receiver reads a time from the echo.
+// How the receiver determines the time of an echo.
 enum class EchoDetector { kPeak, kHalf, kCentroid };
 inline constexpr std::array<std::string_view, 3> kEchoDetectorNames = {"peak", "half", "centroid"};
 
@@ -26,12 +26,12 @@ struct WaterReceiver {
   double group_index = 1.3643;
 };
 
-// What the processing of the survey did about the bias.
+// How the processing of the survey corrected the bias.
 enum class BiasHandling {
-  kNone,       // Nothing: it is in the points.
-  kCorrect,    // Took away what this table says: its mean.
-  kVendor,     // Took away what the vendor knows; a fraction of the bias remains.
-  kCalibrated  // Took away this table's mean, scaled to a bias that was measured.
+  kNone,       // Not at all.
+  kCorrect,    // By the mean bias of this table.
+  kVendor,     // By a method of the vendor that leaves a fraction of the bias.
+  kCalibrated  // By the mean bias of this table, scaled to a measured bias.
 };
 inline constexpr std::array<std::string_view, 4> kBiasHandlingNames = {"none", "correct", "vendor",
                                                                        "calibrated"};
@@ -39,27 +39,27 @@ inline constexpr std::array<std::string_view, 4> kBiasHandlingNames = {"none", "
 struct BiasTreatment {
   BiasHandling handling = BiasHandling::kNone;
   double residual_fraction = 0;  // kVendor: 0 to 1
-  // kCalibrated: the vertical bias that was measured, positive if too shallow, at one depth, and how well. m.
+  // kCalibrated: the vertical bias measured at one depth, positive if too shallow, and its standard deviation. m.
   double calibration_depth = 0, calibration_offset = 0, calibration_sigma = 0;
 };
 
 // At one incidence and depth. Lengths in m; reported minus true.
 struct WaterAnswerOfSurvey {
-  // Of the bias before any treatment, over what the water may be.
+  // Of the bias before any treatment, over the possible waters.
   double mean_vertical = 0, sigma_vertical = 0;  // positive: too shallow
   double low_vertical = 0, high_vertical = 0;    // its 2.5 and 97.5 % points
   double mean_along = 0, sigma_along = 0;        // positive: too far along the beam
   double spot = 0, stretch = 0, energy = 0;      // means; no uncertainties
-  // After the treatment: what is still in the points, and its ignorance.
+  // After the treatment: the bias that remains in the points, and its uncertainty.
   double bias_vertical = 0, bias_along = 0;
   double left_vertical = 0, left_along = 0;  // 1 sigma
   double correlation = 0;                    // of the two
 };
 
-// Where to write the share of each pulse; an empty column is not written. NaN where there is no answer.
+// Where to write the contribution for each pulse; an empty column is not written. NaN where there is no answer.
 struct WaterColumns {
-  std::span<float> bias_along, bias_vertical;    // m, still in the points
-  std::span<float> sigma_along, sigma_vertical;  // m, 1 sigma; the same of all pulses of a survey
+  std::span<float> bias_along, bias_vertical;    // m, remaining in the points
+  std::span<float> sigma_along, sigma_vertical;  // m, 1 sigma; common to all pulses of a survey
   std::span<float> correlation;                  // of the two errors
   std::span<float> stretch;                      // of the echo
 };
@@ -75,26 +75,27 @@ class WaterShare {
   static absl::StatusOr<WaterShare> Create(const WaterColumnTable& table, const WaterOptics& optics,
                                            const WaterReceiver& receiver, const BiasTreatment& treatment);
 
-  // Greatest incidence [degree], and depth [m] down to which the share is known: where the median water reaches the
-  // greatest optical depth of the table less one standard deviation (more turbid draws go on in proportion to it), or
-  // where half of the draws let an echo back (kLeastEchoEnergy). Draws that do not are left out at their depth.
-  double greatest_incidence() const { return greatest_incidence_; }
-  double greatest_depth() const { return greatest_depth_; }
+  // Largest incidence [degree], and depth [m] down to which the contribution is known: where the median water reaches
+  // the largest optical depth of the table less one standard deviation (more turbid draws are extrapolated in
+  // proportion), or where half of the draws return an echo (kMinEchoEnergy). Draws without an echo are left out at
+  // their depth.
+  double greatest_incidence() const { return max_incidence_; }
+  double greatest_depth() const { return max_depth_; }
   // m; a wider beam would be cut by the field of view, which the table does not know.
-  double greatest_footprint() const { return greatest_footprint_; }
+  double greatest_footprint() const { return max_footprint_; }
 
-  // Nothing if the pulse is beyond; incidence in degree, depth in m, 0 or more.
+  // nullopt if the pulse is beyond; incidence in degree, depth in m, 0 or more.
   std::optional<WaterAnswerOfSurvey> At(double incidence, double depth) const;
 
-  // The same of many pulses. Columns of one number are of all pulses.
+  // The same for many pulses. A column of one number holds for all pulses.
   void Compute(std::span<const float> incidence, std::span<const float> depth,
                const WaterColumns& columns) const;
 
-  // m, 1 sigma, of the vertical error by the noise of `photons` that were counted in an echo of this stretch:
-  // cos(refracted) c sigma_t / (2 n_group sqrt(photons)).
+  // m, 1 sigma: the vertical error by the noise of an echo of `photons` photons and this stretch: cos(refracted) c
+  // sigma_t / (2 n_group sqrt(photons)).
   double PhotonNoise(double photons, double stretch, double cosine_refracted) const;
 
-  // JCGM 101 asks for what is enough: twice as many move u by less than 2 %.
+  // Enough in the sense of JCGM 101: twice as many draws change u by less than 2 %.
   static constexpr std::size_t kDraws = 256;
 
  private:
@@ -123,7 +124,7 @@ class WaterShare {
   Node Blend(double incidence, double depth) const;
 
   WaterReceiver receiver_;
-  double greatest_incidence_ = 0, greatest_depth_ = 0, greatest_footprint_ = 0;
+  double max_incidence_ = 0, max_depth_ = 0, max_footprint_ = 0;
   double incidence_step_ = 1;
   std::size_t incidences_ = 0;
   std::vector<Node> nodes_;  // by incidence, then by the root of the depth

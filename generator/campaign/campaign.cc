@@ -1,10 +1,8 @@
 #include "generator/campaign/campaign.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -71,21 +69,21 @@ Effort ReadEffort(TomlReader& toml) {
   effort.realizations = static_cast<int>(*ReadWhole(toml, kRealizations));
   effort.relative_error = ReadNumber(toml, kRelativeError).value_or(0);
   effort.estimator = FindEstimator(ReadText(toml, kEstimator)).value_or(effort.estimator);
-  const int most = effort.relative_error > 0 ? std::max(effort.realizations, kMostRealizationsUnlessGiven)
+  const int most = effort.relative_error > 0 ? std::max(effort.realizations, kMaxRealizationsUnlessGiven)
                                              : effort.realizations;
-  const auto& range = std::get<WholeRange>(kMostRealizationsOfBeam.values);
+  const auto& range = std::get<WholeRange>(kMaxRealizationsOfBeam.values);
   effort.most_realizations =
-      static_cast<int>(toml.Integer(kMostRealizationsOfBeam.table, kMostRealizationsOfBeam.name,
+      static_cast<int>(toml.Integer(kMaxRealizationsOfBeam.table, kMaxRealizationsOfBeam.name,
                                     std::max<std::int64_t>(effort.realizations, range.least), range.most)
                            .value_or(most));
   return effort;
 }
 
-// Refuses before the computation what the table would refuse after it.
+// Checks before the computation the limits that the table would check after it.
 absl::Status CheckTable(const Campaign& campaign) {
-  std::size_t most_nodes = format::kMaxValueCount;  // divided, since the product of all axes could overflow
-  for (const Axis& axis : campaign.axes) most_nodes /= axis.size();
-  if (most_nodes == 0) {
+  std::size_t max_nodes = format::kMaxValueCount;  // divided, since the product of all axes could overflow
+  for (const Axis& axis : campaign.axes) max_nodes /= axis.size();
+  if (max_nodes == 0) {
     return absl::InvalidArgumentError(absl::StrCat("the axes make more cells than a table holds (",
                                                    format::kMaxValueCount, "): give fewer nodes"));
   }
@@ -99,7 +97,7 @@ absl::Status CheckTable(const Campaign& campaign) {
   return status.ok() ? status : absl::InvalidArgumentError(OneLine(std::string(status.message())));
 }
 
-// What all kinds begin with.
+// The keys of all kinds.
 struct CampaignHead {
   std::string text, id, version, title;
   std::uint64_t seed;

@@ -1,4 +1,4 @@
-// A campaign: what a table holds and with what effort it is computed, as its TOML file states.
+// A campaign: the contents of a table and the effort of its computation, from a TOML file.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace albtpu {
 
-// What a table of the water column takes in place of a sea.
+// The settings of a table of the water column, in place of a sea.
 struct WaterWork {
   double group_index = 1.3643;
   std::uint32_t photons = 60'000;  // of each pool
@@ -31,7 +31,7 @@ struct Campaign {
   std::string text;  // the whole file
   std::string id, version, title;
   std::uint64_t seed = 1;
-  // Of `kind`; the last fetch, `inf` in the file, is the least at which all winds are fully developed.
+  // Of `kind`; the last fetch, `inf` in the file, is the shortest at which all winds are fully developed.
   UncertaintyTable::Axes axes;
   BeamProfile profile = BeamProfile::kUniform;
   double source_height = std::numeric_limits<double>::infinity();

@@ -20,14 +20,14 @@ std::vector<double> InSinglePrecision(std::vector<double> nodes) {
   return nodes;
 }
 
-// The least float at or above `x`.
+// The smallest float at or above `x`.
 double FloatNotBelow(double x) {
   const float nearest = static_cast<float>(x);
   return nearest >= x ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
-// `inf` as the last fetch becomes the least fetch at which the sea of the strongest wind is fully developed:
-// there the seas of all winds are, and beyond it nothing changes.
+// `inf` as the last fetch becomes the shortest fetch at which the sea of the strongest wind is fully developed: there
+// the seas of all winds are, and beyond it nothing changes.
 absl::Status ResolveFetch(const SpectrumModel& model, std::vector<double>& fetch,
                           const std::vector<double>& wind_speed) {
   if (fetch.empty() || fetch.back() != kInfinity) {
@@ -52,7 +52,7 @@ constexpr std::array<CampaignKey, kAxisCount> kAxisKeys = {campaign_keys::kWindS
                                                            campaign_keys::kIncidence, campaign_keys::kAzimuth,
                                                            campaign_keys::kFootprint, campaign_keys::kDepth};
 
-// Whether the sea of a file takes the place of the axis.
+// Whether a sea from a file replaces the axis.
 bool IsOfWindSea(AxisId axis) { return axis == AxisId::kWindSpeed || axis == AxisId::kFetch; }
 
 // In the order of WaterAxis.

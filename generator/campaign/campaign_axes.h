@@ -21,9 +21,9 @@ Nodes ReadNodesOfWater(TomlReader& toml);
 
 // Checks the rules for a sea that can be simulated, and then those of all axes. InvalidArgument with the key.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes);
-// The same of one sea, whose axes of wind and fetch have the one node that its tables have.
+// The same for one sea, whose axes of wind and fetch have one node.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TracedSea& sea, Nodes nodes);
-// The same of the water column.
+// The same for the water column.
 absl::StatusOr<UncertaintyTable::Axes> MakeWaterAxes(const Nodes& nodes);
 
 }  // namespace albtpu

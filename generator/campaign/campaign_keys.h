@@ -39,10 +39,10 @@ struct NodeRange {
 };
 using KeyValues = std::variant<AnyText, Choice, NumberRange, WholeRange, NodeRange>;
 
-// What is taken where the key is missing.
+// The default of a key.
 struct Required {};
 struct Derived {
-  std::string_view rule;  // for people; whoever reads the key follows it
+  std::string_view rule;  // for people; implemented where the key is read
 };
 using KeyDefault = std::variant<Required, Derived, std::string_view, double, std::int64_t>;
 
@@ -58,8 +58,8 @@ struct CampaignKey {
 namespace campaign_keys {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr std::int64_t kMostRealizations = 10'000'000;
-inline constexpr int kMostRealizationsUnlessGiven = 40'000;
+inline constexpr std::int64_t kMaxRealizations = 10'000'000;
+inline constexpr int kMaxRealizationsUnlessGiven = 40'000;
 
 inline constexpr std::string_view kKinds[] = {"sea_surface", "water_column"};
 inline constexpr std::string_view kProfiles[] = {"uniform", "gaussian"};
@@ -155,14 +155,14 @@ inline constexpr CampaignKey kSeaTailFrom = {
     "Where these short waves begin."};
 
 inline constexpr CampaignKey kRealizations = {
-    "effort", "realizations", WholeRange{2, kMostRealizations}, "", std::int64_t{1000},
+    "effort", "realizations", WholeRange{2, kMaxRealizations}, "", std::int64_t{1000},
     "Random surfaces for each beam, at least."};
 inline constexpr CampaignKey kRelativeError = {
     "effort", "relative_error", NumberRange{1e-4, 0.5}, "", Derived{"none: exactly `realizations`"},
     "Add realizations until refraction, THU and TVU have this relative standard error where they are at least 0.01 "
     "degrees or 1 mm."};
-inline constexpr CampaignKey kMostRealizationsOfBeam = {
-    "effort", "most_realizations", WholeRange{2, kMostRealizations}, "",
+inline constexpr CampaignKey kMaxRealizationsOfBeam = {
+    "effort", "most_realizations", WholeRange{2, kMaxRealizations}, "",
     Derived{"40000, or `realizations` if that is more"},
     "Stop at this number even if `relative_error` is not reached. At least `realizations`; used only with "
     "`relative_error`."};
@@ -171,7 +171,7 @@ inline constexpr CampaignKey kEstimator = {
     "`control_variate` computes from the slopes of each surface what is known in closed form and traces the "
     "difference; `plain` is ray tracing alone, slower for the same error."};
 inline constexpr CampaignKey kRays = {
-    "effort", "rays", WholeRange{100, kMostRays}, "", Derived{"chosen from spectrum and footprint"},
+    "effort", "rays", WholeRange{100, kMaxRays}, "", Derived{"chosen from spectrum and footprint"},
     "Rays of each beam."};
 
 inline constexpr CampaignKey kNodes = {
@@ -246,7 +246,7 @@ inline constexpr std::array kCampaignKeys = {
     campaign_keys::kSeaTailFrom,
     campaign_keys::kRealizations,
     campaign_keys::kRelativeError,
-    campaign_keys::kMostRealizationsOfBeam,
+    campaign_keys::kMaxRealizationsOfBeam,
     campaign_keys::kEstimator,
     campaign_keys::kRays,
     campaign_keys::kNodes,
@@ -276,7 +276,7 @@ std::optional<double> ReadNumber(TomlReader& toml, const CampaignKey& key);
 std::optional<std::int64_t> ReadWhole(TomlReader& toml, const CampaignKey& key);
 std::vector<double> ReadNodes(TomlReader& toml, const CampaignKey& key);  // see NodesProblem
 
-// What is wrong with nodes that ReadNodes gave; empty if nothing is. Their order is checked by Axis::Create.
+// The problem of nodes from ReadNodes; empty if there is none. Their order is checked by Axis::Create.
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);
 
 // "effort.rays".

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kCellOfPulses = 0xffffffff;        // of random numbers, used for nothing else
 constexpr double kLeastAngle = 0.01, kLeastLength = 5e-3;  // degree, m
-constexpr float kLeastWind = 2;                            // m/s
+constexpr float kMinWind = 2;                              // m/s
 
 // The coordinate at the fraction `t` of an axis, in its scale.
 float AlongAxis(const Axis& axis, double t) {
@@ -90,7 +90,7 @@ InterpolationError CompareWithTable(const Campaign& campaign, const UncertaintyT
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Estimate& expected = direct[i][checked];
     const Pulse pulse = CheckedPulse(campaign, i);
-    if (expected.value < least || (!campaign.sea && pulse.wind_speed < kLeastWind)) continue;
+    if (expected.value < least || (!campaign.sea && pulse.wind_speed < kMinWind)) continue;
     const PulseUncertainty interpolated = Interpolate(table, pulse);
     assert(interpolated.outcome == Outcome::kInterpolated);
     errors.push_back(std::abs(interpolated[quantity] / expected.value - 1));

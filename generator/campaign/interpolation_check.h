@@ -28,8 +28,8 @@ std::vector<Estimate> ComputeDirectly(const Campaign& campaign, const Pulse& pul
 
 // The error of one quantity, relative to the direct values, over the pulses where 2 sigma is at least 0.01 degrees or 5
 // mm and, in a table of winds, the wind at least 2 m/s. From there down to a calm, which has no waves at all, values
-// fall by orders of magnitude, and what is known of the waves is not so exact that the relative error of small values
-// mattered.
+// fall by orders of magnitude, and the waves are not known well enough for the relative error of small values to
+// matter.
 struct InterpolationError {
   int pulses = 0;  // above these limits; all members are zero when there are none
   double rms = 0, percentile_99 = 0, greatest = 0;

@@ -8,8 +8,8 @@
 
 namespace albtpu {
 
-// Linear interpolation of a curved function errs to one side: by h^2 f'' / 8 in the middle of an interval of width h,
-// by nothing at the nodes, by h^2 f'' / 12 in the mean. Lowering each node by h^2 f'' / 12 removes the mean error and
+// Linear interpolation of a curved function is biased: by h^2 f'' / 8 in the middle of an interval of width h, by
+// nothing at the nodes, by h^2 f'' / 12 in the mean. Lowering each node by h^2 f'' / 12 removes the mean error and
 // spreads the rest over nodes and middles. The root mean square error falls from h^2 f'' / sqrt(120) to h^2 f'' /
 // sqrt(720), to less than half, at the price of an error of h^2 f'' / 12 at the nodes themselves (quasi-interpolation
 // by linear splines: Blu, Thevenaz and Unser (2004), doi:10.1109/TIP.2004.826093; Condat, Blu and Unser (2005)).

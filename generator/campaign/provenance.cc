@@ -17,8 +17,7 @@
 namespace albtpu {
 namespace {
 
-// The least and the greatest value of a number over the sea cases. Seas without waves, for which there is nothing to
-// draw, do not count unless there are no others.
+// The minimum and the maximum of a number over the sea cases. Seas without waves count only if there are no others.
 template <typename Number>
 std::vector<double> Range(const std::vector<SeaCaseResult>& results, Number SeaCaseResult::*member) {
   const auto drawn = std::find_if(results.begin(), results.end(),

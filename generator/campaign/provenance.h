@@ -11,7 +11,7 @@
 
 namespace albtpu {
 
-// What tables of every kind state.
+// The attributes of tables of every kind.
 Provenance CommonProvenance(const Campaign& campaign);
 
 // Of a table of the sea.

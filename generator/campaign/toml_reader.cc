@@ -1,7 +1,5 @@
 #include "generator/campaign/toml_reader.h"
 
-#include <utility>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "command_line/near_match.h"

@@ -45,8 +45,8 @@ class TomlReader {
   // Remembers a problem that the caller found.
   void Fail(std::string_view problem);
 
-  // The first problem, otherwise a key that was not asked for. Such a key comes first if something is missing and it
-  // may be that, misspelt.
+  // The first problem, otherwise a key that was not read. Such a key comes first if a key is missing of which it may be
+  // a misspelling.
   absl::Status Finish();
 
  private:
@@ -61,7 +61,7 @@ class TomlReader {
   std::optional<std::string> NearestKnown(const std::string& name) const;
 
   toml::table root_;
-  std::set<std::string> known_;        // the keys that were asked for
+  std::set<std::string> known_;        // the keys that were read
   absl::Status error_;                 // the first problem
   bool something_is_missing_ = false;  // that is the first problem
 };

@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -21,26 +19,26 @@
 namespace albtpu {
 namespace {
 
-absl::Status Problem(const SeaOfFile& told, std::string_view what) {
-  return absl::InvalidArgumentError(absl::StrCat(told.file.string(), ": ", std::string(what)));
+absl::Status Problem(const SeaOfFile& given, std::string_view what) {
+  return absl::InvalidArgumentError(absl::StrCat(given.file.string(), ": ", std::string(what)));
 }
 
-// The state of the file at the time told, or its only one.
-absl::StatusOr<const SeaRecord*> FindRecord(const SeaOfFile& told, const SeaSeries& series) {
+// The state of the file at the given time, or its only one.
+absl::StatusOr<const SeaRecord*> FindRecord(const SeaOfFile& given, const SeaSeries& series) {
   if (series.points.size() > 1) {
-    return Problem(told, absl::StrCat("has ", series.points.size(), " places; give a file of one of them"));
+    return Problem(given, absl::StrCat("has ", series.points.size(), " places; give a file of one of them"));
   }
   const std::vector<SeaRecord>& records = series.records;
-  if (!told.time) {
+  if (!given.time) {
     if (records.size() == 1) return &records.front();
     return Problem(
-        told, absl::StrCat("has ", records.size(), " states of the sea; choose one by its time, such as ",
-                           records.front().time ? SeaTimeText(*records.front().time) : "its first"));
+        given, absl::StrCat("has ", records.size(), " states of the sea; choose one by its time, such as ",
+                            records.front().time ? SeaTimeText(*records.front().time) : "its first"));
   }
-  const std::optional<double> time = ParseSeaTime(*told.time);
+  const std::optional<double> time = ParseSeaTime(*given.time);
   if (!time) {
     return absl::InvalidArgumentError(
-        absl::StrCat("'", *told.time, "' is not a time of a sea; give UTC, such as 2020-06-08T03:50Z"));
+        absl::StrCat("'", *given.time, "' is not a time of a sea; give UTC, such as 2020-06-08T03:50Z"));
   }
   const SeaRecord* nearest = nullptr;
   for (const SeaRecord& record : records) {
@@ -49,21 +47,21 @@ absl::StatusOr<const SeaRecord*> FindRecord(const SeaOfFile& told, const SeaSeri
       nearest = &record;
     }
   }
-  if (nearest == nullptr) return Problem(told, "does not say when its sea was; leave out the time");
+  if (nearest == nullptr) return Problem(given, "does not say when its sea was; leave out the time");
   if (*nearest->time != *time) {
-    return Problem(told, absl::StrCat("has no sea at ", *told.time, "; the nearest is that of ",
-                                      SeaTimeText(*nearest->time)));
+    return Problem(given, absl::StrCat("has no sea at ", *given.time, "; the nearest is that of ",
+                                       SeaTimeText(*nearest->time)));
   }
   return nearest;
 }
 
-SeaDescription Told(const SeaOfFile& told) {
+SeaDescription DescriptionOf(const SeaOfFile& given) {
   SeaDescription description;
-  description.wind_speed_10m = told.wind_speed;
-  if (told.wind_from) description.wind_from = RadiansOfDegrees(*told.wind_from);
-  description.water_depth = told.water_depth;
-  description.tail = told.tail;
-  description.tail_from = told.tail_from;
+  description.wind_speed_10m = given.wind_speed;
+  if (given.wind_from) description.wind_from = RadiansOfDegrees(*given.wind_from);
+  description.water_depth = given.water_depth;
+  description.tail = given.tail;
+  description.tail_from = given.tail_from;
   return description;
 }
 
@@ -81,22 +79,22 @@ std::string DigestOf(const HarmonicSpectrum& spectrum) {
 
 }  // namespace
 
-absl::StatusOr<TracedSea> ReadTracedSea(const SeaOfFile& told) {
+absl::StatusOr<TracedSea> ReadTracedSea(const SeaOfFile& given) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(told.file, error)) {
-    return absl::NotFoundError(absl::StrCat(told.file.string(), ": no such file of a sea"));
+  if (!std::filesystem::is_regular_file(given.file, error)) {
+    return absl::NotFoundError(absl::StrCat(given.file.string(), ": no such file of a sea"));
   }
-  const absl::StatusOr<SeaSeries> series = ReadSeaFile(told.file);
-  if (!series.ok()) return Problem(told, std::string(series.status().message()));
-  const absl::StatusOr<const SeaRecord*> record = FindRecord(told, *series);
+  const absl::StatusOr<SeaSeries> series = ReadSeaFile(given.file);
+  if (!series.ok()) return Problem(given, std::string(series.status().message()));
+  const absl::StatusOr<const SeaRecord*> record = FindRecord(given, *series);
   if (!record.ok()) return record.status();
 
   TracedSea sea;
-  sea.described = Describe(**record, Told(told));
-  const bool has_tail = told.tail != TailRule::kNone && sea.described.wind_speed_10m > 0 &&
+  sea.described = Describe(**record, DescriptionOf(given));
+  const bool has_tail = given.tail != TailRule::kNone && sea.described.wind_speed_10m > 0 &&
                         !std::holds_alternative<WholeSea>((*record)->waves);
-  sea.attributes = AttributesOf(sea.described, has_tail ? std::optional(told.tail) : std::nullopt);
-  sea.attributes["sea_file"] = told.file.filename().string();
+  sea.attributes = AttributesOf(sea.described, has_tail ? std::optional(given.tail) : std::nullopt);
+  sea.attributes["sea_file"] = given.file.filename().string();
   if ((*record)->time) sea.attributes["sea_time"] = SeaTimeText(*(*record)->time);
 
   std::vector<std::string> departures = Sentences(sea.described.assumed);

@@ -1,4 +1,4 @@
-// The sea of a file, as it is traced: what the user says of it, read and described.
+// A sea from a file for tracing: the settings of the user, and the sea that was read.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace albtpu {
 
-// Directions are of the compass, in degrees. What is absent is taken from the file or assumed (described_sea.h).
+// Directions are of the compass, in degrees. Absent members are taken from the file or assumed (described_sea.h).
 struct SeaOfFile {
   std::filesystem::path file;       // of any kind that ReadSeaFile takes
   std::optional<std::string> time;  // UTC, as 2020-06-08T03:50Z; not needed if the file has one state
@@ -27,11 +27,11 @@ struct TracedSea {
   KnownWaves waves;  // in the frame of `described`
   std::map<std::string, AttributeValue>
       attributes;      // sea_attributes.h, and the name of the file and the time
-  std::string digest;  // SHA-256 of the spectrum: two seas with the same one are traced alike
+  std::string digest;  // SHA-256 of the spectrum: equal digests give equal results
 };
 
 // NotFound or InvalidArgument, beginning with the path: the file cannot be read, has several places, or has no state of
 // this time.
-absl::StatusOr<TracedSea> ReadTracedSea(const SeaOfFile& told);
+absl::StatusOr<TracedSea> ReadTracedSea(const SeaOfFile& given);
 
 }  // namespace albtpu

@@ -1,7 +1,5 @@
 #include "generator/campaign/unit.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -52,7 +50,7 @@ constexpr std::size_t kDigestSize = std::tuple_size_v<Sha256Digest>;
 std::string KindName(UnitKind kind) {
   switch (kind) {
     case UnitKind::kSeaCase:
-      return "encounter";  // The name in files, which outlives the one in the code.
+      return "encounter";  // The name in files, kept from an earlier name in the code.
     case UnitKind::kWaterCase:
       return "water";
     case UnitKind::kPulse:

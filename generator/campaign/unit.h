@@ -17,7 +17,7 @@ namespace albtpu {
 
 enum class UnitKind {
   kSeaCase,    // `index` counts the sea cases of the campaign
-  kWaterCase,  // the same of a campaign of the water column
+  kWaterCase,  // the same for a campaign of the water column
   kPulse,      // `index` counts the pulses at which the table is checked (interpolation_check.h)
 };
 
@@ -56,8 +56,8 @@ absl::StatusOr<std::vector<Estimate>> DecodeEstimates(std::string_view bytes);
 std::string SealUnit(UnitId unit, const UnitOrigin& origin, std::string_view content);
 
 // The content of a sealed unit, a part of `bytes`. DataLoss: not a unit, or damaged. FailedPrecondition: of another
-// format, campaign, program or instruction set, or a unit other than `unit`. Messages continue the name of a file and a
-// colon: they say what is wrong and what to do.
+// format, campaign, program or instruction set, or a unit other than `unit`. Messages continue a sentence that begins
+// with the name of a file and a colon.
 absl::StatusOr<std::string_view> OpenUnit(UnitId unit, const UnitOrigin& origin, std::string_view bytes);
 
 }  // namespace albtpu

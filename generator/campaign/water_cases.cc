@@ -20,7 +20,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kCellOfChecks = 0xffffffff;  // of random numbers, used for nothing else
 
-// What an interpolated bias may err: 3 mm, or 4 % if that is more.
+// The tolerance of an interpolated bias: 3 mm, or 4 % if that is more.
 constexpr double kAllowed = 3e-3, kAllowedShare = 0.04;
 
 const std::vector<double>& Nodes(const Campaign& campaign, WaterAxis axis) {
@@ -40,8 +40,8 @@ WaterColumn ColumnOf(const Campaign& campaign, double incidence, double scatteri
           .absorption = 1 / scattering_over_absorption};
 }
 
-// The bottom is the less certain, the more of the light was scattered: photons follow b / a, from a third of those of
-// the campaign to nearly twice as many.
+// The more light is scattered, the larger the standard error: the number of photons grows with b / a, from a third of
+// that of the campaign to nearly twice as many.
 WaterEffort EffortOf(const Campaign& campaign, double scattering_over_absorption) {
   const double share = std::clamp(scattering_over_absorption / 4, 0.35, 1.8);
   return {.photons = static_cast<std::uint32_t>(std::lround(share * campaign.water->photons)),
@@ -64,7 +64,7 @@ void Append(const DetectedBias& bias, std::vector<Estimate>& estimates) {
   estimates.push_back(bias.stretch);
 }
 
-// Of one bias over all checked beams [m]; `within` is the share that errs as little as is allowed.
+// Of one bias over all checked beams [m]; `within` is the fraction within the tolerance.
 struct CheckedError {
   double rms = 0, within = 0, greatest = 0, noise = 0, beams = 0;
 };
@@ -73,7 +73,7 @@ CheckedError ErrorOf(const WaterColumnTable& table, const Campaign& campaign,
                      const std::vector<std::vector<Estimate>>& direct, std::size_t bias) {
   CheckedError error;
   for (std::size_t i = 0; i < direct.size(); ++i) {
-    if (direct[i][kCheckedBiases].value < kLeastEchoEnergy) continue;
+    if (direct[i][kCheckedBiases].value < kMinEchoEnergy) continue;
     ++error.beams;
     const CheckedBeam checked = CheckedBeamOf(campaign, i);
     const OneWater water = table.Of(checked.backscatter_fraction, checked.scattering_over_absorption);
@@ -140,7 +140,7 @@ absl::StatusOr<Table::Variables> VariablesOf(const Campaign& campaign,
         return absl::FailedPreconditionError(absl::StrCat(
             "the echo of water case ", i, " has no clear end at an optical depth of ",
             Nodes(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
-            " (too few photons come back); give a lesser greatest optical depth, or more photons"));
+            " (too few photons come back); give a smaller maximum optical depth, or more photons"));
       }
       const Estimate rounded = Rounded(cases[i][at]);
       variables[quantity]->values.push_back(static_cast<float>(rounded.value));

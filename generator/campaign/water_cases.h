@@ -1,4 +1,4 @@
-// Campaigns of the water column: their work, and the table that it makes.
+// Campaigns of the water column: their cases, and the table of the results.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@ namespace albtpu {
 // photons, with all optical depths, fields of view and pulses. They are ordered as the axes of the table.
 std::size_t WaterCaseCount(const Campaign& campaign);
 
-// What the table holds of a case, in the order of optical depths, then fields of view: the quantities over all axes of
-// one pulse after the other, and then those over all but pulses, in the order of WaterQuantity. An echo that has no end
-// within its times has standard errors of infinity. Runs on all threads of the current TBB arena.
+// The results of a case, in the order of optical depths, then fields of view: the quantities over all axes of one pulse
+// after the other, and then those over all but pulses, in the order of WaterQuantity. An echo that has no end within
+// its times has standard errors of infinity. Runs on all threads of the current TBB arena.
 std::vector<Estimate> ComputeWaterCase(const Campaign& campaign, std::size_t index);
 
 // A random water, depth and system: those of coastal surveys, within the table. All numbers are of one seed.

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <set>
 #include <system_error>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "tables/file/atomic_file.h"

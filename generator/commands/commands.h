@@ -44,7 +44,7 @@ absl::Status RunPlan(const PlanOptions& options);
 absl::Status RunKeys();
 
 struct PointOptions {
-  std::optional<SeaOfFile> sea;  // in place of wind, fetch and spectrum; it has the wind that was given
+  std::optional<SeaOfFile> sea;  // in place of wind, fetch and spectrum; it holds a given wind
   double wind_speed = 0;         // m/s
   double fetch = std::numeric_limits<double>::infinity();            // m
   std::string spectrum{WindSea().model->key};                        // of kSpectrumModels

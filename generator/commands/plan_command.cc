@@ -75,7 +75,7 @@ void PrintTimes(double least, double most, int cores) {
   if (cores > 0) PrintLine("on so many cores", absl::StrFormat("%d: %s", cores, clock(cores)));
 }
 
-// The same of the water column, whose cases take a time in proportion to their scatterings.
+// The same for the water column, whose cases take a time in proportion to their scatterings.
 void PlanWater(const Campaign& campaign, int cores) {
   constexpr std::size_t kProbes = 2;
   const std::size_t cases = WaterCaseCount(campaign), probes = std::min(kProbes, cases);

@@ -21,9 +21,9 @@
 namespace albtpu {
 namespace {
 
-// At least so many realizations make the standard error of a variance reliable; at most so many are computed even if
-// the relative error is not reached.
-constexpr int kLeastRealizations = 1000, kMostRealizations = 40'000;
+// The minimum number of realizations for a reliable standard error of a variance, and the maximum number, which is
+// computed even if the relative error is not reached.
+constexpr int kMinRealizations = 1000, kMaxRealizations = 40'000;
 
 // The azimuths [degree, from the x axis] of the beams of which the worst is taken if none is given.
 std::vector<double> Azimuths(const PointOptions& options, const std::optional<TracedSea>& sea) {
@@ -146,8 +146,8 @@ void PrintText(const PointOptions& options, const std::optional<TracedSea>& sea,
 }  // namespace
 
 absl::Status RunPoint(const PointOptions& options) {
-  const Effort effort{.realizations = kLeastRealizations,
-                      .most_realizations = kMostRealizations,
+  const Effort effort{.realizations = kMinRealizations,
+                      .most_realizations = kMaxRealizations,
                       .relative_error = options.relative_error,
                       .estimator = *FindEstimator(options.estimator)};
   std::optional<TracedSea> sea;

@@ -24,21 +24,21 @@ CLI::Validator Fetch() {
       "", "fetch");
 }
 
-// The sea of a file, and what goes with it. Returns the option that names the file.
+// The sea of a file, and its options. Returns the option that names the file.
 CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
-  const auto told = [&options]() -> SeaOfFile& {
+  const auto sea_of_file = [&options]() -> SeaOfFile& {
     if (!options.sea) options.sea.emplace();
     return *options.sea;
   };
   CLI::Option* sea = point
                          .add_option_function<std::string>(
-                             "--sea", [told](const std::string& file) { told().file = file; },
+                             "--sea", [sea_of_file](const std::string& file) { sea_of_file().file = file; },
                              "Spectra or heights of the waves: NDBC, WAVEWATCH III, SWAN or CSV")
                          ->type_name("FILE")
                          ->check(NotEmpty("file"));
   point
       .add_option_function<std::string>(
-          "--sea-time", [told](const std::string& time) { told().time = time; },
+          "--sea-time", [sea_of_file](const std::string& time) { sea_of_file().time = time; },
           "A time of the file, UTC, such as 2020-06-08T03:50Z (default: the only one)")
       ->type_name("TIME")
       ->needs(sea);
@@ -46,7 +46,7 @@ CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
                           double least, double most) {
     point
         .add_option_function<double>(
-            flag, [told, field](double value) { told().*field = value; }, meaning)
+            flag, [sea_of_file, field](double value) { sea_of_file().*field = value; }, meaning)
         ->type_name("NUMBER")
         ->check(NumberIn(least, most))
         ->needs(sea);
@@ -58,7 +58,7 @@ CLI::Option* AddSea(CLI::App& point, PointOptions& options) {
          -360, 360);
   point
       .add_option_function<std::string>(
-          "--tail", [told](const std::string& name) { told().tail = *FindTailRule(name); },
+          "--tail", [sea_of_file](const std::string& name) { sea_of_file().tail = *FindTailRule(name); },
           "Waves shorter than the file resolves: the wind's, from the level of the resolved ones by relax "
           "(default), wind or level; or none")
       ->type_name("relax|wind|level|none")

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
 
@@ -17,11 +16,11 @@
 namespace albtpu {
 namespace {
 
-// A table whose interpolation errs by more (rms, relative) is coarse beside the approximations of the model.
+// A table with a larger interpolation error (rms, relative) is coarse compared with the approximations of the model.
 constexpr double kCoarse = 0.02;
 constexpr double kMostWithin = 0.99;
 
-// The attribute interpolation_error_NAME: rms, 99th percentile, greatest, noise, number of pulses.
+// The attribute interpolation_error_NAME: rms, 99th percentile, maximum, noise, number of pulses.
 void PrintInterpolationErrors(const Provenance& provenance) {
   std::string coarse;
   for (const Quantity quantity : kChecked) {
@@ -45,7 +44,7 @@ void PrintInterpolationErrors(const Provenance& provenance) {
             << PercentText(kCoarse) << " rms: " << coarse << "); give its axes more nodes\n";
 }
 
-// The same of the water column: rms, share within 3 mm or 4 %, greatest, noise, number of beams.
+// The same for the water column: rms, fraction within 3 mm or 4 %, maximum, noise, number of beams.
 void PrintErrorsOfWater(const Provenance& provenance) {
   bool coarse = false;
   for (std::size_t bias = 0; bias < kCheckedBiases; ++bias) {

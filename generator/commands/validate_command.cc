@@ -41,7 +41,7 @@ absl::Status CheckPublished(const std::filesystem::path& folder) {
   return absl::OkStatus();
 }
 
-// What to do about missing figures; empty if that is not known.
+// The remedy for missing figures; empty if it is not known.
 std::string Remedy(const std::string& why_figures_are_missing) {
   const bool no_library = why_figures_are_missing.find("ModuleNotFoundError") != std::string::npos ||
                           why_figures_are_missing.find("No such file or directory") == 0;

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -14,10 +13,10 @@
 namespace albtpu {
 namespace {
 
-// Standard errors are of the scatter of so many pools of photons.
+// Standard errors come from the scatter of this many pools of photons.
 constexpr std::uint32_t kPools = 8;
-// Standard error of the energy over the energy, beyond which an echo is of too few pairs.
-constexpr double kMostRelative = 0.05;
+// Relative standard error of the energy beyond which an echo has too few pairs.
+constexpr double kMaxRelative = 0.05;
 
 Estimate InMetres(const Estimate& relative, double depth) {
   return {relative.value * depth, relative.standard_error * depth};
@@ -78,10 +77,10 @@ absl::Status RunWaterPoint(const WaterPointOptions& options) {
   const WaterColumnBias bias =
       ComputeWaterColumn(PhaseFunction::FournierForand(options.backscatter_fraction), column, pulse_lengths,
                          {.photons = options.photons / kPools, .pools = kPools, .seed = options.seed});
-  if (!bias.by_pulse.front().has_value() || bias.energy.standard_error > kMostRelative * bias.energy.value) {
+  if (!bias.by_pulse.front().has_value() || bias.energy.standard_error > kMaxRelative * bias.energy.value) {
     return absl::FailedPreconditionError(absl::StrCat(
-        "no echo comes back from ", depth, " m that these photons could tell (the water scatters ",
-        column.scattering, " times on the way down); give a lesser depth, clearer water or more photons"));
+        "no echo comes back from ", depth, " m that is significant with these photons (the water scatters ",
+        column.scattering, " times on the way down); give a smaller depth, clearer water or more photons"));
   }
   options.json ? PrintJson(bias, depth) : PrintText(bias, options);
   return absl::OkStatus();

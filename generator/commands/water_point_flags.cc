@@ -1,7 +1,6 @@
 #include "generator/commands/water_point_flags.h"
 
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -13,7 +12,7 @@ namespace albtpu {
 namespace {
 
 // The echo of clear water is known in closed form only where the field of view takes in the whole footprint.
-constexpr double kLeastFootprints = 2.5;
+constexpr double kMinFootprints = 2.5;
 
 // Lengths of the pulse in water over twice the depth. An echo is kept in steps of a thirtieth of the pulse, from two
 // depths above the bottom to five below it.
@@ -91,7 +90,7 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
     if (!direct && (!*kd || !*omega0 || *absorption || *scattering)) {
       throw CLI::ValidationError(
           "--absorption",
-          "the water is told by two numbers; give --absorption and --scattering, or --kd and "
+          "the water needs two numbers; give --absorption and --scattering, or --kd and "
           "--omega0");
     }
     if (!direct) {
@@ -99,10 +98,10 @@ void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads) {
       options.scattering = options.kd / OpticalDepthPerScattering(ratio, options.backscatter_fraction);
       options.absorption = options.scattering / ratio;
     }
-    if (options.field_of_view < kLeastFootprints * options.footprint) {
+    if (options.field_of_view < kMinFootprints * options.footprint) {
       throw CLI::ValidationError(
           "--field-of-view", absl::StrCat("cuts the footprint of ", options.footprint, " m; give at least ",
-                                          kLeastFootprints * options.footprint, " m, 2.5 footprints"));
+                                          kMinFootprints * options.footprint, " m, 2.5 footprints"));
     }
     const double unit = 2 * options.group_index * options.depth / kLightSpeed;  // ns: down and up.
     if (options.pulse_length < kShortestPulse * unit || options.pulse_length > kLongestPulse * unit) {

@@ -129,13 +129,13 @@ struct Step {
     const V approach = hn::NegMulAdd(facets.rise_x, grid.x_per_height,
                                      hn::NegMulAdd(facets.rise_y, grid.y_per_height, hn::Set(d, 1.0f)));
     // The limit keeps the direction of the step right even over a facet that turns away.
-    const V least_approach = hn::Set(d, 0.1f);
-    rise = hn::Div(hn::Sub(facets.height, z), hn::Max(approach, least_approach));
+    const V min_approach = hn::Set(d, 0.1f);
+    rise = hn::Div(hn::Sub(facets.height, z), hn::Max(approach, min_approach));
     const V x = hn::MulAdd(rise, grid.x_per_height, facets.from_x);
     const V y = hn::MulAdd(rise, grid.y_per_height, facets.from_y);
     const M same_cell = hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Set(d, 0.5f));
     const M other_triangle = hn::Xor(hn::Gt(x, y), facets.beside_x);
-    on_facet = hn::AndNot(other_triangle, hn::And(same_cell, hn::Ge(approach, least_approach)));
+    on_facet = hn::AndNot(other_triangle, hn::And(same_cell, hn::Ge(approach, min_approach)));
   }
 };
 

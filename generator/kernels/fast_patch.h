@@ -14,7 +14,7 @@
 
 namespace albtpu {
 
-// What is computed once for all draws: the scales of the modes, the transforms, and the layout in memory.
+// The constants of all draws: the scales of the modes, the transforms, and the layout in memory.
 //
 // Columns of modes are processed in groups of sixteen: an element (see LaneFft) of the eight even columns, then one of
 // the eight odd columns. This is the order of the normal numbers, four of which make two neighbouring modes.

@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "generator/kernels/packet_sums.h"
-
 // The following is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "generator/kernels/packet_tracer.cc"
@@ -17,7 +15,7 @@ namespace albtpu {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr int kMostSteps = 8;
+constexpr int kMaxSteps = 8;
 
 // A block of rays of a bundle and their intersections with the water. Each operation is a short pass over all rays, so
 // that the processor overlaps the work on several packets and the constants of a pass stay in registers.
@@ -162,7 +160,7 @@ class Block {
   HWY_NOINLINE int IntersectFurther(int ray) {
     const V tolerance = hn::Set(d, 0x1p-14f * surface_.spacing);
     HWY_ALIGN float settled[kLanes];
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
       Enter(ray, hn::Load(d, z_ + ray));
       const Step step = Advance(ray);
       const M now = hn::Or(step.on_facet, hn::Le(hn::Abs(step.rise), tolerance));

@@ -30,8 +30,8 @@ RayBundle::RayBundle(const std::vector<Ray>& rays, double refractive_index)
     high = high.cwiseMax(ray.at_zero);
   }
   // Both axes have the same scale, so that the curve fills squares.
-  const double least_width = 1e-9;
-  const double per_metre = 65535 / std::max((high - low).maxCoeff(), least_width);
+  const double min_width = 1e-9;
+  const double per_metre = 65535 / std::max((high - low).maxCoeff(), min_width);
   std::vector<std::pair<std::uint32_t, int>> order(rays.size());
   for (int j = 0; j < count_; ++j) {
     const Eigen::Vector2d at = (rays[j].at_zero - low) * per_metre;

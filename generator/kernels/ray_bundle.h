@@ -1,4 +1,4 @@
-// The rays of a collimated beam in the layout of the packet tracer: in single precision, with neighbours together.
+// The rays of a collimated beam in the layout of the packet tracer: in single precision, with neighbours side by side.
 #pragma once
 
 #include <Eigen/Core>

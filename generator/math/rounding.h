@@ -1,4 +1,5 @@
-// How many binary digits of an estimate are stored. Digits below its standard error are noise, which does not compress.
+// Rounds estimates to the binary digits that are stored. Digits below the standard error are noise, which does not
+// compress.
 #pragma once
 
 #include "generator/math/statistics.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 
 #include "generator/kernels/fast_surface.h"
 #include "generator/kernels/packet_tracer.h"

@@ -42,8 +42,8 @@ class BeamTracing {
 std::unique_ptr<BeamTracing> MakePlainTracing(const SurfaceModel& model, const TracedBeams& traced);
 
 // The fast tracing of collimated beams, in single precision and with many rays at a time. All beams share the surface
-// about one point, and each weights it by how often it would meet the water there (fast_surface.h), which is exact. The
-// surface is also traced upside down, so that effects odd in the heights cancel. The statistics of its slopes are
+// about one point, and each weights it by the probability of meeting the water there (fast_surface.h), which is exact.
+// The surface is also traced upside down, so that effects odd in the heights cancel. The statistics of its slopes are
 // known.
 std::unique_ptr<BeamTracing> MakeAntitheticTracing(const SurfaceModel& model, const TracedBeams& traced);
 

@@ -123,9 +123,9 @@ class ControlVariates {
   static Eigen::ArrayXd Along(const Eigen::Vector2d& direction, const Eigen::ArrayX2d& vectors) {
     return direction.x() * vectors.col(0) + direction.y() * vectors.col(1);
   }
-  // The mean square over both parts, were their shares equal, of an error that is even - odd on the surfaces of
-  // parts[0] and even + odd on the inverted ones. Unequal shares subtract 2 imbalance odd even, which is left to
-  // tracing: as the imbalance is linear in the slopes, the expectation of the product is not zero.
+  // The mean square over both parts, for equal weights, of an error that is even - odd on the surfaces of parts[0] and
+  // even + odd on the inverted ones. Unequal weights subtract 2 imbalance odd even, which is left to tracing: as the
+  // imbalance is linear in the slopes, the expectation of the product is not zero.
   static Eigen::ArrayXd Squared(const Eigen::ArrayXd& odd, const Eigen::ArrayXd& even) {
     return odd.square() + even.square();
   }
@@ -140,7 +140,7 @@ class ControlVariates {
   Eigen::ArrayX2d tangent_;   // on the surfaces of parts[0]; on the inverted ones it has the opposite sign
   Eigen::ArrayX2d offset_;    // horizontal error at depth 0, m; equal on both
   Eigen::ArrayXd form_;       // equal on both
-  Eigen::ArrayXd imbalance_;  // share of parts[0] minus share of parts[1]
+  Eigen::ArrayXd imbalance_;  // weight of parts[0] minus weight of parts[1]
 };
 
 }  // namespace

@@ -32,8 +32,8 @@ inline BeamErrors ErrorsOf(const TracedBeam& traced, const TracedBeam& still) {
 }
 
 // The effect of one realization of the sea on a beam: the errors on its surface and, where that is also traced upside
-// down (which is as likely in a Gaussian sea), on the inverted surface. Each part has a share in the means of the
-// realization; the shares add up to 1.
+// down (which is as likely in a Gaussian sea), on the inverted surface. Each part has a weight in the means of the
+// realization; the weights add up to 1.
 struct BeamRealization {
   struct Part {
     double share = 0;
@@ -72,11 +72,11 @@ struct KnownSlopes {
 
 // The uncertainty at `depths` [m]. Without `known`, the sample's own statistics: tracing alone. With it, these are
 // corrected by control variates (statistics.h), the known part of the errors. To first order in slope, the tangent
-// responds to the mean slope by the gains of Snell's law, and the vertical error to the tangent. To second order, which
-// is all there is at nadir, the vertical error responds to the mean squares of the slopes. The errors at depth 0, in
-// both directions, respond to the covariance of height and slope within the footprint. In a Gaussian sea, first and
-// second order are uncorrelated, and so are the two of second order, because one is odd in space and the other even.
-// The variance of their sum is therefore the sum of their variances.
+// responds to the mean slope by the gains of Snell's law, and the vertical error to the tangent. To second order, the
+// lowest order at nadir, the vertical error responds to the mean squares of the slopes. The errors at depth 0, in both
+// directions, respond to the covariance of height and slope within the footprint. In a Gaussian sea, first and second
+// order are uncorrelated, and so are the two of second order, because one is odd in space and the other even. The
+// variance of their sum is therefore the sum of their variances.
 BeamUncertainty UncertaintyOf(const std::vector<BeamRealization>& sample, const BeamOptions& beam,
                               double refractive_index, const std::optional<KnownSlopes>& known,
                               const std::vector<double>& depths);

@@ -34,7 +34,7 @@ Eigen::ArrayXXd Centred(const std::vector<double>& grid, int size, int reach) {
   return centred;
 }
 
-// The share of the beam's power that falls on each point's cell, by an even sample of the cell.
+// The fraction of the beam's power that falls on each point's cell, by an even sample of the cell.
 Eigen::MatrixXd Shares(const BeamOptions& beam, double spacing, int reach) {
   constexpr int kSamples = 5;  // a side
   const Eigen::Vector2d along(std::cos(beam.azimuth), std::sin(beam.azimuth)), across(-along.y(), along.x());

@@ -23,8 +23,8 @@ std::optional<Estimator> FindEstimator(std::string_view name);
 // When to stop. Realizations beyond the first `realizations` come in whole batches of `kBatch`. Each beam stops on its
 // own; all beams share the surfaces.
 struct Effort {
-  int realizations = 1000;       // the least number, 2 or more
-  int most_realizations = 1000;  // the greatest number
+  int realizations = 1000;       // lower bound, 2 or more
+  int most_realizations = 1000;  // upper bound
   // Continue until the standard errors of refraction, THU and TVU, relative to their values, are at most this large.
   // Values below 0.009 degrees or 0.9 mm do not count. 0 disables the criterion.
   double relative_error = 0;
@@ -44,12 +44,12 @@ struct SeaCase {
 
 struct SeaCaseResult {
   std::vector<BeamUncertainty> beams;
-  int realizations = 0;   // the most of any beam; 0 for a sea without waves, whose result is exact
+  int realizations = 0;   // the maximum of all beams; 0 for a sea without waves, whose result is exact
   bool converged = true;  // false when `most_realizations` was reached before `relative_error`
   // The discretization of the surface; 0 for a sea without waves.
   int rays = 0;
   double patch_length = 0, spacing = 0;  // m
-  // Slope variance of the facets over the footprint, divided by that of the closed form; the least of the beams.
+  // Slope variance of the facets over the footprint, divided by that of the closed form; the minimum of the beams.
   double footprint_slope_fraction = 0;
   double resolved_slope_fraction = 0;  // mean square slope of the facets, divided by that of the sea
 };

@@ -20,8 +20,8 @@ double FarthestOf(const std::vector<Ray>& rays) {
   return farthest;
 }
 
-// The shares of the rays on the triangles of each kind (beside y, beside x), by cell, transformed on a grid of `size`
-// cells.
+// The fractions of the rays on the triangles of each kind (beside y, beside x), by cell, transformed on a grid of
+// `size` cells.
 std::array<Waves, 2> SharesOfTriangles(const std::vector<Ray>& rays, double spacing, int cells, int size) {
   const HeightField still(std::vector<double>(static_cast<std::size_t>(cells + 1) * (cells + 1), 0.0),
                           cells + 1, spacing);
@@ -98,7 +98,7 @@ int ReachOfRays(const std::vector<Ray>& rays, double spacing) {
 SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::vector<Ray>& rays,
                              double spacing, const Eigen::Matrix2d& form) {
   const int cells = 2 * (static_cast<int>(FarthestOf(rays) / spacing) + 1);
-  const int reach = cells - 1;  // the greatest lag between two cells
+  const int reach = cells - 1;  // the largest lag between two cells
   assert(reach + 1 <= correlation.reach());
   const int size = FastSize(2 * cells);
   const auto [beside_y, beside_x] = SharesOfTriangles(rays, spacing, cells, size);

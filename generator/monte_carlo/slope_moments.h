@@ -19,7 +19,7 @@ struct SlopeMoments {
 };
 
 // The moments over the facets above or below the points where `rays` cross z = 0. With R(a, b) the covariance matrix of
-// the slopes of facets a and b, and w their shares of the rays,
+// the slopes of facets a and b, and w their fractions of the rays,
 //     covariance = sum w_a w_b R(a, b),    variance_of_form = 2 sum w_a w_b tr(form R(a, b) form R(a, b)^T).
 // The second is Isserlis' theorem for Gaussian slopes of mean zero, cov(m_ai m_aj, m_bk m_bl) = R_ik R_jl + R_il R_jk,
 // with a symmetric `form`. Exact for the waves of `correlation`, which must reach as far as the rays lie apart.
@@ -31,7 +31,7 @@ SlopeMoments MomentsOfSlopes(const SurfaceCorrelation& correlation, const std::v
 Eigen::Matrix2d FootprintSlopeCovariance(const SurfaceCorrelation& correlation, const BeamOptions& beam,
                                          double spacing);
 
-// The greatest distance between two rays along an axis, in cells with the side `spacing` [m].
+// The largest distance between two rays along an axis, in cells with the side `spacing` [m].
 int ReachOfRays(const std::vector<Ray>& rays, double spacing);
 
 }  // namespace albtpu

@@ -6,9 +6,9 @@
 
 namespace albtpu {
 
-// The number of ranks, or a lower bound where the launcher does not tell it; nullopt where no launcher of ranks started
-// this process. Considers only the variables of mpirun, mpiexec and `srun --mpi`: the tasks of a Slurm array are not
-// ranks.
+// The number of ranks, or a lower bound where the launcher does not state it; nullopt where no launcher of ranks
+// started this process. Considers only the variables of mpirun, mpiexec and `srun --mpi`: the tasks of a Slurm array
+// are not ranks.
 std::optional<int> LaunchedRanks(const std::function<const char*(const char*)>& environment);
 std::optional<int> LaunchedRanks();  // by getenv
 

@@ -17,8 +17,8 @@ class Ranks {
     std::string bytes;
   };
 
-  // Joins the ranks that were started together with this process; one rank where there are no others.
-  // FailedPrecondition when a launcher started several ranks that this build cannot join. Call it once.
+  // Joins the ranks of the launcher that started this process; one rank where there are no others. FailedPrecondition
+  // when a launcher started several ranks that this build cannot join. Call it once.
   static absl::StatusOr<std::unique_ptr<Ranks>> Join();
 
   Ranks() = default;

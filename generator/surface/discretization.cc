@@ -11,8 +11,8 @@
 namespace albtpu {
 namespace {
 
-// Limits on variances. A reported deviation is the square root of a variance: a tenth of a per cent of variance is half
-// of that of the result. convergence_validation_test checks what comes out.
+// Limits on variances. A reported deviation is the square root of a variance: 0.1 % of variance is 0.05 % of the
+// result. convergence_validation_test checks the result.
 constexpr double kGridLoss = 0.0005;
 constexpr double kPatchDeparture = 0.0015;
 // AliasedSlopeVariance finds about half of the variance that doubling the rays was observed to remove.
@@ -94,7 +94,7 @@ Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamO
   const BeamOptions& widest = WidestBeam(beams);
   const std::vector<BeamOptions> outermost = OutermostBeams(beams);
   const double seen = SeenSlopeVariance(sea, widest);
-  const double least = std::max(seen, kLeastSeenFraction * SlopeCovariance(sea).trace());
+  const double least = std::max(seen, kMinSeenFraction * SlopeCovariance(sea).trace());
   Discretization choice{kNarrowestPatch, kCoarsestPoints, kFewestRays};
   while (choice.points_per_footprint < kFinestPoints &&
          GridLoss(sea, widest, widest.footprint / choice.points_per_footprint, seen) > kGridLoss * least) {
@@ -105,9 +105,9 @@ Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamO
     choice.patch_per_beam *= 1.25;
     model.emplace(sea, widest, choice);
   }
-  while (choice.rays < kMostRays &&
+  while (choice.rays < kMaxRays &&
          AliasedSlopeVariance(*model, widest, choice.rays) > kAliasedFraction * least) {
-    choice.rays = std::min(choice.rays * 5 / 4, kMostRays);
+    choice.rays = std::min(choice.rays * 5 / 4, kMaxRays);
   }
   return choice;
 }

@@ -11,11 +11,11 @@ namespace albtpu {
 
 // A footprint that averages the waves down to less than this fraction of their mean square slope sees practically still
 // water. The discretization is not refined to resolve the remainder, which is negligible in the results.
-inline constexpr double kLeastSeenFraction = 3e-5;
+inline constexpr double kMinSeenFraction = 3e-5;
 
-// The most rays of a beam. With so many rays of a gaussian beam, the outermost on opposite sides are about half of the
-// narrowest patch apart, beyond which lags on the periodic patch are not unique.
-inline constexpr int kMostRays = 64000;
+// The maximum number of rays of a beam. With so many rays of a gaussian beam, the outermost on opposite sides are about
+// half of the narrowest patch apart, beyond which lags on the periodic patch are not unique.
+inline constexpr int kMaxRays = 64000;
 
 // The discretization with which doubling the patch, halving the spacing or doubling the rays changes refraction, THU
 // and TVU by less than 1 %. It starts coarse and refines
@@ -27,14 +27,14 @@ inline constexpr int kMostRays = 64000;
 // `beams` share footprint, profile and source; not empty.
 Discretization ChooseDiscretization(const SeaState& sea, const std::vector<BeamOptions>& beams);
 
-// The beam of the greatest incidence, whose footprint on the water is the widest.
+// The beam of the largest incidence, whose footprint on the water is the widest.
 const BeamOptions& WidestBeam(const std::vector<BeamOptions>& beams);
 
-// A beam of the least incidence, and those of the greatest incidence with the least and the greatest azimuth. What a
-// footprint sees of the waves under the beams in between lies between theirs.
+// A beam of the smallest incidence, and those of the largest incidence with the smallest and the largest azimuth. The
+// waves in the footprints of the beams in between lie between theirs.
 std::vector<BeamOptions> OutermostBeams(const std::vector<BeamOptions>& beams);
 
-// The slope variance of a surface's facets over the footprint, divided by that of the closed form; the least of all
+// The slope variance of a surface's facets over the footprint, divided by that of the closed form; the minimum of all
 // beams.
 double FootprintSlopeFraction(const SeaState& sea, const SurfaceModel& model,
                               const std::vector<BeamOptions>& beams);

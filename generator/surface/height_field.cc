@@ -1,6 +1,5 @@
 #include "generator/surface/height_field.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -13,8 +12,8 @@ namespace {
 // reach as HeightField does.
 template <typename Surface>
 Hit IntersectTriangles(const Surface& surface, const Ray& ray) {
-  constexpr int kMostSteps = 100;
-  constexpr double kLeastApproach =
+  constexpr int kMaxSteps = 100;
+  constexpr double kMinApproach =
       0.1;  // keeps the direction of a step right even over a facet that turns away
   const Eigen::Vector2d per_height = ray.per_height();
   // Heights at which the ray is known to be below and above the surface: they bracket the intersection.
@@ -23,15 +22,15 @@ Hit IntersectTriangles(const Surface& surface, const Ray& ray) {
   double z = 0;
   HeightField::Triangle triangle = surface.TriangleAt(ray.at_zero);
   HeightField::Facet facet;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     facet = surface.FacetOf(triangle);
     const double clearance = z - facet.HeightAt(ray.at_zero + z * per_height);
     (clearance < 0 ? below : above) = z;
     // Go to the intersection with the plane of the facet under the ray. Where that is outside the bracket, which is
     // then finite, bisect the bracket.
     const double approach = 1 - facet.slope.dot(per_height);
-    double next = z - clearance / std::max(kLeastApproach, approach);
-    const bool on_the_plane = next >= below && next <= above && approach >= kLeastApproach;
+    double next = z - clearance / std::max(kMinApproach, approach);
+    const bool on_the_plane = next >= below && next <= above && approach >= kMinApproach;
     if (!(next >= below && next <= above)) next = 0.5 * (below + above);
     const HeightField::Triangle under = surface.TriangleAt(ray.at_zero + next * per_height);
     const bool settled = (on_the_plane && under == triangle) || std::abs(next - z) <= 1e-12 * surface.reach();

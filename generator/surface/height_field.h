@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// Elevations on a square grid about the origin. The diagonal from the low corner (least x and y) to the high corner
+// Elevations on a square grid about the origin. The diagonal from the low corner (smallest x and y) to the high corner
 // divides each cell into two triangles, which is a Delaunay triangulation of the grid's points. Immutable.
 class HeightField {
  public:

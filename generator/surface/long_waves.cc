@@ -119,10 +119,10 @@ Eigen::MatrixXd SumOfWaves(const Eigen::MatrixXcd& phases_x, const Eigen::Vector
 
 double HeightOfIntersection(const LongWaveModel& model, const Eigen::VectorXcd& amplitudes,
                             const Eigen::Vector2d& at_zero, const Eigen::Vector2d& per_height) {
-  constexpr int kMostSteps = 50;
+  constexpr int kMaxSteps = 50;
   constexpr double kCloseEnough = 1e-9;  // m
   double z = 0;
-  for (int step = 0; step < kMostSteps; ++step) {  // Newton's method
+  for (int step = 0; step < kMaxSteps; ++step) {  // Newton's method
     const Eigen::VectorXcd here = model.Shifted(amplitudes, at_zero + z * per_height);
     double height = 0, height_per_z = 0;
     for (std::size_t m = 0; m < model.waves().size(); ++m) {

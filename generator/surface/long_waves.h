@@ -1,4 +1,4 @@
-// The waves that are longer than the patch under a beam, as plane waves: no grid has to hold them.
+// The waves that are longer than the patch under a beam, as plane waves, which need no grid.
 #pragma once
 
 #include <Eigen/Core>

@@ -25,10 +25,10 @@ struct Discretization {
   int rays;                     // of each beam
 };
 
-// Immutable. Serves beams of one footprint and profile, of all azimuths and all incidences up to the greatest.
+// Immutable. Serves beams of one footprint and profile, of all azimuths and all incidences up to the largest.
 class SurfaceModel {
  public:
-  // `widest` is the beam with the greatest footprint on the water among those to be traced.
+  // `widest` is the beam with the largest footprint on the water among those to be traced.
   SurfaceModel(const SeaState& sea, const BeamOptions& widest, const Discretization& discretization);
 
   const WavePatchModel& patch() const { return patch_; }

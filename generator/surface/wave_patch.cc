@@ -1,9 +1,6 @@
 #include "generator/surface/wave_patch.h"
 
 #include <cassert>
-#include <cmath>
-#include <complex>
-#include <numbers>
 #include <utility>
 
 namespace albtpu {

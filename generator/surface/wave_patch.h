@@ -17,10 +17,10 @@
 
 namespace albtpu {
 
-// The share of the waves' power at wavenumber k that the patch holds; the rest belongs to the plane waves of
-// long_waves.h. The share is 0 for waves longer than `all_long` and 1 for waves shorter than `all_patch`, with a
-// smooth transition in the logarithm of the wavenumber. A sharp cut would fall through the cells of the patch's
-// lattice of wavenumbers.
+// The fraction of the waves' power at wavenumber k that the patch holds; the rest belongs to the plane waves of
+// long_waves.h. The fraction is 0 for waves longer than `all_long` and 1 for waves shorter than `all_patch`, with a
+// smooth transition in the logarithm of the wavenumber. A sharp cut would fall through the cells of the patch's lattice
+// of wavenumbers.
 class CrossFade {
  public:
   CrossFade(double all_long, double all_patch)
@@ -38,10 +38,10 @@ class CrossFade {
 
 // The spectrum of the patch on its lattice of wavenumbers. Immutable; one model may draw on many threads at once.
 //
-// Mode (i, j) has the wavenumber (2 pi / length) (i, j) and the expected power share(k) Psi dkx dky, raised by what the
-// slope of the grid's triangles is less than the wave's: where a wave spans only a few points, it is drawn higher, so
-// that the triangles have its mean square slope. Modes at half the sampling wavenumber are empty. The variance of the
-// heights is exactly the sum of these powers.
+// Mode (i, j) has the wavenumber (2 pi / length) (i, j) and the expected power share(k) Psi dkx dky, raised by the
+// deficit of the slope of the grid's triangles: where a wave spans only a few points, it is drawn higher, so that the
+// triangles have its mean square slope. Modes at half the sampling wavenumber are empty. The variance of the heights is
+// exactly the sum of these powers.
 class WavePatchModel {
  public:
   // `length` [m] above 0; `size` points along a side, even.

@@ -1,4 +1,4 @@
-// Where a detector finds the bottom in an echo, and which part of the bottom it so measures.
+// The time at which a detector finds the bottom in an echo, and the part of the bottom that it measures.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace albtpu {
 
-// How a time is read from the waveform.
+// How a detector determines the time from the waveform.
 enum class Detector {
   kPeak,      // its maximum
   kHalf,      // where it first reaches half its maximum, plus half the width of the emitted pulse
@@ -33,7 +33,7 @@ struct DetectedBottom {
 };
 
 // `pulse_length` is the full width at half maximum of the emitted Gaussian pulse, at least ten steps of the echo.
-// Nothing if the echo has no light, or does not fall below a tenth of its maximum within its times.
+// nullopt if the echo has no light, or does not fall below a tenth of its maximum within its times.
 std::optional<DetectedBottom> DetectBottom(const Echo& echo, double pulse_length);
 
 // The same without scattering, in closed form, for the Gaussian beam of `setup`.

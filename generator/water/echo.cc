@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "generator/math/random_stream.h"
@@ -29,10 +27,10 @@ std::vector<Arrival> ArrivalsOf(const Crossings& crossings, double absorption) {
   return arrivals;
 }
 
-// Arrivals by square, so that those near a point are found without looking at all.
+// Arrivals by square, so that those near a point are found without a full search.
 class NearArrivals {
  public:
-  // Squares are as wide as the greatest distance that is asked for. Everything is near if that is not finite.
+  // Squares are as wide as the largest distance of a query. Everything is near if that is not finite.
   NearArrivals(std::span<const Arrival> arrivals, double width, double height)
       : per_x_(1 / width), per_y_(1 / height) {
     if (per_x_ > 0) {
@@ -69,7 +67,7 @@ class NearArrivals {
     return around;
   }
 
-  // One of them, as often as its weight says; `pick` is even in [0, 1).
+  // One of them, with a probability proportional to its weight; `pick` is uniform in [0, 1).
   const Arrival& Pick(const Around& around, double pick) const {
     double weight = pick * around.weight;
     std::size_t row = 0;
@@ -82,7 +80,7 @@ class NearArrivals {
   }
 
  private:
-  static constexpr int kSide = 128;  // The outermost squares have all that is beyond.
+  static constexpr int kSide = 128;  // The outermost squares extend to infinity.
 
   static int Place(double scaled) {
     return static_cast<int>(std::clamp(std::floor(scaled) + kSide / 2.0, 0.0, kSide - 1.0));
@@ -100,8 +98,8 @@ class NearArrivals {
   std::vector<double> weights_before_ = {0};
 };
 
-// How many pairs each photon makes on average, `pairs` in all: in proportion to the weight of what it meets. All make
-// some, because the beam's width moves them.
+// The mean number of pairs of each photon, `pairs` in all: in proportion to the weight of the arrivals near it. Every
+// photon has some, because the beam's width moves it.
 std::vector<double> PairsOf(const std::vector<Arrival>& lit, const NearArrivals& seen, double pairs) {
   std::vector<double> met(lit.size());
   double sum = 0, weights = 0;
@@ -197,7 +195,7 @@ std::vector<Echo> PairPhotons(const Crossings& sources, const Crossings& receive
       const Arrival& receiver = seen.Pick(near, pick);
       const double exit_x = x - receiver.ahead, exit_y = y - receiver.sideways;
       const double diameter = 2 * std::sqrt(exit_x * exit_x * cosine * cosine + exit_y * exit_y);
-      // The least field of view that sees it; wider ones are summed up below.
+      // The smallest field of view that sees it; wider ones are summed up below.
       const auto least = std::lower_bound(fields_of_view.begin(), fields_of_view.end(), diameter);
       if (least == fields_of_view.end()) continue;
       const double time = (source.excess + receiver.excess) * 0.5 + lag * (entry_x + exit_x);

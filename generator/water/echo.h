@@ -1,9 +1,9 @@
-// The echo of the bottom, from pairs of photons: when it reaches the receiver, and from where on the bottom.
+// The echo of the bottom from pairs of photons: its times at the receiver, and its origin on the bottom.
 //
-// A Lambertian bottom forgets where its light came from, and light finds its way back as it would have come. So the
-// echo is the sum over pairs of a photon on its way down and another one whose way is walked backwards from the
-// receiver, where both meet the bottom at the same point. Times are in units of 2 n_group z / c: of the way of light to
-// the depth z and back. All lengths here are in units of z.
+// The light from a Lambertian bottom does not depend on the direction of incidence, and paths of light are reversible.
+// So the echo is the sum over pairs of a photon on its way down and a photon traced backwards from the receiver that
+// meet at the same point of the bottom. Times are in units of 2 n_group z / c: of the way of light to the depth z and
+// back. All lengths here are in units of z.
 #pragma once
 
 #include <cmath>
@@ -45,8 +45,8 @@ struct Echo {
   Echo& operator*=(double factor);
 };
 
-// Two walks to the same depth, which may be one and the same: of the photons of the beam, and of those that the
-// receiver sends out. Streams are of (seed, cell, photon, pool).
+// Two walks to the same depth, which may be the same walk: of the photons of the beam, and of photons traced backwards
+// from the receiver. Streams are of (seed, cell, photon, pool).
 Echo PairPhotons(const Crossings& sources, const Crossings& receivers, const EchoSetup& setup,
                  std::uint64_t seed, std::uint32_t cell, std::uint32_t pool);
 

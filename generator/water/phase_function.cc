@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 namespace albtpu {
@@ -17,7 +16,7 @@ constexpr std::size_t kGuides = 1 << 16;
 
 double Square(double x) { return x * x; }
 
-// The share below psi of a Fournier-Forand function of exponent `nu` and index `n` of the particles.
+// The fraction below psi of a Fournier-Forand function of exponent `nu` and index `n` of the particles.
 struct FournierForandShare {
   double n, nu;
 

@@ -1,8 +1,9 @@
-// Photons on their way down through water, in lengths that make every water of one phase function alike.
+// Photons on their way down through water, in units of length that do not depend on the water for a given phase
+// function.
 //
 // The walk scatters once per unit of length on average (b = 1) and absorbs nothing. Where a real water scatters b times
-// a metre, a photon has walked its path times 1 / b m; what water of absorption a leaves of it is exp(-a / b path). One
-// pool of photons so serves every depth, attenuation and albedo.
+// a metre, a photon has walked its path times 1 / b m; in water of absorption a the fraction exp(-a / b path) of it
+// remains. So one pool of photons serves every depth, attenuation and albedo.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +29,14 @@ struct WalkSetup {
   // Half angle [radian] of a cone around the beam, from which photons start as a diffuse surface emits them; a tube
   // that accepts such a cone receives what leaves the water within it. 0: all start along the beam.
   double cone = 0;
-  // Photons whose excess is greater are given up: choose where absorption has left nothing.
+  // Photons with a larger excess are dropped: choose it so that absorption has left nothing.
   double longest_excess = 1e6;
 };
 
 // `photons` photons from one point of the surface, each by its own stream (seed, cell, photon, pool). They are followed
-// until they have passed the last of `depths` (increasing, positive) or left through the surface. What the surface does
-// not reflect totally is lost; it returns to the receiver early or never. Element i of the result belongs to depths[i].
+// until they have passed the last of `depths` (increasing, positive) or left through the surface. Light that the
+// surface does not reflect totally is lost; it returns to the receiver early or never. Element i of the result belongs
+// to depths[i].
 std::vector<Crossings> WalkPhotons(const PhaseFunction& phase, const WalkSetup& setup,
                                    std::span<const double> depths, std::uint32_t photons, std::uint64_t seed,
                                    std::uint32_t cell, std::uint32_t pool);

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <utility>
 
@@ -40,7 +39,7 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
                              std::span<const double> pulse_lengths) {
   Echo all = pools.front();
   for (const Echo& pool : pools.subspan(1)) all += pool;
-  // Values are those of all pools together. Their standard errors are of the jackknife: values without one pool each.
+  // Values from the sum of all pools. Their standard errors are by jackknife: values without one pool each.
   std::vector<Echo> without;
   for (const Echo& pool : pools) {
     Echo rest = pool;
@@ -74,7 +73,7 @@ WaterColumnBias BiasOfEchoes(std::span<const Echo> pools, const WaterColumn& col
     DetectedBias detected;
     for (const Detector detector : kDetectors) {
       const std::size_t d = Index(detector);
-      // How much too deep: time of the slanted way.
+      // The error of the slanted path: positive is too deep.
       const auto deep = [&](const DetectedBottom& of) {
         return (of.by[d].time - clear.by[d].time) * std::cos(refracted);
       };
@@ -111,7 +110,7 @@ std::vector<std::vector<WaterColumnBias>> ComputeWaterColumns(const PhaseFunctio
   tbb::parallel_for(std::uint32_t{0}, effort.pools, [&](std::uint32_t pool) {
     pools[pool] = WalkPhotons(phase, walk, scattering, effort.photons, effort.seed, effort.cell, pool);
   });
-  // Of pairs in a wide view, few are in a narrow one: narrow views have pairs of their own.
+  // Few of the pairs in a wide view are in a narrow one, so narrow views get their own pairs.
   const auto narrow = static_cast<std::size_t>(
       std::upper_bound(fields_of_view.begin(), fields_of_view.end(), kNarrow) - fields_of_view.begin());
   std::vector<std::vector<WaterColumnBias>> biases(scattering.size());

@@ -1,4 +1,4 @@
-// What the water column does to the reported bottom, by Monte Carlo.
+// The effect of the water column on the reported bottom, by Monte Carlo.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct DetectedBias {
 };
 
 struct WaterColumnBias {
-  std::vector<std::optional<DetectedBias>> by_pulse;  // nothing where the echo has no clear end
+  std::vector<std::optional<DetectedBias>> by_pulse;  // nullopt where the echo has no clear end
   Estimate spot;    // standard deviation, along the beam, of where on the bottom the echo comes from
   Estimate energy;  // of the echo within the field of view over that of unscattered light
 };

@@ -20,8 +20,8 @@ class DirectionalBins {
   // reaches as far as on its other side.
   explicit DirectionalBins(std::vector<double> directions);
 
-  // The number of harmonics 2 n, those with n below a quarter of the number of bins: bins can tell them apart, wherever
-  // the first one is. At most kSeaHarmonics.
+  // The number of harmonics 2 n, those with n below a quarter of the number of bins, which bins resolve wherever the
+  // first one is. At most kSeaHarmonics.
   std::size_t harmonics() const { return harmonics_; }
   std::size_t size() const { return weights_.size(); }
 

@@ -13,6 +13,6 @@ namespace albtpu {
 bool IsGzip(std::string_view bytes);
 
 // Inflates one or more gzip streams that follow each other. More than `most` bytes are refused.
-absl::StatusOr<std::string> Inflated(std::string_view bytes, std::size_t most = kMostSeaBytes);
+absl::StatusOr<std::string> Inflated(std::string_view bytes, std::size_t most = kMaxSeaBytes);
 
 }  // namespace albtpu

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -83,8 +82,8 @@ class Reader {
     if (words.size() != columns_)
       return lines_.Error("has ", words.size(), " columns (expected ", columns_,
                           "); get another copy of the file");
-    if (series_.records.size() >= kMostSeaRecords)
-      return lines_.Error("is one record too many (at most ", kMostSeaRecords, "); split the file");
+    if (series_.records.size() >= kMaxSeaRecords)
+      return lines_.Error("is one record too many (at most ", kMaxSeaRecords, "); split the file");
     SeaRecord record{.time = time};
     std::vector<JonswapWaves> components;
     for (std::size_t i = 0; i < waves_.size(); ++i)
@@ -164,7 +163,7 @@ class Reader {
     const auto say = [&](auto... parts) { series_.assumed.push_back(absl::StrCat(parts...)); };
     say("the waves are taken as JONSWAP's of these heights and periods: gamma 3.3 and Mitsuyasu's spreading",
         separated_ ? ", swell gamma 7 and a spread of 18 degrees" : "");
-    if (!separated_) say("swell and wind waves are not told apart: spectra or a .spec file tell more");
+    if (!separated_) say("swell and wind waves are not separated: spectra or a .spec file are more accurate");
     if (wind_speed_ != kNone) say("winds are taken as measured ", anemometer_height_, " m above the water");
     if (without_waves_ > 0) say(without_waves_, " records have no waves and are left out");
     if (without_direction_ > 0)

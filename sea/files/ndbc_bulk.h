@@ -1,5 +1,5 @@
-// Heights, periods and directions of NDBC stations: summaries of spectra (.spec), which tell swell from wind waves, and
-// standard meteorological data (stdmet), which have the wind.
+// Heights, periods and directions of NDBC stations: summaries of spectra (.spec), which separate swell from wind waves,
+// and standard meteorological data (stdmet), which have the wind.
 //
 //     #YY  MM DD hh mm WVHT  SwH  SwP  WWH  WWP SwD WWD  STEEPNESS  APD MWD
 //     #yr  mo dy hr mn    m    m  sec    m  sec  -  degT     -      sec degT

@@ -23,7 +23,7 @@ struct Quantity {
 };
 
 constexpr std::array kQuantities = {
-    Quantity{NdbcQuantity::kEnergy, "spec_1", "spectral density", kGreatestDensity},
+    Quantity{NdbcQuantity::kEnergy, "spec_1", "spectral density", kMaxDensity},
     Quantity{NdbcQuantity::kFirstDirection, "alpha1_1", "alpha1", 360},
     Quantity{NdbcQuantity::kDirection, "alpha2_1", "alpha2", 360},
     Quantity{NdbcQuantity::kFirstSpread, "r1_1", "r1", 100},
@@ -104,8 +104,8 @@ class Reader {
 
   absl::Status Keep(const std::vector<double>& frequencies) {
     if (frequencies_ && *frequencies_ == frequencies) return absl::OkStatus();
-    if (frequencies.size() < 2 || frequencies.size() > kMostFrequencies)
-      return lines_.Error("has ", frequencies.size(), " frequencies (expected 2 to ", kMostFrequencies,
+    if (frequencies.size() < 2 || frequencies.size() > kMaxFrequencies)
+      return lines_.Error("has ", frequencies.size(), " frequencies (expected 2 to ", kMaxFrequencies,
                           "); get another copy of the file");
     values_ += frequencies.size();
     frequencies_ = std::make_shared<const std::vector<double>>(frequencies);
@@ -120,8 +120,8 @@ class Reader {
     if (!status.ok()) return status;
     row.frequencies = frequencies_;
     values_ += row.values.size();
-    if (values_ > kMostSeaValues || table_.rows.size() >= kMostSeaRecords)
-      return lines_.Error("is one record too many (at most ", kMostSeaRecords, " with ", kMostSeaValues,
+    if (values_ > kMaxSeaValues || table_.rows.size() >= kMaxSeaRecords)
+      return lines_.Error("is one record too many (at most ", kMaxSeaRecords, " with ", kMaxSeaValues,
                           " values in all); split the file");
     table_.rows.push_back(std::move(row));
     return absl::OkStatus();

@@ -1,9 +1,7 @@
 #include "sea/files/sea_csv.h"
 
-#include <array>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -15,7 +13,7 @@
 namespace albtpu {
 namespace {
 
-constexpr std::size_t kMostCsvHarmonics = 32;
+constexpr std::size_t kMaxCsvHarmonics = 32;
 
 std::string_view Trimmed(std::string_view cell) {
   const std::vector<std::string_view> words = Words(cell);
@@ -63,7 +61,7 @@ class Reader {
     using Names = std::vector<std::string_view>;
     by_frequency_ = names == Names{"f", "E"} || names == Names{"f", "E", "r2", "alpha2"};
     bool by_wavenumber = !timed_ && columns_ >= 4 && columns_ % 2 == 0 &&
-                         columns_ <= 2 + 2 * kMostCsvHarmonics && names[0] == "k" && names[1] == "S";
+                         columns_ <= 2 + 2 * kMaxCsvHarmonics && names[0] == "k" && names[1] == "S";
     for (std::size_t i = 2; by_wavenumber && i < columns_; ++i)
       by_wavenumber = names[i] == absl::StrCat(i % 2 == 0 ? "a" : "b", i / 2 * 2);
     if (!by_frequency_ && !by_wavenumber)
@@ -81,7 +79,7 @@ class Reader {
     if (cells.size() != columns_ + (timed_ ? 1 : 0))
       return lines_.Error("has ", cells.size(), " cells (expected ", columns_ + (timed_ ? 1 : 0),
                           "); complete it");
-    if (++values_ > kMostSeaValues / 16) return lines_.Error("is one line too many; split the file");
+    if (++values_ > kMaxSeaValues / 16) return lines_.Error("is one line too many; split the file");
     if (timed_) {
       const auto time = ParseSeaTime(cells[0]);
       if (!time)
@@ -107,11 +105,11 @@ class Reader {
     if (!axis_.empty() && at <= axis_.back())
       return lines_.Error(by_frequency_ ? "f" : "k", " is ", at,
                           " (expected more than the line before); sort the lines");
-    if (axis_.size() == kMostFrequencies)
-      return lines_.Error("is one line too many (at most ", kMostFrequencies, " in a sea); write wider bins");
-    if (!(*numbers[1] >= 0 && *numbers[1] <= kGreatestDensity))
-      return lines_.Error(by_frequency_ ? "E" : "S", " is ", *numbers[1], " (expected 0 to ",
-                          kGreatestDensity, "); correct it");
+    if (axis_.size() == kMaxFrequencies)
+      return lines_.Error("is one line too many (at most ", kMaxFrequencies, " in a sea); write wider bins");
+    if (!(*numbers[1] >= 0 && *numbers[1] <= kMaxDensity))
+      return lines_.Error(by_frequency_ ? "E" : "S", " is ", *numbers[1], " (expected 0 to ", kMaxDensity,
+                          "); correct it");
     axis_.push_back(at);
     return by_frequency_ ? AddBin(numbers) : AddSample(numbers);
   }

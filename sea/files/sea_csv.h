@@ -8,8 +8,8 @@
 // where the waves are isotropic. A first column `time` (UTC: 2020-06-08T03:50Z) makes a series.
 //
 // Over wavenumber: k [rad/m], S [m^3] and as many harmonics as the sea has, means of cos(2 psi), sin(2 psi), cos(4 psi)
-// and so on, with psi counter-clockwise from where the wind blows to, or from north if its direction is not known. Such
-// a sea is complete: no tail is joined.
+// and so on, with psi counter-clockwise from the downwind direction, or from north if the wind direction is not known.
+// Such a sea is complete: no tail is joined.
 //
 // Lines that begin with # are comments.
 #pragma once

@@ -31,9 +31,9 @@ absl::StatusOr<std::string> ReadText(const std::filesystem::path& path) {
   char piece[1 << 16];
   while (file.read(piece, sizeof piece) || file.gcount() > 0) {
     bytes.append(piece, static_cast<std::size_t>(file.gcount()));
-    if (bytes.size() > kMostSeaBytes)
+    if (bytes.size() > kMaxSeaBytes)
       return absl::InvalidArgumentError(
-          absl::StrCat("has more than ", kMostSeaBytes, " bytes; split the file"));
+          absl::StrCat("has more than ", kMaxSeaBytes, " bytes; split the file"));
   }
   if (!file.eof()) return absl::UnavailableError("cannot be read; check its permissions");
   if (IsGzip(bytes)) return Inflated(bytes);

@@ -1,4 +1,4 @@
-// Reads a file of the sea in any format of this room. Its first line tells the format.
+// Reads a file of the sea in any format of this room. The first line shows the format.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct SeaFileOptions {
 // not name `path`.
 absl::StatusOr<SeaSeries> ReadSeaFile(const std::filesystem::path& path, const SeaFileOptions& options = {});
 
-// The same of a text in memory, which has nothing beside it.
+// The same for a text in memory, without files beside it.
 absl::StatusOr<SeaSeries> ReadSeaText(std::string_view text, const SeaFileOptions& options = {});
 
 }  // namespace albtpu

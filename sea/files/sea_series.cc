@@ -20,39 +20,39 @@ struct HeightOf {
   double operator()(const WholeSea& waves) const { return SignificantWaveHeight(*waves); }
 };
 
-SeaDescription Merged(const SeaRecord& record, SeaDescription told) {
-  if (!told.water_depth) told.water_depth = record.water_depth;
-  if (!told.wind_speed_10m) told.wind_speed_10m = record.wind_speed_10m;
-  if (!told.wind_from) told.wind_from = record.wind_from;
-  return told;
+SeaDescription Merged(const SeaRecord& record, SeaDescription given) {
+  if (!given.water_depth) given.water_depth = record.water_depth;
+  if (!given.wind_speed_10m) given.wind_speed_10m = record.wind_speed_10m;
+  if (!given.wind_from) given.wind_from = record.wind_from;
+  return given;
 }
 
 }  // namespace
 
 double SeaRecord::significant_wave_height() const { return std::visit(HeightOf(), waves); }
 
-SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription told) {
+SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription given) {
   assert(!std::holds_alternative<WholeSea>(record.waves));
-  told = Merged(record, std::move(told));
+  given = Merged(record, std::move(given));
   if (const auto* bins = std::get_if<BinnedWaves>(&record.waves)) {
-    told.waves = *bins;
+    given.waves = *bins;
   } else {
-    told.waves =
-        std::make_shared<JonswapSpectrum>(*std::get<WaveComponents>(record.waves),
-                                          told.water_depth.value_or(std::numeric_limits<double>::infinity()));
+    given.waves = std::make_shared<JonswapSpectrum>(
+        *std::get<WaveComponents>(record.waves),
+        given.water_depth.value_or(std::numeric_limits<double>::infinity()));
   }
-  return told;
+  return given;
 }
 
-DescribedSea Describe(const SeaRecord& record, SeaDescription told) {
+DescribedSea Describe(const SeaRecord& record, SeaDescription given) {
   const auto* const whole = std::get_if<WholeSea>(&record.waves);
-  if (whole == nullptr) return Describe(DescriptionOf(record, std::move(told)));
-  told = Merged(record, std::move(told));
+  if (whole == nullptr) return Describe(DescriptionOf(record, std::move(given)));
+  given = Merged(record, std::move(given));
   DescribedSea sea;
   sea.spectrum = sea.resolved = Resampled(**whole, SeaWavenumbers());
-  sea.x_azimuth = told.wind_from ? FullTurn(*told.wind_from + std::numbers::pi) : 0;
-  sea.wind_speed_10m = told.wind_speed_10m.value_or(0);
-  sea.water_depth = told.water_depth.value_or(sea.water_depth);
+  sea.x_azimuth = given.wind_from ? FullTurn(*given.wind_from + std::numbers::pi) : 0;
+  sea.wind_speed_10m = given.wind_speed_10m.value_or(0);
+  sea.water_depth = given.water_depth.value_or(sea.water_depth);
   return sea;
 }
 

@@ -40,16 +40,16 @@ struct SeaSeries {
   std::string format;  // "an NDBC file of spectra", for messages
   std::vector<SeaPoint> points = {{}};
   std::vector<SeaRecord> records = {};    // at least one; times increase at each point
-  std::vector<std::string> assumed = {};  // sentences on what was assumed and what was left out
+  std::vector<std::string> assumed = {};  // sentences: what was assumed and what was left out
   double record_length = std::numeric_limits<double>::infinity();  // s, of a measurement; infinity for models
 };
 
-// The sea of a record. Where `told` and the record both have a number, that of `told` counts; the `waves` of `told` are
-// not used.
-DescribedSea Describe(const SeaRecord& record, SeaDescription told = {});
+// The sea of a record. A number of `given` takes precedence over that of the record; the `waves` of `given` are not
+// used.
+DescribedSea Describe(const SeaRecord& record, SeaDescription given = {});
 
 // The description of that sea. Not for a WholeSea, which is complete.
-SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription told = {});
+SeaDescription DescriptionOf(const SeaRecord& record, SeaDescription given = {});
 
 // Sorts records by point and time. Of records for the same point and time the first one stays; `assumed` says so.
 void SortByTime(SeaSeries& series);

@@ -36,10 +36,10 @@ absl::StatusOr<BinnedWaves> SpectralGrid::WavesOf(std::span<const double> densit
   for (std::size_t f = 0; f < f_count; ++f) {
     for (std::size_t d = 0; d < d_count; ++d) {
       at_f[d] = densities[order == Order::kFrequencyFirst ? d * f_count + f : f * d_count + d];
-      if (!(at_f[d] >= 0 && at_f[d] <= kGreatestDensity))
+      if (!(at_f[d] >= 0 && at_f[d] <= kMaxDensity))
         return absl::InvalidArgumentError(absl::StrCat("the spectrum that ends here has a density of ",
-                                                       at_f[d], " m2/Hz/rad (expected 0 to ",
-                                                       kGreatestDensity, "); get another copy of the file"));
+                                                       at_f[d], " m2/Hz/rad (expected 0 to ", kMaxDensity,
+                                                       "); get another copy of the file"));
     }
     energies.push_back(bins_.Sum(at_f));
   }

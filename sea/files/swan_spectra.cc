@@ -55,7 +55,7 @@ class Reader {
   absl::Status ReadLocations() {
     const bool geographic = keyword_ == "LONLAT";
     if (!geographic && keyword_ != "LOCATIONS") return Unexpected("LONLAT or LOCATIONS");
-    const auto count = Count(kMostSeaRecords);
+    const auto count = Count(kMaxSeaRecords);
     if (!count.ok()) return count.status();
     for (std::size_t i = 0; i < *count; ++i) {
       const auto line = words_.NextLine();
@@ -98,7 +98,7 @@ class Reader {
 
   // The numbers behind a keyword, one on each line; then comes the next keyword.
   absl::StatusOr<std::vector<double>> ReadAxis(std::string_view what) {
-    const auto count = Count(kMostFrequencies);
+    const auto count = Count(kMaxFrequencies);
     if (!count.ok()) return count.status();
     std::vector<double> axis;
     for (std::size_t i = 0; i < *count; ++i) {
@@ -187,7 +187,7 @@ class Reader {
           " begins no spectrum (expected FACTOR, ZERO or NODATA); get another copy of the file");
     }
     values_ += 16 + std::get<BinnedWaves>(record.waves)->size() * (1 + 2 * kSeaHarmonics);
-    if (values_ > kMostSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
+    if (values_ > kMaxSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
     series_.records.push_back(std::move(record));
     return absl::OkStatus();
   }
@@ -202,7 +202,7 @@ class Reader {
     return absl::OkStatus();
   }
 
-  // A number of things from 1 to `most` on a line of its own.
+  // A count from 1 to `most`, alone on a line.
   absl::StatusOr<std::size_t> Count(std::size_t most) {
     if (absl::Status status = NextKeyword(); !status.ok()) return status;
     const auto count = ParseCount(keyword_);

@@ -13,7 +13,7 @@ namespace albtpu {
 
 class TextLines {
  public:
-  // How a last line without a line feed is taken. Texts of fixed columns often end so.
+  // The treatment of a last line without a line feed, with which texts of fixed columns often end.
   enum class LastLine {
     kIsCut,
     kMayEndAtColumn,  // whole if a word of the line before ends at the same column

@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -66,7 +64,7 @@ class Reader {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto count = i < counts.size() ? ParseCount(counts[i]) : std::nullopt;
       if (!count || *count < 1 ||
-          static_cast<std::size_t>(*count) > (i == 2 ? kMostSeaRecords : kMostFrequencies))
+          static_cast<std::size_t>(*count) > (i == 2 ? kMaxSeaRecords : kMaxFrequencies))
         return words_.lines().Error(
             "does not state the numbers of frequencies, directions and points; get another copy of the file");
       (i == 0 ? frequencies_ : i == 1 ? directions_ : points_) = static_cast<std::size_t>(*count);
@@ -122,7 +120,7 @@ class Reader {
     if (!waves.ok()) return words_.lines().Error(waves.status().message());
     record.waves = *std::move(waves);
     values_ += frequencies_ * (1 + 2 * kSeaHarmonics);
-    if (values_ > kMostSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
+    if (values_ > kMaxSeaValues) return words_.lines().Error("ends one spectrum too many; split the file");
     series_.records.push_back(std::move(record));
     return absl::OkStatus();
   }

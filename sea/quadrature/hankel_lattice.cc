@@ -20,7 +20,7 @@ double OneMinusJ0(double x) {
   return x < 0.1 ? q * (1 - q / 4 * (1 - q / 9)) : 1 - ::j0(x);
 }
 
-// The share that cubic interpolation (Keys 1981, doi:10.1109/TASSP.1981.1163711) gives a sample `u` steps away.
+// The weight that cubic interpolation (Keys 1981, doi:10.1109/TASSP.1981.1163711) gives a sample `u` steps away.
 double Share(double u) {
   u = std::abs(u);
   if (u < 1) return 1 + u * u * (1.5 * u - 2.5);

@@ -1,4 +1,4 @@
-// What a sea does to one beam: the errors of the reported position by the response theory.
+// The errors of the position that one beam reports over a sea, by the response theory.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// How the refracted ray follows the slope of the water in a sea of finite slopes: the mean gain and the mean curvature
-// of Snell's law over all slopes that the sea has.
+// The response of the refracted ray to the slope of the water in a sea of finite slopes: the mean gain and the mean
+// curvature of Snell's law over all slopes of the sea.
 #pragma once
 
 #include <Eigen/Core>

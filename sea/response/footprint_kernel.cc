@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "sea/quadrature/gauss_quadrature.h"
 

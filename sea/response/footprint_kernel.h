@@ -26,7 +26,7 @@ struct SpectrumRing {
 // Immutable; one serves all seas and directions.
 class FootprintKernel {
  public:
-  // Lags of LagCovariances are so many steps of the lattice apart.
+  // The spacing of the lags of LagCovariances, in steps of the lattice.
   static constexpr int kLagStride = 2;
 
   // `diameter` [m] across the beam.

@@ -1,7 +1,6 @@
 #include "sea/response/footprint_shift.h"
 
 #include <cmath>
-#include <complex>
 
 #include "sea/response/slope_covariance.h"
 

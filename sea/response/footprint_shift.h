@@ -1,4 +1,4 @@
-// What the heights of the waves do to the mean slope under a slanted beam: they shift each ray along the azimuth.
+// The effect of wave heights on the mean slope under a slanted beam: they shift each ray along the azimuth.
 #pragma once
 
 #include <Eigen/Core>

@@ -59,8 +59,8 @@ std::vector<BeamResponse> SeaResponse::AlongDirection(double incidence, double a
   for (const FootprintKernel& footprint : footprints) lags = std::max(lags, footprint.overlap().size());
   const LagProducts products(LagCovariances(spectrum, static_cast<int>(lags)));
 
-  // The reported position is that of still water, and the reported depth the path times cos(refracted). Errors are what
-  // the ray does, with the opposite sign.
+  // The reported position is that of still water, and the reported depth the path times cos(refracted). Errors are the
+  // displacements of the ray with the opposite sign.
   const double refracted = StillWaterRefraction(incidence, refractive_index_);
   Eigen::Matrix3d errors = Eigen::Matrix3d::Zero();
   errors.topLeftCorner<2, 2>() = -axes;

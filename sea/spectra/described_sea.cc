@@ -1,7 +1,5 @@
 #include "sea/spectra/described_sea.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +22,7 @@ double WindSpeed(const SeaDescription& description, SeaAssumptions& assumed) {
   return WindSpeedOfFrictionVelocity(friction_velocity.value_or(0));
 }
 
-// Where the wind blows to; in a calm where the first waves travel.
+// The downwind direction; in a calm the direction of travel of the first waves.
 double XAzimuth(const SeaDescription& description, double wind_speed, double tail_from,
                 SeaAssumptions& assumed) {
   if (wind_speed > 0 && description.wind_from) return *description.wind_from + std::numbers::pi;

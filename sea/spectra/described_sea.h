@@ -11,7 +11,7 @@
 
 namespace albtpu {
 
-// What is known. Directions are of the compass, in rad.
+// The given properties. Directions are of the compass, in rad.
 struct SeaDescription {
   // Null: none are known, and the wind's spectrum, fully developed, is the whole sea.
   std::shared_ptr<const FrequencySpectrum> waves = {};
@@ -26,7 +26,8 @@ struct SeaDescription {
 // The assumptions that were made where the description is silent.
 struct SeaAssumptions {
   bool wind_speed_from_waves = false;
-  bool wind_unknown = false;  // the waves do not reach the frequencies that tell the wind: taken as calm
+  bool wind_unknown =
+      false;  // the waves do not reach the frequencies from which the wind is derived: taken as calm
   bool wind_direction_from_waves = false;
   bool tail_from_of_waves = false;
   bool level_held = false;     // q lay outside 0.5 to 2

@@ -8,8 +8,8 @@
 namespace albtpu {
 namespace {
 
-constexpr double kGravityCapillary = 370;  // k_m, rad/m, of the least phase speed; Eq. 24
-constexpr double kLeastPhaseSpeed = 0.23;  // c_m, m/s
+constexpr double kGravityCapillary = 370;  // k_m, rad/m, of the minimum phase speed; Eq. 24
+constexpr double kMinPhaseSpeed = 0.23;    // c_m, m/s
 constexpr double kFetchScale = 2.2e4;      // X_0 of Eq. 37
 constexpr double kAlmostDevelopedOmega = 1.01 * kFullyDevelopedOmega;
 
@@ -20,7 +20,7 @@ double PhaseSpeed(double k) { return std::sqrt(kGravity / k * (1 + Square(k / kG
 
 // Eq. 44, natural logarithms; never negative.
 double ShortWaveLevel(double friction_velocity) {
-  const double excess = std::log(friction_velocity / kLeastPhaseSpeed);
+  const double excess = std::log(friction_velocity / kMinPhaseSpeed);
   return std::max(0.0, 0.01 * (1 + (excess > 0 ? 3 : 1) * excess));
 }
 
@@ -57,7 +57,7 @@ double ElfouhailySpectrum::operator()(double k) const {
   // Eq. 40, 41. As printed B_h has no cut-off below the peak, so the integral of S diverges at k = 0: here it
   // takes that of Pierson and Moskowitz, as in McDaniel (2001). Some authors also apply the peak enhancement, which
   // changes S only where B_h is negligible.
-  const double short_waves = 0.5 * alpha_m_ * kLeastPhaseSpeed / c * pierson_moskowitz *
+  const double short_waves = 0.5 * alpha_m_ * kMinPhaseSpeed / c * pierson_moskowitz *
                              std::exp(-0.25 * Square(k / kGravityCapillary - 1));
   return (long_waves + short_waves) / (k * k * k);
 }
@@ -66,9 +66,9 @@ double ElfouhailySpectrum::Delta(double k) const {
   // Eq. 57 with the constants of Eq. 59. Far from the peak and from k_m only the first term remains: the ratio of
   // waves along the wind to waves across it is exp(ln(2) / 2) = sqrt(2).
   const double c = PhaseSpeed(k);
-  const double a_m = 0.13 * friction_velocity_ / kLeastPhaseSpeed;
+  const double a_m = 0.13 * friction_velocity_ / kMinPhaseSpeed;
   return std::tanh(std::numbers::ln2 / 4 + 4 * std::pow(c / c_p_, 2.5) +
-                   a_m * std::pow(kLeastPhaseSpeed / c, 2.5));
+                   a_m * std::pow(kMinPhaseSpeed / c, 2.5));
 }
 
 double ElfouhailySpectrum::Spreading(double k, double psi) const {

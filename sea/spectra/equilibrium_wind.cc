@@ -9,7 +9,7 @@
 namespace albtpu {
 namespace {
 
-// Where a function that increases from f(0) <= y reaches `y`, by bisection to the last bit.
+// The x at which a function that increases from f(0) <= y reaches `y`, by bisection to the last bit.
 template <typename Function>
 double Inverse(const Function& f, double y) {
   double low = 0, high = 1;

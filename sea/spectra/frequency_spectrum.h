@@ -44,7 +44,7 @@ class FrequencySpectrum {
   // The compass direction [rad] along which the first waves, or those at the peak, travel.
   virtual double leading_axis() const = 0;
 
-  // The same of the shortest waves up to `f` [Hz]. A wind of unknown direction is assumed to blow along it.
+  // The same for the shortest waves up to `f` [Hz]. A wind of unknown direction is assumed to blow along it.
   virtual double ShortWaveAxis(double f) const = 0;
 };
 

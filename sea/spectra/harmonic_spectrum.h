@@ -47,7 +47,7 @@ HarmonicSpectrum Resampled(const HarmonicSpectrum& spectrum, const std::vector<d
 // The same sea with every direction psi increased by `angle` [rad].
 HarmonicSpectrum Rotated(HarmonicSpectrum spectrum, double angle);
 
-// weight_a * a + weight_b * b: independent waves together (1, 1), or a state between two times (1 - t, t). Both have
+// weight_a * a + weight_b * b: the sum of independent waves (1, 1), or a state between two times (1 - t, t). Both have
 // the same wavenumbers; missing harmonics count as 0. Weights are not negative.
 HarmonicSpectrum WeightedSum(const HarmonicSpectrum& a, double weight_a, const HarmonicSpectrum& b,
                              double weight_b);

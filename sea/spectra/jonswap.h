@@ -27,7 +27,7 @@ struct JonswapWaves {
 inline constexpr double kSwellGamma = 7;
 inline constexpr double kSwellSpread = 18 * std::numbers::pi / 180;  // rad
 
-// Several such waves together.
+// The sum of several such waves.
 class JonswapSpectrum final : public FrequencySpectrum {
  public:
   explicit JonswapSpectrum(std::vector<JonswapWaves> waves,  // at least one

@@ -1,4 +1,4 @@
-// How well a described sea is known: the sampling error of its measurement, and the uncertainty of its tail.
+// The uncertainty of a described sea: the sampling error of its measurement, and the uncertainty of its tail.
 #pragma once
 
 #include <functional>

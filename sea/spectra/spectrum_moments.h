@@ -12,7 +12,7 @@ double SignificantWaveHeight(const HarmonicSpectrum& spectrum);
 
 double MeanSquareSlope(const HarmonicSpectrum& spectrum);  // the integral of k^2 S dk
 
-// The same of waves with wavenumbers below `k` [rad/m].
+// The same for waves with wavenumbers below `k` [rad/m].
 double MeanSquareSlopeBelow(const HarmonicSpectrum& spectrum, double k);
 
 }  // namespace albtpu

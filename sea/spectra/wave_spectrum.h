@@ -1,4 +1,4 @@
-// What a directional elevation spectrum is: Psi(kx, ky) = S(k) D(k, psi) / k [m^4].
+// The interface of directional elevation spectra: Psi(kx, ky) = S(k) D(k, psi) / k [m^4].
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ class WaveSpectrum {
   // The wavenumbers between which all but 1e-4 of the elevation variance and of the slope variance lies.
   virtual WavenumberRange energetic_range() const = 0;
 
-  // What tables record of their sea: the name of the spectrum, its source, and how it departs from measured seas.
+  // The attributes of a table: the name of the spectrum, its source, and its departures from measured seas.
   virtual std::string name() const = 0;
   virtual std::string reference() const = 0;
   virtual std::string departures() const = 0;

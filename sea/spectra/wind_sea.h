@@ -1,5 +1,5 @@
-// What the models of the wind sea share: how a model describes itself, the spreading of the waves about the wind, the
-// enhanced peak of a growing sea, and the wind profile over the water.
+// Common parts of the models of the wind sea: how a model describes itself, the spreading of the waves about the wind,
+// the enhanced peak of a growing sea, and the wind profile over the water.
 #pragma once
 
 #include <memory>

@@ -14,18 +14,18 @@ constexpr int kAzimuths = 5;    // odd, so that all harmonics come in pairs
 
 double SquaredTangent(double angle) { return std::pow(std::tan(angle), 2); }
 
-// From 0 to `greatest`: the extrema of Chebyshev's polynomial.
-double ChebyshevNode(int i, double greatest) {
-  return greatest * (1 - std::cos(kPi * i / (kIncidences - 1))) / 2;
+// From 0 to `largest`: the extrema of Chebyshev's polynomial.
+double ChebyshevNode(int i, double largest) {
+  return largest * (1 - std::cos(kPi * i / (kIncidences - 1))) / 2;
 }
 
 // The weight of the node `i` at `x` in the polynomial through the nodes from `first` on.
-double LagrangeWeight(int i, int first, double x, double greatest) {
+double LagrangeWeight(int i, int first, double x, double largest) {
   double weight = 1;
   for (int j = first; j < kIncidences; ++j) {
     if (j == i) continue;
-    const double node = ChebyshevNode(j, greatest);
-    weight *= (x - node) / (ChebyshevNode(i, greatest) - node);
+    const double node = ChebyshevNode(j, largest);
+    weight *= (x - node) / (ChebyshevNode(i, largest) - node);
   }
   return weight;
 }
@@ -84,11 +84,11 @@ BeamDirections::BeamDirections(const std::vector<double>& incidences, const std:
   for (const double incidence : incidences) {
     for (const double azimuth : azimuths) wanted_.push_back({incidence, azimuth});
   }
-  const double greatest = SquaredTangent(*std::max_element(incidences.begin(), incidences.end()));
-  assert(greatest > 0);
+  const double largest = SquaredTangent(*std::max_element(incidences.begin(), incidences.end()));
+  assert(largest > 0);
   for (int i = 0; i < kIncidences; ++i) {
     for (int j = 0; j < kAzimuths; ++j)
-      traced_.push_back({std::atan(std::sqrt(ChebyshevNode(i, greatest))), kPi * j / kAzimuths});
+      traced_.push_back({std::atan(std::sqrt(ChebyshevNode(i, largest))), kPi * j / kAzimuths});
   }
   even_.resize(wanted_.size(), traced_.size());
   odd_ = even_;
@@ -97,9 +97,9 @@ BeamDirections::BeamDirections(const std::vector<double>& incidences, const std:
     for (std::size_t t = 0; t < traced_.size(); ++t) {
       const int i = static_cast<int>(t) / kAzimuths;
       const double of_azimuth = TrigonometricWeight(wanted_[w].azimuth - traced_[t].azimuth);
-      even_(w, t) = of_azimuth * LagrangeWeight(i, 0, tangent * tangent, greatest);
+      even_(w, t) = of_azimuth * LagrangeWeight(i, 0, tangent * tangent, largest);
       odd_(w, t) = i == 0 ? 0
-                          : of_azimuth * LagrangeWeight(i, 1, tangent * tangent, greatest) * tangent /
+                          : of_azimuth * LagrangeWeight(i, 1, tangent * tangent, largest) * tangent /
                                 std::tan(traced_[t].incidence);
     }
   }

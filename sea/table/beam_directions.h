@@ -1,10 +1,10 @@
 // The responses of a sea to beams of many directions, from those of few.
 //
-// What a sea does to a beam is smooth in the horizontal vector of the beam's direction. At an azimuth it is a power
-// series in tan^2(incidence), and at an incidence a Fourier series in the azimuth with the period of half a turn, whose
-// terms fall by some tan^2(incidence) / 4 beyond the harmonics of the slopes' covariance. Polynomials
-// through Chebyshev's nodes in tan^2(incidence), and trigonometric polynomials through equidistant azimuths, therefore
-// converge fast. beam_directions_test states their error.
+// The response of a beam is smooth in the horizontal vector of its direction. At an azimuth it is a power series in
+// tan^2(incidence), and at an incidence a Fourier series in the azimuth with the period of half a turn, whose terms
+// fall by some tan^2(incidence) / 4 beyond the harmonics of the slopes' covariance. Polynomials through Chebyshev's
+// nodes in tan^2(incidence), and trigonometric polynomials through equidistant azimuths, therefore converge fast.
+// beam_directions_test states their error.
 #pragma once
 
 #include <Eigen/Core>

@@ -35,7 +35,8 @@ std::vector<std::string> Sentences(const SeaAssumptions& assumed) {
     if (is_assumed) sentences.emplace_back(sentence);
   };
   add_if(assumed.wind_speed_from_waves, "the wind speed is derived from the shortest measured waves");
-  add_if(assumed.wind_unknown, "the wind is not known and the waves do not tell it: it is taken as calm");
+  add_if(assumed.wind_unknown,
+         "the wind is not known and cannot be derived from the waves: it is taken as calm");
   add_if(assumed.wind_direction_from_waves, "the wind blows along the shortest measured waves");
   add_if(assumed.tail_from_of_waves, "the tail begins where the waves are trusted up to");
   add_if(assumed.level_held,

@@ -18,7 +18,8 @@ namespace sea_attribute {
 inline constexpr std::string_view kXAzimuth = "x_azimuth";  // degree, of the compass
 inline constexpr std::string_view kSignificantWaveHeight = "significant_wave_height";  // m
 inline constexpr std::string_view kWindSpeed = "wind_speed_10m";                       // m/s
-inline constexpr std::string_view kWindSource = "wind_source";        // "told", "waves" or "unknown" (a calm)
+inline constexpr std::string_view kWindSource =
+    "wind_source";  // "told" (given), "waves" or "unknown" (a calm)
 inline constexpr std::string_view kWaterDepth = "water_depth";        // m; absent in deep water
 inline constexpr std::string_view kTail = "tail";                     // Name(TailRule); absent without one
 inline constexpr std::string_view kTailFrom = "tail_from";            // Hz; absent without resolved waves
@@ -31,8 +32,8 @@ inline constexpr std::string_view kAssumptions = "assumptions";  // Sentences(),
 // y, which is the other way.
 constexpr double BeamAzimuth(double compass_azimuth, double x_azimuth) { return x_azimuth - compass_azimuth; }
 
-// The share, 0 to 1, of resolved waves in the variance of the slope under a vertical uniform beam of 0.6 m, the
-// diameter that most lidars have; the tail has the rest. 0 without waves.
+// The fraction, 0 to 1, of the slope variance under a vertical uniform beam of 0.6 m, a usual diameter, that comes from
+// resolved waves; the rest comes from the tail. 0 without waves.
 double ShareMeasured(const DescribedSea& sea);
 
 // The assumptions as sentences for people, one each.

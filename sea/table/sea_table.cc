@@ -83,7 +83,7 @@ std::string CampaignText(const std::map<std::string, AttributeValue>& sea, const
   return text;
 }
 
-// What the errors are in proportion to.
+// The variances to which the errors are proportional.
 struct RelativeError {
   double slopes = 0;       // of V at the footprint
   double mean_square = 0;  // of the mean square slope of the whole sea
@@ -140,7 +140,7 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea) c
 
 absl::StatusOr<UncertaintyTable::Axes> SeaCompiler::AxesFor(double wind_speed) const {
   const SeaTableNodes& nodes = options_.nodes;
-  // One that is derived from absurd waves may be infinite.
+  // A wind derived from absurd waves may be infinite.
   absl::StatusOr<Axis> wind =
       Axis::Create(kOneSea.axes[Index(AxisId::kWindSpeed)], {static_cast<float>(wind_speed)});
   if (!wind.ok()) return wind.status();
@@ -185,9 +185,9 @@ absl::StatusOr<UncertaintyTable> SeaCompiler::Compile(const DescribedSea& sea, s
         "periods and units",
         MeanSquareSlope(sea.spectrum), sea.wind_speed_10m, std::string(status.message())));
   };
-  if (!(MeanSquareSlope(sea.spectrum) <= kGreatestMeanSquareSlope))
+  if (!(MeanSquareSlope(sea.spectrum) <= kMaxMeanSquareSlope))
     return refused(
-        absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kGreatestMeanSquareSlope)));
+        absl::InvalidArgumentError(absl::StrFormat("no sea has more than %g", kMaxMeanSquareSlope)));
   absl::StatusOr<UncertaintyTable::Axes> axes = AxesFor(sea.wind_speed_10m);
   if (!axes.ok()) return refused(axes.status());
   const std::vector<BeamResponse> responses = ResponsesOf(sea.spectrum);

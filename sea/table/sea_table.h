@@ -1,4 +1,4 @@
-// Compiles a sea into a table: what it does to every beam, by the response theory (sea/response/sea_response.h).
+// Compiles a sea into a table of its effect on every beam, by the response theory (sea/response/sea_response.h).
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@
 namespace albtpu {
 
 // The nodes of the axes, which increase: degrees from 0 on, azimuths up to 180, and metres. They are rounded to single
-// precision. With these, interpolation errs by 1 % at most: "The table of one sea" in docs/physics.md, which also says
-// where by more.
+// precision. With these, interpolation errors are at most 1 %; "The table of one sea" in docs/physics.md lists the
+// exceptions.
 struct SeaTableNodes {
   std::vector<double> incidences = {0,   0.25, 0.5, 0.75, 1,  1.375, 1.875, 2.5, 3.25, 4.25,
                                     5.5, 7.5,  10,  13,   16, 19,    22,    25,  27.5, 30};
@@ -35,7 +35,7 @@ struct SeaTableOptions {
 
 // No sea is steeper: its rms slope is 35 degrees, and the law of Cox and Munk (1954), 0.003 + 0.00512 U, reaches it at
 // 97 m/s. The terms that the theory leaves out, in proportion to the square, take 1.6 % off TVU there.
-inline constexpr double kGreatestMeanSquareSlope = 0.5;
+inline constexpr double kMaxMeanSquareSlope = 0.5;
 
 // Immutable; one serves all seas and threads. Making one costs about as much as compiling a sea: keep it.
 class SeaCompiler {
@@ -48,7 +48,7 @@ class SeaCompiler {
   // the slopes have half the relative error of the slope variance, those of second order in slope all of it, and biases
   // that of the mean square slope of the whole sea. Without waves, all numbers are 0.
   //
-  // Fails with InvalidArgument if the mean square slope is above kGreatestMeanSquareSlope, or if a table cannot hold a
+  // Fails with InvalidArgument if the mean square slope is above kMaxMeanSquareSlope, or if a table cannot hold a
   // number, which it names: one that is not finite or above 1e6.
   absl::StatusOr<UncertaintyTable> Compile(const SeaDescription& sea, double record_length) const;
 

@@ -25,7 +25,7 @@ namespace v1 = albtpu::v1;
 
 // Bytes of columns in a message, which may have 4 MiB (uncertainty_service.proto). The rest is for everything else,
 // most of it a sea.
-constexpr std::size_t kMostColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
+constexpr std::size_t kMaxColumnBytes = (std::size_t{4} << 20) - (std::size_t{192} << 10);
 
 constexpr char kMethod[] = "/albtpu.v1.UncertaintyService/QueryBudget";
 
@@ -36,7 +36,7 @@ constexpr std::size_t kCallsAtATime = 4;
 constexpr std::chrono::seconds kDeadline{60};
 
 // The number of pulses that a message of these columns takes, request and answer.
-std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
+std::size_t MaxPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) {
   std::size_t asked = sizeof(float);  // The depth may be repeated.
   for (const std::span<const float> column : pulses.pulses.axis)
     asked += column.size() > 1 ? sizeof(float) : 0;
@@ -47,7 +47,7 @@ std::size_t MostPulses(const BudgetPulses& pulses, const BudgetAnswers& wanted) 
     const auto quantity = static_cast<BudgetQuantity>(i);
     if (Wants(wanted, quantity)) answered += ColumnCount(quantity) * sizeof(float);
   }
-  return std::min(kMostPulses, kMostColumnBytes / std::max(asked, answered));
+  return std::min(kMostPulses, kMaxColumnBytes / std::max(asked, answered));
 }
 
 // The column of a quantity: field i + 1 is quantity i.
@@ -136,7 +136,7 @@ class Calls {
   Calls(grpc::GenericStub& stub, const BudgetTask& task, std::size_t begin)
       : stub_(stub),
         task_(task),
-        most_(MostPulses(task.pulses, task.answers)),
+        most_(MaxPulses(task.pulses, task.answers)),
         sent_(begin),
         answered_(begin) {
     if (task.sea != nullptr) *request_without_pulses_.mutable_sea() = *task.sea;

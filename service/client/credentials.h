@@ -1,4 +1,4 @@
-// How a client verifies its server and identifies itself.
+// The files by which a client verifies its server and identifies itself.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How patient a client is with a server that is not available.
+// The retries of a client when a server is not available.
 #pragma once
 
 #include <chrono>

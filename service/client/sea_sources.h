@@ -17,10 +17,10 @@ class SeaSources {
  public:
   virtual ~SeaSources() = default;
 
-  // Compiles the sea, 10 to 40 ms, and opens its table, to which the source is fixed: `table().sea` says what
-  // the sea was taken to be. The source may outlive this object. Any number of threads may call this at the same time.
-  // InvalidArgument: a table cannot hold the numbers of the sea, or a server refuses them, because they are out of the
-  // ranges of sea.proto. A server also fails as in OpenServer.
+  // Compiles the sea, 10 to 40 ms, and opens its table, to which the source is fixed: `table().sea` summarizes the sea.
+  // The source may outlive this object. Any number of threads may call this at the same time. InvalidArgument: a table
+  // cannot hold the numbers of the sea, or a server refuses them, because they are out of the ranges of sea.proto. A
+  // server also fails as in OpenServer.
   virtual absl::StatusOr<std::unique_ptr<UncertaintySource>> Open(const KnownSea& sea) = 0;
 };
 

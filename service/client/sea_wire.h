@@ -1,4 +1,4 @@
-// Seas as messages, and what a server took them to be.
+// Seas as messages, and their summaries from a server.
 #pragma once
 
 #include "albtpu/v1/sea.pb.h"

@@ -12,9 +12,9 @@
 
 namespace albtpu::client {
 
-// Opens a source that queries the server in columns: each message holds as many pulses as it may, and several messages
-// are sent ahead of the answers. The table is fixed when the source is opened, and every answer must come from the same
-// content.
+// Opens a source that queries the server in columns: each message holds the maximum number of pulses, and several
+// messages are sent ahead of the answers. The table is fixed when the source is opened, and every answer must come from
+// the same content.
 //
 // `address` is HOST:PORT, or `dns:///NAME:PORT` for a name with several servers: calls of Answer take turns with them,
 // and another server answers what a failed one left unanswered. `table` is the name of the table; empty selects the

@@ -26,7 +26,7 @@ using albtpu::v1::UncertaintyService;
 constexpr std::chrono::seconds kDeadline{60};
 
 // Connecting to an absent server fails within one second.
-constexpr int kMostOpeningRetries = 3;
+constexpr int kMaxOpeningRetries = 3;
 
 // Whether a retry may succeed: the server is unavailable or at its limit.
 bool IsTransient(const absl::Status& status) {
@@ -54,7 +54,7 @@ absl::StatusOr<Response> CallWithRetries(
     Response response;
     const absl::Status status = FromGrpc(((*stub).*method)(&context, request, &response));
     if (status.ok()) return response;
-    if (!IsTransient(status) || retries == std::min(server.patience.retries, kMostOpeningRetries))
+    if (!IsTransient(status) || retries == std::min(server.patience.retries, kMaxOpeningRetries))
       return WithServerAddress(status, server.address);
     Pause(*server.channel, server.patience.first_pause * (1 << retries));
   }

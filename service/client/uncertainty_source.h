@@ -1,4 +1,4 @@
-// Where answers come from: a table in this process, or a server. Both give the same numbers, bit for bit.
+// A source of answers: a table in this process, or a server. Both give the same numbers, bit for bit.
 #pragma once
 
 #include <array>

@@ -5,7 +5,7 @@
 namespace albtpu {
 namespace {
 
-SeaDescription Told(const KnownSea& sea) {
+SeaDescription DescriptionOf(const KnownSea& sea) {
   return {.wind_speed_10m = sea.wind_speed_10m,
           .wind_from = sea.wind_from,
           .water_depth = sea.water_depth,
@@ -15,12 +15,12 @@ SeaDescription Told(const KnownSea& sea) {
 
 }  // namespace
 
-KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& told, double record_length) {
-  KnownSea sea{.wind_speed_10m = told.wind_speed_10m ? told.wind_speed_10m : record.wind_speed_10m,
-               .wind_from = told.wind_from ? told.wind_from : record.wind_from,
-               .water_depth = told.water_depth ? told.water_depth : record.water_depth,
-               .tail = told.tail,
-               .tail_from = told.tail_from,
+KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& given, double record_length) {
+  KnownSea sea{.wind_speed_10m = given.wind_speed_10m ? given.wind_speed_10m : record.wind_speed_10m,
+               .wind_from = given.wind_from ? given.wind_from : record.wind_from,
+               .water_depth = given.water_depth ? given.water_depth : record.water_depth,
+               .tail = given.tail,
+               .tail_from = given.tail_from,
                .record_length = record_length};
   std::visit([&sea](const auto& waves) { sea.waves = waves; }, record.waves);
   return sea;
@@ -30,13 +30,13 @@ absl::StatusOr<UncertaintyTable> CompileSea(const SeaCompiler& compiler, const K
   SeaRecord record;
   if (const auto* const whole = std::get_if<WholeSea>(&sea.waves)) {
     record.waves = *whole;
-    return compiler.Compile(Describe(record, Told(sea)));
+    return compiler.Compile(Describe(record, DescriptionOf(sea)));
   }
   if (std::holds_alternative<std::monostate>(sea.waves))
-    return compiler.Compile(Told(sea), sea.record_length);
+    return compiler.Compile(DescriptionOf(sea), sea.record_length);
   if (const auto* const bins = std::get_if<BinnedWaves>(&sea.waves)) record.waves = *bins;
   if (const auto* const components = std::get_if<WaveComponents>(&sea.waves)) record.waves = *components;
-  return compiler.Compile(DescriptionOf(record, Told(sea)), sea.record_length);
+  return compiler.Compile(DescriptionOf(record, DescriptionOf(sea)), sea.record_length);
 }
 
 }  // namespace albtpu

@@ -1,4 +1,4 @@
-// What is known of a sea: all that determines its table.
+// A described sea: everything that determines its table.
 #pragma once
 
 #include <limits>
@@ -17,7 +17,7 @@ class SeaCompiler;
 // Equal seas have the same table in process, on a server and from a file, bit for bit on the same instruction set.
 struct KnownSea {
   // Without waves the sea is the fully developed sea of the wind. A WholeSea is complete: the wind's direction is its x
-  // axis, wind speed and depth are only stated, and the rest has no effect.
+  // axis, wind speed and depth are only stated, and the other members have no effect.
   std::variant<std::monostate, BinnedWaves, WaveComponents, WholeSea> waves = {};
   std::optional<double> wind_speed_10m = {};  // m/s, from 0
   std::optional<double> wind_from = {};       // compass direction, rad
@@ -28,9 +28,9 @@ struct KnownSea {
       std::numeric_limits<double>::infinity();  // s, of measured waves; infinity for others
 };
 
-// The sea of a record. Where `told` and the record both have a number, that of `told` counts; the `waves` of `told` are
-// not used.
-KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& told, double record_length);
+// The sea of a record. A number of `given` takes precedence over that of the record; the `waves` of `given` are not
+// used.
+KnownSea KnownSeaOf(const SeaRecord& record, const SeaDescription& given, double record_length);
 
 // The table of the sea. InvalidArgument if it is steeper than any sea (sea_table.h), or if a table cannot hold its
 // numbers.

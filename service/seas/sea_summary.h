@@ -1,4 +1,4 @@
-// What a sea was taken to be: its frame, its main numbers and what was assumed.
+// A summary of a sea as it was computed: its frame, its main numbers and the assumptions.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,15 @@ struct SeaSummary {
   // Compass direction of the x axis, degrees, from which azimuths count: BeamAzimuth() of sea_attributes.h.
   double x_azimuth = 0;
   double significant_wave_height = 0;  // m, 4 sqrt(m0) of the whole sea
-  double wind_speed_10m = 0;           // m/s, given or taken from the waves
+  double wind_speed_10m = 0;           // m/s, given or derived from the waves
   double water_depth = 0;              // m; infinity for deep water
   double tail_from = 0;                // Hz, where the wind's waves are joined; 0 without known waves
-  double share_measured = 0;  // of the known waves in the variance of slope at a footprint of 0.6 m, 0 to 1
-  std::vector<std::string> assumptions;  // what was assumed where nothing is known: one sentence each
+  double share_measured =
+      0;  // fraction of the slope variance at a footprint of 0.6 m that comes from known waves
+  std::vector<std::string> assumptions;  // where the sea state has no value: one sentence each
 };
 
-// Of a table of one sea, from its attributes; nothing for other tables.
+// Of a table of one sea, from its attributes; nullopt for other tables.
 std::optional<SeaSummary> SummaryOfSea(const UncertaintyTable& table);
 
 }  // namespace albtpu

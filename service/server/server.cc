@@ -12,7 +12,6 @@
 #include "absl/strings/str_cat.h"
 #include "service/server/ground/limits.h"
 #include "service/server/ground/listening_sockets.h"
-#include "service/server/observe/records.h"
 
 namespace albtpu::server {
 namespace {

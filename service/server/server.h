@@ -19,7 +19,7 @@
 
 namespace albtpu::server {
 
-// Who may call the server, and how.
+// The access to the server.
 struct Access {
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();  // credentials.h
   AdminCallers admin = AdminCallers::kLocal;

@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "survey/answers/batch.h"
+#include "survey/beams/beam_plan.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/summary_file.h"
 #include "survey/las/las_crs.h"
@@ -55,8 +56,8 @@ constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
                                 FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
                                 FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
 
-constexpr double kLeastUnit = 1e-3, kGreatestUnit = 1e3;  // m
-constexpr float kGreatest = 1e6F;                         // m or m^2; beyond, nothing is an uncertainty.
+constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
+constexpr float kGreatest = 1e6F;                  // m or m^2; larger values are not plausible.
 
 // Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
 bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
@@ -80,8 +81,8 @@ bool IsOurs(const Json& summary) {
          std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
 }
 
-// Of a point without a number. Beams of a trajectory are not known where no surface is. Beams told by angles always
-// are; where they `may_lack_surface`, that is the graver of two reasons why a depth is missing.
+// Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
+// those `may_lack_surface`, that is the more severe of two reasons why a depth is missing.
 Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
   if (point.has_number) return Gap::kNone;
   const bool depth = point.depth >= 0, beam = std::isfinite(point.incidence);
@@ -128,8 +129,8 @@ absl::Status AnnotatedLasFile::ReadSummary() {
                                        size.dump(), " (the file was changed later)", kRemedy));
   }
   const Json beams = read["parameters"].value("incidence_from", Json());
-  may_lack_surface_ =
-      (beams == "scan angle" || beams == "one angle") && read["answers"]["outcomes"].contains("NO_SURFACE");
+  may_lack_surface_ = beams.is_string() && IsByAngle(beams.get<std::string>()) &&
+                      read["answers"]["outcomes"].contains("NO_SURFACE");
   const Json classes = read["parameters"].value("classes", Json());
   if (!classes.is_null() && !classes.is_array())
     return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
@@ -140,7 +141,7 @@ absl::Status AnnotatedLasFile::ReadSummary() {
   }
   if (classes_.empty()) classes_ = {DefaultClass(reader_.header().point_format)};
   const Json unit = read["parameters"].value("metres_per_unit", Json());
-  if (!unit.is_null() && !(unit.is_number() && unit >= kLeastUnit && unit <= kGreatestUnit))
+  if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
     return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
   for (const auto& [outcome, count] : read["answers"]["outcomes"].items())
     if (count > reader_.header().point_count)

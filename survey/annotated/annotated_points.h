@@ -20,22 +20,23 @@
 
 namespace albtpu::client {
 
-// Why a point has no number, as its geometry shows: the graver, the greater. kNoAnswer: outside the table, or no state
-// of the sea or optics of the water at it. kNoTrajectory: none at its time, or one that is too uncertain.
+// Why a point has no number, in order of severity. kNoAnswer: outside the table, or no state of the sea or optics of
+// the water at it. kNoTrajectory: none at its time, or one that is too uncertain.
 enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory };
 
 // A point of the bathymetric classes. Lengths in m but for x and y, which are those of the file; THU and TVU at the
-// coverage of the file; variances at 1 sigma, on the axes of the file. A share that was left out is 0, and so is a bias
-// that is not known.
+// coverage of the file; variances at 1 sigma, on the axes of the file. A contribution that was left out is 0, and so is
+// an unknown bias.
 struct AnnotatedPoint {
   double x = 0, y = 0, z = 0;
   double time = 0;  // GPS time as the file states it, s; 0 if its points have none.
   int line = 0;     // Point source ID.
   Gap gap = Gap::kNone;
-  bool has_number = false;  // Otherwise only what is above is known.
+  bool has_number = false;  // Otherwise only the members above are known.
   float thu = 0, tvu = 0;
-  float tvu_air = 0, tvu_sea = 0, tvu_water = 0;  // Shares.
-  float tvu_pulse = 0, tvu_line = 0;              // What is drawn anew for each pulse, and for each line.
+  float tvu_air = 0, tvu_sea = 0, tvu_water = 0;  // Contributions.
+  float tvu_pulse = 0,
+        tvu_line = 0;  // The parts that are independent from pulse to pulse, and from line to line.
   float bias_along_beam = 0, bias_vertical = 0;
   float thu_sea = 0;
   float variance_x = 0, variance_y = 0, variance_z = 0;
@@ -75,7 +76,7 @@ class AnnotatedLasFile {
   std::shared_ptr<const nlohmann::ordered_json> summary_;
   Coverage coverage_ = Coverage::kTwoSigma;
   std::set<int> classes_;
-  bool may_lack_surface_ = false;     // Of points whose beams are told by angles.
+  bool may_lack_surface_ = false;     // Of points whose beams are known by angles.
   std::vector<std::size_t> offsets_;  // In a record, by kFloats of the implementation.
   std::string crs_name_ = "not stated", crs_wkt_;
   double metres_per_unit_ = 1, metres_per_height_unit_ = 1;

@@ -43,15 +43,15 @@ AnswerTally AnswerTally::FromJson(const Json& answers) {
       tally.without_number[outcome] = {count, ReadSpread(Member(Member(answers, "outside"), outcome))};
     }
   }
-  tally.least_depth = Number(Member(Member(answers, "depth"), "least"));
+  tally.min_depth = Number(Member(Member(answers, "depth"), "least"));
   return tally;
 }
 
 void AnswerTally::Merge(const AnswerTally& other) {
   chosen += other.chosen;
   interpolated += other.interpolated;
-  if (other.least_depth.has_value()) {
-    least_depth = std::min(least_depth.value_or(*other.least_depth), *other.least_depth);
+  if (other.min_depth.has_value()) {
+    min_depth = std::min(min_depth.value_or(*other.min_depth), *other.min_depth);
   }
   for (const auto& [outcome, theirs] : other.without_number) {
     WithoutNumber& ours = without_number[outcome];

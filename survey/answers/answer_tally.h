@@ -1,5 +1,4 @@
-// The outcomes of a file or of a whole run, as summaries state them. Outputs that an earlier run wrote count like new
-// ones: both are known by their summaries.
+// The outcomes of a file or of a whole run. Outputs of an earlier run count, too, by their summaries.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +20,10 @@ struct AnswerTally {
   };
 
   std::uint64_t chosen = 0, interpolated = 0;
-  std::map<std::string, WithoutNumber> without_number;  // By outcome, as OutcomeCounts::Json() names it.
-  std::optional<double> least_depth;                    // m, of interpolated pulses.
+  std::map<std::string, WithoutNumber> without_number;  // By outcome, as summaries name it.
+  std::optional<double> min_depth;                      // m, of interpolated pulses.
 
-  // From UncertaintySummary::Json(). Takes what is there: any JSON gives a tally.
+  // From the answers in a summary file. Any JSON gives a tally; missing members count as 0.
   static AnswerTally FromJson(const nlohmann::ordered_json& answers);
 
   // The median becomes that of the tally with more of the outcome.

@@ -19,10 +19,10 @@
 
 namespace albtpu::client {
 
-// How answers are stated: the flags that all commands share.
+// How answers are stated: the flags that all commands have.
 struct AnswerStyle {
   Coverage coverage = Coverage::kTwoSigma;
-  bool coverage_told = false;         // By a flag.
+  bool coverage_given = false;        // By a flag, not by default.
   std::optional<S44Order> s44_order;  // Also states what this order leaves for all other error sources.
   bool standard_errors = false;       // Also states the standard errors.
 
@@ -48,14 +48,14 @@ constexpr std::optional<Coverage> FindCoverage(std::string_view name) {
 struct PulseBatch {
   std::size_t size = 0;
   std::array<std::vector<float>, kAxisCount> axis;
-  // Where the sea differs by time or has an axis of its own: the instants [s since 1970, UTC], one per pulse or none,
-  // and whether azimuths count clockwise from true north, rather than from downwind.
+  // For a sea that varies in time or has its own axis: the instants [s since 1970, UTC], one per pulse or none, and
+  // whether azimuths count clockwise from true north, rather than from downwind.
   std::vector<double> times = {};
   bool azimuths_from_north = false;
 
   std::vector<float>& operator[](AxisId id) { return axis[Index(id)]; }
   PulseColumns columns() const;
-  // Of a pulse on an axis that has a number for it.
+  // The coordinate of a pulse. Requires a number on this axis.
   float coordinate(AxisId id, std::size_t i) const {
     const std::vector<float>& column = axis[Index(id)];
     return column[column.size() == 1 ? 0 : i];
@@ -71,10 +71,10 @@ struct AnswerSelection {
   bool standard_errors = false;  // Of those quantities.
   bool best_s44_orders = false;
   bool s44_remaining = false;
-  bool sea_frame = false;  // Of a sea that is not known by a table of winds.
+  bool sea_frame = false;  // Of a sea other than that of a table of winds.
 };
 
-// The outcome of a pulse that has an answer of the sea, and none of the water column.
+// The outcome of a pulse that has an answer for the sea, but none for the water column.
 inline constexpr std::uint8_t kNoWater = 4;
 
 // Element i of each column belongs to pulse i. Columns that are not selected are empty.
@@ -97,7 +97,7 @@ struct AnswerBatch {
   std::span<const float> operator[](Quantity quantity) const { return values[Index(quantity)]; }
 };
 
-// What answers batches: a table, or the sea at the time of each pulse (survey/seas). Any number of threads may ask.
+// A source of answers for batches: a table, or the sea at the time of each pulse (survey/seas). Thread-safe.
 class AnswerSource {
  public:
   using Answer =

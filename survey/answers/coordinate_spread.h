@@ -1,4 +1,4 @@
-// The least, the greatest and about the median of many numbers, in one pass and in little memory.
+// The minimum, the maximum and the approximate median of many numbers, in one pass and in little memory.
 #pragma once
 
 #include <cstdint>

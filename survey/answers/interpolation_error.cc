@@ -11,7 +11,7 @@
 namespace albtpu::client {
 namespace {
 
-// Of an attribute: rms, 99th percentile, greatest, noise, number of pulses. Nothing if no pulse was compared, or if a
+// Of an attribute: rms, 99th percentile, maximum, noise, number of pulses. nullopt if no pulse was compared, or if a
 // server sends something else.
 std::optional<InterpolationError> Parse(Quantity quantity, const std::string& attribute) {
   std::vector<double> numbers;

@@ -1,5 +1,5 @@
-// How far a table is off between its nodes. It was measured when the table was made, at random pulses all over the
-// table, and stands in its attributes `interpolation_error_*` (tables/FORMAT.md).
+// The interpolation error of a table. It was measured when the table was made, at random pulses all over the table, and
+// is in its attributes `interpolation_error_*` (tables/FORMAT.md).
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct InterpolationError {
   double rms, percentile_99;
 };
 
-// Of each quantity that the table states it of. Empty if it is not known, as for published tables.
+// Of each quantity for which the table states it. Empty if it is not known, as for published tables.
 std::vector<InterpolationError> InterpolationErrors(const TableSummary& table);
 
 // "0.28 % rms, 1.1 % at the 99th percentile".

@@ -20,19 +20,19 @@ constexpr double kMetresPerFoot = 0.3048;                  // Exact: the interna
 constexpr double kMetresPerSecondPerKnot = 1852.0 / 3600;  // Exact: the international knot.
 constexpr double kMetresPerSecondPerKmPerHour = 1 / 3.6;   // Exact.
 
-// What a footprint is made of.
+// How the footprint is given.
 enum class Given { kUnknown, kFootprint, kBeam };
 
-// A number that someone may have given in another unit, and by what it is to be multiplied.
+// An input that may have been given in another unit, and the factor that corrects it.
 struct WrongUnit {
   AxisId axis;
   Side side;
   Given given;
   double factor;
   const char* question;
-  // The first node over the coordinate, or the coordinate over the last node, is at least this; nearer to the table,
-  // the coordinate is more likely true and the table too small.
-  double least_excess = 1;
+  // The coordinate divided by the last node is at least this; nearer to the table, the coordinate is more likely
+  // correct and the table too small.
+  double min_excess = 1;
 };
 
 // With a full divergence of 1.5 mrad, 0.0015 mrad is a divergence in rad, 1500 mrad one in urad.
@@ -65,7 +65,7 @@ std::string RangeText(double least, double greatest, std::string_view units) {
   return absl::StrFormat("%g%s %s", least, end, std::string(units));
 }
 
-// What the user gives, and in which unit.
+// The input that the user gives, and its unit.
 std::string GiveText(AxisId axis, Given given, Side side) {
   switch (axis) {
     case AxisId::kFootprint:
@@ -88,7 +88,7 @@ std::string GiveText(AxisId axis, Given given, Side side) {
 }
 
 // With one water level for all points, the wrong level that explains their median depth. Among several, the one whose
-// correction makes the shallowest water: a level of the wrong kind is off by far more than the water is deep.
+// correction gives the shallowest water: a wrong level is usually off by far more than the depth of the water.
 std::string WaterLevelQuestion(double depth, const CauseContext& context) {
   const double level = context.water_level.value_or(0);
   const struct {
@@ -119,7 +119,7 @@ std::string UnitQuestions(AxisId axis, Side side, Given given, double median, co
     const bool either_unknown = wrong.given == Given::kUnknown || given == Given::kUnknown;
     if (!either_unknown && wrong.given != given) continue;
     if (!IsInside(axis, median * wrong.factor, context.axes)) continue;
-    if (wrong.least_excess > 1 && median < range.last * wrong.least_excess) continue;
+    if (wrong.min_excess > 1 && median < range.last * wrong.min_excess) continue;
     questions.emplace_back(wrong.question);
   }
   return absl::StrJoin(questions, " ");
@@ -158,7 +158,7 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
       return {"the trajectory has no position at their times",
               "check that it is of this flight, and that its times are GPS or UTC as --trajectory-time says"};
     case NoPulse::kUncertainTrajectory:
-      return {"their returns do not tell well enough where the sensor was", "give its --trajectory"};
+      return {"the position of the sensor is too uncertain from their returns", "give its --trajectory"};
     case NoPulse::kNoSurface:
       if (context.water_level_by_time) {
         return {

@@ -1,4 +1,4 @@
-// Why most pulses of a run got no number: the mistake in its inputs that explains their coordinates.
+// Finds the mistake in the inputs of a run that explains why most pulses got no number.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace albtpu::client {
 
-// What the coordinates were made of.
+// The inputs from which the coordinates were computed.
 struct CauseContext {
   TableAxes axes;                     // Of the table.
   std::optional<double> water_level;  // m; where one --water-level gave the depths of all points.

@@ -1,4 +1,4 @@
-// How many pulses had each outcome.
+// The number of pulses with each outcome.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace albtpu::client {
 
-// Why a chosen point has no pulse that a table could be asked about.
+// Why a chosen point has no pulse with which a table could be queried.
 enum class NoPulse : std::uint8_t {
   kNoTrajectory,         // No position of the sensor is known at its time.
   kUncertainTrajectory,  // The position is too uncertain for an incidence.
@@ -26,7 +26,7 @@ std::string_view OutcomeName(NoPulse why);  // "NO_TRAJECTORY" and its like.
 // "INTERPOLATED", "OUT_OF_DOMAIN:depth:above", "INVALID" or "NO_WATER", as CSV files and messages state it.
 std::string_view OutcomeName(const AnswerBatch& answers, std::size_t i);
 
-// What an answer without azimuth is: by a table of winds, and by one of a sea.
+// The meaning of an answer without azimuth, by a table of winds and by a table of one sea.
 inline constexpr std::string_view kWorseOfTheWind =
     "each value is the larger of those along and across the wind";
 inline constexpr std::string_view kWorstOfTheSea = "each value is the largest of all azimuths";
@@ -36,14 +36,16 @@ inline std::string_view WithoutAzimuth(const TableSummary& table) {
 
 class OutcomeCounts {
  public:
-  // Pulses that were asked. `azimuth_absent` means that none of them had an azimuth.
+  // Pulses that were queried. `azimuth_absent` means that none of them had an azimuth.
   void Add(const AnswerBatch& answers, bool azimuth_absent);
-  // Chosen points that were not asked.
+  // Chosen points without a query.
   void Add(NoPulse why, std::uint64_t count = 1) { without_pulse_[static_cast<std::size_t>(why)] += count; }
   void Merge(const OutcomeCounts& other);
 
-  std::uint64_t total() const;  // All chosen points, asked or not.
+  std::uint64_t total() const;  // All chosen points, queried or not.
   std::uint64_t interpolated() const { return asked_[0]; }
+  std::uint64_t count(std::size_t number) const { return asked_[number]; }  // By Number().
+  std::uint64_t count(NoPulse why) const { return without_pulse_[static_cast<std::size_t>(why)]; }
 
   // "56382 pulses: 56000 interpolated, 382 OUT_OF_DOMAIN:depth:above", and the number without azimuth, if any, with
   // what the answers to these are.
@@ -54,8 +56,8 @@ class OutcomeCounts {
   nlohmann::ordered_json Json() const;
   std::uint64_t without_azimuth() const { return without_azimuth_; }
 
-  // Outcomes of pulses that were asked, numbered in the order of Json(): interpolated, out of domain by axis and
-  // side, invalid, without a share of the water.
+  // Outcomes of queried pulses, numbered in the order of Json(): interpolated, out of domain by axis and side, invalid,
+  // without a contribution of the water column.
   static constexpr std::size_t kOutOfDomainCount = (kAxisCount + 1) * 3;  // No axis, no side.
   static constexpr std::size_t kAskedCount = kOutOfDomainCount + 3;
   static std::size_t Number(const AnswerBatch& answers, std::size_t i) {

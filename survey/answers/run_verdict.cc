@@ -1,7 +1,5 @@
 #include "survey/answers/run_verdict.h"
 
-#include <nlohmann/json.hpp>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
@@ -28,18 +26,17 @@ std::string RunVerdict::Problem(const AnswerTally& tally) const {
   return absl::StrCat(how_many, " (", outcomes, ": ", cause->why, "); ", cause->suggestion);
 }
 
-std::string RunVerdict::Add(std::string_view file, const nlohmann::ordered_json& answers) {
-  const AnswerTally tally = AnswerTally::FromJson(answers);
-  all_.Merge(tally);
+std::string RunVerdict::Add(std::string_view file, const AnswerTally& answers) {
+  all_.Merge(answers);
   ++files_;
   last_file_ = file;
-  if (!tally.mostly_without_number()) return "";
-  return absl::StrCat(std::string(file), ": ", Problem(tally));
+  if (!answers.mostly_without_number()) return "";
+  return absl::StrCat(std::string(file), ": ", Problem(answers));
 }
 
-std::optional<double> RunVerdict::LeastDepthWithOtherSign() const {
-  if (!all_.least_depth.has_value() || *all_.least_depth < kRarelyAllDeeper) return std::nullopt;
-  const double corrected = *all_.least_depth - 2 * context_.water_level.value_or(0);
+std::optional<double> RunVerdict::MinDepthWithOtherSign() const {
+  if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return std::nullopt;
+  const double corrected = *all_.min_depth - 2 * context_.water_level.value_or(0);
   if (corrected >= kRarelyAllDeeper || corrected < -kAboveByWaves) return std::nullopt;
   return corrected;
 }
@@ -49,21 +46,21 @@ absl::Status RunVerdict::status() const {
   if (all_.mostly_without_number()) {
     return absl::FailedPreconditionError(absl::StrCat(where, ": ", Problem(all_)));
   }
-  const std::optional<double> corrected = LeastDepthWithOtherSign();
+  const std::optional<double> corrected = MinDepthWithOtherSign();
   if (!corrected.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrFormat(
       "%s: no %s is shallower than %g m (the least depth is %.1f m); is the sign of --water-level wrong? "
       "corrected, the least depth would be %.1f m",
-      where, record_, kRarelyAllDeeper, *all_.least_depth, *corrected));
+      where, record_, kRarelyAllDeeper, *all_.min_depth, *corrected));
 }
 
 std::string RunVerdict::DeepNote() const {
-  if (!all_.least_depth.has_value() || *all_.least_depth < kRarelyAllDeeper) return "";
-  if (LeastDepthWithOtherSign().has_value()) return "";  // status() says more.
+  if (!all_.min_depth.has_value() || *all_.min_depth < kRarelyAllDeeper) return "";
+  if (MinDepthWithOtherSign().has_value()) return "";  // status() says more.
   return absl::StrFormat(
       "no %s is shallower than %g m (the least depth is %.1f m); unless the survey is that deep, check the "
       "water level and its vertical datum",
-      record_, kRarelyAllDeeper, *all_.least_depth);
+      record_, kRarelyAllDeeper, *all_.min_depth);
 }
 
 }  // namespace albtpu::client

@@ -1,7 +1,6 @@
-// Whether a run over files succeeded: zero answers are no success, although the outputs are written and complete.
+// Decides whether a run over files succeeded: a run without answers fails, although its outputs are complete.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,12 +18,12 @@ class RunVerdict {
   RunVerdict(CauseContext context, std::string record)
       : context_(std::move(context)), record_(std::move(record)) {}
 
-  // Counts a file that was written, or was complete already, by UncertaintySummary::Json(). Returns a message that
-  // names the file and the likely cause if fewer than half of its pulses got a number, otherwise an empty text.
-  std::string Add(std::string_view file, const nlohmann::ordered_json& answers);
+  // Counts a file that was written, or was complete already. Returns a message that names the file and the likely cause
+  // if fewer than half of its pulses got a number, otherwise an empty text.
+  std::string Add(std::string_view file, const AnswerTally& answers);
 
-  // Of all files together: fails if fewer than half of the pulses got a number, or if all of them are deeper than 20 m
-  // and would not be with the other sign of --water-level. Names the file if there is only one.
+  // Of all files: fails if fewer than half of the pulses got a number, or if all of them are deeper than 20 m and would
+  // not be with the other sign of --water-level. Names the file if there is only one.
   absl::Status status() const;
 
   // A message if no pulse that got a number is shallower than 20 m, otherwise an empty text. A lidar sees the shallow
@@ -33,7 +32,7 @@ class RunVerdict {
 
  private:
   // m; of a run in which all depths are beyond 20 m, where a wrong sign of the water level explains it.
-  std::optional<double> LeastDepthWithOtherSign() const;
+  std::optional<double> MinDepthWithOtherSign() const;
   std::string Problem(const AnswerTally& tally) const;
 
   CauseContext context_;

@@ -72,8 +72,8 @@ void UncertaintySummary::Add(const PulseBatch& pulses, const AnswerBatch& answer
       continue;
     }
     const float depth = depths[depths.size() == 1 ? 0 : i];
-    least_depth_ = std::min(least_depth_, depth);
-    greatest_depth_ = std::max(greatest_depth_, depth);
+    min_depth_ = std::min(min_depth_, depth);
+    max_depth_ = std::max(max_depth_, depth);
     std::size_t index = 0;  // Counting the ends below the depth needs no branches.
     for (const float end : kBandEnds) index += depth >= end;
     Band& band = bands_[index];
@@ -94,8 +94,29 @@ void UncertaintySummary::Merge(const UncertaintySummary& other) {
   for (std::size_t i = 0; i < outside_.size(); ++i) outside_[i].Merge(other.outside_[i]);
   above_water_.Merge(other.above_water_);
   for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i].Merge(other.bands_[i]);
-  least_depth_ = std::min(least_depth_, other.least_depth_);
-  greatest_depth_ = std::max(greatest_depth_, other.greatest_depth_);
+  min_depth_ = std::min(min_depth_, other.min_depth_);
+  max_depth_ = std::max(max_depth_, other.max_depth_);
+}
+
+AnswerTally UncertaintySummary::Tally() const {
+  AnswerTally tally;
+  tally.chosen = outcomes_.total();
+  tally.interpolated = outcomes_.interpolated();
+  const auto add = [&tally](std::string_view outcome, std::uint64_t count, const CoordinateSpread& spread) {
+    if (count == 0) return;
+    AnswerTally::WithoutNumber& without_number = tally.without_number[std::string(outcome)];
+    without_number.count = count;
+    if (spread.count() > 0) without_number.coordinate = {spread.least(), spread.middle(), spread.greatest()};
+  };
+  for (std::size_t i = 1; i < outside_.size(); ++i)
+    add(OutcomeCounts::Name(i), outcomes_.count(i), outside_[i]);
+  for (std::size_t i = 0; i < kNoPulseCount; ++i) {
+    const auto why = static_cast<NoPulse>(i);
+    add(OutcomeName(why), outcomes_.count(why),
+        why == NoPulse::kAboveWater ? above_water_ : CoordinateSpread());
+  }
+  if (std::isfinite(min_depth_)) tally.min_depth = min_depth_;
+  return tally;
 }
 
 std::string UncertaintySummary::BandText(std::size_t index) const {
@@ -120,7 +141,7 @@ std::string UncertaintySummary::Text(std::string_view without_azimuth) const {
   absl::StrAppend(
       &text,
       absl::StrFormat("\n  depth %.3f m to %.3f m; sea surface only; limits are those at the shallow end",
-                      least_depth_, greatest_depth_));
+                      min_depth_, max_depth_));
   const std::string coverage = CoverageText(style_.coverage);
   const std::string order_name = std::string(Name(order()));
   absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %17s %17s %27s", "depth", "points", "THU, " + coverage,
@@ -173,7 +194,7 @@ ordered_json UncertaintySummary::Json() const {
   json["without_azimuth"] = outcomes_.without_azimuth();
   if (ordered_json outside = OutsideJson(); !outside.empty()) json["outside"] = std::move(outside);
   if (all.count == 0) return json;
-  json["depth"] = {{"least", JsonNumber(least_depth_)}, {"greatest", JsonNumber(greatest_depth_)}};
+  json["depth"] = {{"least", JsonNumber(min_depth_)}, {"greatest", JsonNumber(max_depth_)}};
   ordered_json& orders = json["s44_best_order"];
   for (const S44Order order : kS44Orders) {
     orders[std::string(Name(order))] = all.best_orders[static_cast<std::size_t>(order) + 1];

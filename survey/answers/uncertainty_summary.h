@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "survey/answers/answer_tally.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/coordinate_spread.h"
 #include "survey/answers/outcome_counts.h"
@@ -24,15 +25,16 @@ class UncertaintySummary {
   // Adds the columns that a summary needs to a selection.
   static void Select(AnswerSelection& selection);
 
-  // Pulses that were asked.
+  // Pulses that were queried.
   void Add(const PulseBatch& pulses, const AnswerBatch& answers);
-  // Chosen points that were not asked; those above the water by the next function.
+  // Chosen points without a query; those above the water by the next function.
   void Add(NoPulse why, std::uint64_t count = 1) { outcomes_.Add(why, count); }
   // A chosen point above the water surface, at this negative depth [m].
   void AddAboveWater(float depth);
   void Merge(const UncertaintySummary& other);
 
   const OutcomeCounts& outcomes() const { return outcomes_; }
+  AnswerTally Tally() const;
 
   // Several lines: the outcomes, then a table of depth bands.
   std::string Text(std::string_view without_azimuth = kWorseOfTheWind) const;
@@ -75,8 +77,8 @@ class UncertaintySummary {
   std::array<CoordinateSpread, OutcomeCounts::kAskedCount> outside_;  // By OutcomeCounts::Number.
   CoordinateSpread above_water_;                                      // Depths.
   std::array<Band, kBandEnds.size() + 1> bands_ = {};
-  float least_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
-  float greatest_depth_ = -std::numeric_limits<float>::infinity();
+  float min_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
+  float max_depth_ = -std::numeric_limits<float>::infinity();
 };
 
 }  // namespace albtpu::client

@@ -47,18 +47,15 @@ ordered_json Parameters(const BeamPlan& plan) {
   const auto or_null = [](const auto& value) {
     return value.has_value() ? ordered_json(*value) : ordered_json();
   };
-  ordered_json json;
+  ordered_json json = {{"incidence_from", kIncidenceSources[plan.source.index()]}};
   if (const auto* constant = std::get_if<ConstantIncidence>(&plan.source)) {
-    json["incidence_from"] = "one angle";
     json["incidence"] = constant->incidence;
     json["beam_azimuth"] = or_null(constant->beam_azimuth);
     json["altitude"] = or_null(constant->altitude);
   } else if (const auto* scan = std::get_if<AcrossTrackScan>(&plan.source)) {
-    json["incidence_from"] = "scan angle";
     json["flight_direction"] = or_null(scan->flight_direction);
     json["altitude"] = or_null(scan->altitude);
   } else if (const auto* files = std::get_if<TrajectoryFromFiles>(&plan.source)) {
-    json["incidence_from"] = "trajectory";
     json["trajectory"] = plan.trajectories != nullptr ? NamesAndSizes(*plan.trajectories) : ordered_json();
     json["trajectory_errors"] = NamesAndSizes(plan.trajectory_errors);
     json["trajectory_time"] = files->utc ? "utc" : "gps";
@@ -66,7 +63,6 @@ ordered_json Parameters(const BeamPlan& plan) {
     json["lever_arm"] = files->lever_arm;
     json["crs"] = or_null(files->crs);
   } else {
-    json["incidence_from"] = "returns";
     json["crs"] = or_null(std::get<TrajectoryFromReturns>(plan.source).crs);
   }
   json["water_index"] = plan.has_track() ? ordered_json(plan.refractive_index) : ordered_json();

@@ -1,4 +1,4 @@
-// What the user says of the beams of a survey: how their incidence is known, how wide they are, and where the water is.
+// How the user describes the beams of a survey: the source of their incidence, their width, and the water surface.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -47,6 +48,15 @@ struct TrajectoryFromReturns {
 using BeamSource =
     std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
 
+// The alternatives of BeamSource, as summaries name them in `incidence_from`.
+inline constexpr std::array<std::string_view, std::variant_size_v<BeamSource>> kIncidenceSources = {
+    "one angle", "scan angle", "trajectory", "returns"};
+
+// Whether beams of this source are known without a water surface.
+constexpr bool IsByAngle(std::string_view incidence_from) {
+  return incidence_from == kIncidenceSources[0] || incidence_from == kIncidenceSources[1];
+}
+
 struct DivergingBeam {
   double divergence = 0;  // mrad, full angle
   double aperture = 0;    // m
@@ -55,7 +65,7 @@ struct DivergingBeam {
 struct BeamPlan {
   BeamSource source = ConstantIncidence();
   std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
-  bool any_aircraft = false;                     // The motion of the aircraft is wanted, too.
+  bool any_aircraft = false;                     // Also compute the motion of the aircraft.
   bool any_sea = false;                          // Not a table of winds: azimuths count from north.
   std::optional<float> azimuth;                  // degree from downwind, of all beams.
   std::optional<double> wind_from;               // degree, true
@@ -67,7 +77,7 @@ struct BeamPlan {
   std::shared_ptr<const TrajectoryFiles> trajectories;
   TrajectoryErrors trajectory_errors;
 
-  // Where the water surface is: at least one of the three.
+  // The source of the water surface: at least one of the three.
   std::optional<double> water_level;            // In the vertical unit and datum of the points.
   std::optional<std::string> water_level_file;  // Levels by time.
   std::set<int> water_classes;                  // Of returns from the surface.
@@ -84,7 +94,7 @@ struct BeamPlan {
 // The files that the plan reads: trajectories, their errors, water levels.
 std::vector<std::string> FilesOf(const BeamPlan& plan);
 
-// The plan as a summary states it.
+// The plan as JSON for a summary.
 nlohmann::ordered_json Parameters(const BeamPlan& plan);
 
 }  // namespace albtpu::client

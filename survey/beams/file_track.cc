@@ -47,7 +47,7 @@ std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<con
                          .sigma = Median(std::move(sigmas))};
 }
 
-// Positions of `track` in the local frame, `shift` [s] after the times that are asked for.
+// Positions of `track` in the local frame, `shift` [s] after the given times.
 TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame, double shift = 0) {
   return [&track, &frame, shift](std::span<const double> times, std::span<Eigen::Vector3d> positions) {
     std::vector<double> shifted(times.begin(), times.end());
@@ -81,7 +81,7 @@ absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan, const
   return absl::OkStatus();
 }
 
-// Whether the track agrees with the rays when the other time scale is assumed; then the flag that says so.
+// If the track agrees with the rays on the other time scale, a hint with the flag that selects it; otherwise empty.
 std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const SensorTrack& track, bool utc,
                                             double index) {
   // GPS - UTC since July 2012. Times in UTC that are taken for GPS put a position so many seconds too early.
@@ -98,8 +98,8 @@ std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const Senso
 
 // A water level that is too high by h puts the sensor too high by h (1 - tan(w) / tan(a)), with the angles w and a of
 // the ray in water and in air, because rays are refracted at the wrong height. Near the vertical that is h (1 - 1/n),
-// and up to 25 degrees at most 1.2 times as much. The returns cannot tell it from a trajectory that is too low. Empty
-// where the level does not come from --water-level.
+// and up to 25 degrees at most 1.2 times as much. The returns cannot distinguish it from a trajectory that is too low.
+// Empty where the level does not come from --water-level.
 std::string OrWaterLevel(const TrackCheck& check, const BeamPlan& plan) {
   if (check.verdict != TrackVerdict::kHeightOffset || !plan.water_classes.empty()) return "";
   const double error = check.up.value / (1 - 1 / plan.refractive_index);
@@ -107,7 +107,7 @@ std::string OrWaterLevel(const TrackCheck& check, const BeamPlan& plan) {
                          error < 0 ? "low" : "high");
 }
 
-// Compares the track with the rays that the returns tell.
+// Compares the track with the rays of pairs of returns.
 absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, bool utc, FileTrack& found) {
   const double index = plan.refractive_index;
   const TrackCheck check = CheckTrack(file.rays, LocalPositions(*found.track, file.frame), {.index = index});
@@ -173,8 +173,8 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
 absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index) {
   const auto too_few = [&](const std::string& why) {
     return absl::FailedPreconditionError(absl::StrCat(
-        file.name, ": its returns do not tell where the sensor was (", why, file.remark.empty() ? "" : "; ",
-        file.remark,
+        file.name, ": the position of the sensor cannot be derived from its returns (", why,
+        file.remark.empty() ? "" : "; ", file.remark,
         "); check --water-level or --water-classes and --classes, or give a trajectory by --trajectory"));
   };
   if (file.rays.empty()) {

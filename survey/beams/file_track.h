@@ -1,5 +1,5 @@
-// The track of the sensor for the points of one file: from trajectory files, compared with the rays that the returns
-// tell, or from these rays alone.
+// The track of the sensor for the points of one file: from trajectory files, compared with the rays of pairs of
+// returns, or from these rays alone.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "budget/beams/return_pair.h"
 #include "budget/air/sensor_motion.h"
+#include "budget/beams/return_pair.h"
 #include "budget/beams/sensor_track.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/local_frame.h"
@@ -20,7 +20,7 @@
 
 namespace albtpu::client {
 
-// What is known of a file before its track.
+// The inputs of a track.
 struct TrackedFile {
   std::string name;  // For messages.
   LocalFrame frame;
@@ -40,10 +40,10 @@ struct FileTrack {
 };
 
 // From the trajectory files of the plan that overlap the points in time and lie near them. Fails when they do not, and
-// when the rays disagree with the track; the message names the cause as far as it can be told.
+// when the rays disagree with the track; the message names the cause as far as it can be found.
 absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan);
 
-// From the rays, of water of index `index`. Fails when they are too few to tell where the sensor was.
+// From the rays, of water of index `index`. Fails when they are too few to determine the position of the sensor.
 absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index);
 
 }  // namespace albtpu::client

@@ -1,4 +1,4 @@
-// The track that the returns of a file tell, in the coordinates of its points.
+// The track that was fitted to the returns of a file, in the coordinates of its points.
 #pragma once
 
 #include <Eigen/Core>

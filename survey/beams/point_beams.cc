@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <span>
 
 #include "budget/beams/beam_columns.h"
 #include "sea/angle.h"

@@ -1,5 +1,5 @@
-// The beam of each point: incidence, azimuth, footprint, slant range and depth, and the pulses that a table is asked
-// about.
+// The beam of each point: incidence, azimuth, footprint, slant range and depth, and the pulses with which a table is
+// queried.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace albtpu::client {
 
-// The motion of the aircraft at each point; what a total needs beside the beam. NaN where there is no number.
+// The motion of the aircraft at each point, which a total needs beside the beam. NaN where there is no number.
 struct PointAircraft {
   std::vector<float> altitude;     // m above the water
   std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence

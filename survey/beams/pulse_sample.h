@@ -30,14 +30,14 @@ class PulseSample {
   void Add(const PulseReturn& pulse_return);
 
   // The returns of each pulse, side by side. Pulses of one return are left out, and those of equal times and channels
-  // that cannot be told apart: more returns than one of them has, or two of one number.
+  // that cannot be separated: more returns than one pulse has, or two of one number.
   std::vector<std::vector<PulseReturn>> Take();
 
  private:
   void Thin();
 
   std::size_t most_;
-  std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();  // Greatest hash of those that stay.
+  std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();  // Upper bound of the hashes that stay.
   std::vector<PulseReturn> returns_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace albtpu::client {
 
-// Element i of each column belongs to point i. Columns that the way to an incidence does not need may be empty.
+// Element i of each column belongs to point i. Columns that the source of the incidence does not need may be empty.
 struct SurveyPoints {
   std::vector<double> x, y;         // In the horizontal unit of the file: metres, feet or degrees.
   std::vector<double> z;            // In the vertical unit.

@@ -1,4 +1,4 @@
-// How the aircraft moved, by the files of its trajectory or by the track that the returns tell.
+// The motion of the aircraft, from the files of its trajectory or from a track fitted to the returns.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace albtpu::client {
 
 // Attitude, velocity and rates as the trajectory states them. Where it states no heading, the course; no velocity: that
-// of its positions. Standard deviations are those of the error files, or those that the trajectory states of itself.
+// of its positions. Standard deviations are those of the error files, or those of the trajectory file itself.
 class TrajectoryMotions final : public SensorMotions {
  public:
   TrajectoryMotions(TrajectoryTimeline timeline, TrajectoryErrors errors)

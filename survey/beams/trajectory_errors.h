@@ -1,4 +1,4 @@
-// The error files (SMRMSG) of a trajectory: how well it is known where a file has its points.
+// The error files (SMRMSG) of a trajectory: the uncertainty of a trajectory at the points of a file.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::strin
 
 // Medians over the part of the trajectory that has points, one standard deviation.
 struct TrajectoryPrecision {
-  double horizontal = 0, vertical = 0;  // m; horizontal: north and east together.
+  double horizontal = 0, vertical = 0;  // m; horizontal: the root of the sum of squares of north and east.
 };
 
 // nullopt where no error file has records at these times.

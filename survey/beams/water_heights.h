@@ -24,7 +24,7 @@ enum class SurfaceFrom : std::uint8_t {
 };
 inline constexpr std::size_t kSurfaceFromCount = 3;
 
-// How many points had their surface from where.
+// The number of points by the source of their surface.
 class SurfaceCounts {
  public:
   void Add(SurfaceFrom from) { ++counts_[static_cast<std::size_t>(from)]; }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFoot = 0.3048;                 // m, international; exact.
 constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, US survey; exact.
-constexpr double kLongestLeverArm = 100;         // m; no aircraft that surveys is longer.
+constexpr double kLongestLeverArm = 100;         // m; longer than any survey aircraft.
 
 std::array<double, 3> ParseLeverArm(const std::string& text) {
   const std::vector<std::string> items = absl::StrSplit(text, ',');
@@ -122,7 +122,7 @@ void AddWater(CLI::App& command, BeamOptions& options) {
           [&options](const std::string& text) {
             options.water_classes = ParseClasses("--water-classes", text);
           },
-          "The classes of returns from the water surface; they come before --water-level where there are any")
+          "The classes of returns from the water surface; they take precedence over --water-level")
       ->type_name("N,N")
       ->group(group::kSea);
   AddNumber(command, "--water-index", Sign::kNotNegative,
@@ -155,7 +155,7 @@ void AddBeamOptions(CLI::App& command, BeamOptions& options) {
     AddCoordinate(command, axis, options.fixed);
   }
   AddNumber(command, "--altitude", Sign::kNotNegative,
-            "Height of the aircraft above the water, where no trajectory tells it [m]", options.altitude)
+            "Height of the aircraft above the water, where no trajectory gives it [m]", options.altitude)
       ->group(group::kPulse);
   AddNumber(command, "--divergence", Sign::kNotNegative, "Divergence of the beam, full angle [mrad]",
             options.divergence)

@@ -9,7 +9,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
-#include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/sea_options.h"
@@ -48,7 +47,7 @@ nlohmann::ordered_json Parameters(const CsvOptions& options, const ToldSea& sea)
   return json;
 }
 
-// None where only the columns of each file tell.
+// None where only the columns of each file give it.
 std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
   if (fixed[PulseInput::kFootprint].has_value()) return false;
   if (fixed[PulseInput::kAltitude].has_value() || fixed[PulseInput::kDivergence].has_value()) return true;
@@ -97,7 +96,7 @@ absl::Status RunCsv(const CsvOptions& flags) {
   if (!total.ok()) return total.status();
   AnswerStyle style = options.style;
   if (total->has_value())
-    style.coverage = Coverage::kTwoSigma;  // Of the sea's share, which a total takes so.
+    style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", {".csv"}, options.files);
   if (!jobs.ok()) return jobs.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
@@ -118,11 +117,12 @@ absl::Status RunCsv(const CsvOptions& flags) {
     if (!csv.ok()) return csv.status();
     const std::string outcomes = csv->summary.outcomes().Text(WithoutAzimuth(source.table()));
     if (!total->has_value()) {
-      return AnnotatedFile{
-          std::move(csv->file),
-          Findings{
-              .input_bytes = csv->input_bytes, .input = answerer->SeaJson(), .answers = csv->summary.Json()},
-          absl::StrCat(" ", outcomes, notes)};
+      return AnnotatedFile{std::move(csv->file),
+                           Findings{.input_bytes = csv->input_bytes,
+                                    .input = answerer->SeaJson(),
+                                    .answers = csv->summary.Json(),
+                                    .tally = csv->summary.Tally()},
+                           absl::StrCat(" ", outcomes, notes)};
     }
     TotalPlan plan = (*total)->plan;
     if (csv->took_divergence) {
@@ -136,33 +136,28 @@ absl::Status RunCsv(const CsvOptions& flags) {
     return AnnotatedFile{std::move(csv->file),
                          Findings{.input_bytes = csv->input_bytes,
                                   .input = answerer->SeaJson(),
-                                  .answers = WithTotal(csv->summary.Json(), plan, csv->totals)},
+                                  .answers = WithTotal(csv->summary.Json(), plan, csv->totals),
+                                  .tally = csv->summary.Tally()},
                          text + notes};
-  };
-  RunVerdict verdict(
-      {.axes = source.table().axes, .water_level = {}, .footprint_from_beam = IsFootprintFromBeam(fixed)},
-      "pulse");
-  const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
-    const std::string problem = verdict.Add(job.output.string(), answers);
-    if (!problem.empty() && jobs->size() > 1) Note(problem);
   };
   nlohmann::ordered_json parameters = Parameters(options, *sea);
   if (total->has_value()) {
     parameters["details"] = (*total)->details;
     parameters["total"] = Parameters((*total)->plan);
   }
-  const absl::Status status = AnnotateFiles(*jobs,
-                                            {.command = "csv",
-                                             .records = "pulses",
-                                             .parameters = parameters,
-                                             .files = files,
-                                             .resume = options.files.resume,
-                                             .existing = options.existing,
-                                             .annotate = annotate,
-                                             .finished = judge},
-                                            source.table());
-  if (const std::string note = verdict.DeepNote(); !note.empty()) Note(note);
-  return status.ok() ? verdict.status() : status;
+  return AnnotateFiles(*jobs,
+                       {.command = "csv",
+                        .records = "pulses",
+                        .record = "pulse",
+                        .parameters = parameters,
+                        .files = files,
+                        .resume = options.files.resume,
+                        .existing = options.existing,
+                        .annotate = annotate,
+                        .cause = {.axes = source.table().axes,
+                                  .water_level = {},
+                                  .footprint_from_beam = IsFootprintFromBeam(fixed)}},
+                       source.table());
 }
 
 }  // namespace
@@ -182,9 +177,9 @@ void AddCsvCommand(CLI::App& program, Run& run) {
   AddSeaOptions(*command, options->sea);
   AddTotalOptions(*command, options->total);
   command
-      ->add_flag(
-          "--details", options->details,
-          "With a total also append the shares of air side and sea, and the covariance (north, east, down)")
+      ->add_flag("--details", options->details,
+                 "With a total also append the contributions of air side and sea, and the covariance (north, "
+                 "east, down)")
       ->group(group::kOutput);
   AddSourceOptions(*command, options->source);
   AddStyleOptions(*command, options->style);

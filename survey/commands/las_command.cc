@@ -7,7 +7,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "survey/answers/run_verdict.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/las_options.h"
 #include "survey/exit_status.h"
@@ -19,8 +18,8 @@ namespace {
 
 // The message for a file that has no point of the given classes.
 std::string ClassHint(const Job& job, const AnnotatedLas& annotated) {
-  const int least_class = *annotated.chosen_classes.begin();
-  const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < least_class;
+  const int min_class = *annotated.chosen_classes.begin();
+  const bool never = annotated.point_format < kFirstModernFormat && kLegacyClassMask < min_class;
   return absl::StrCat(
       job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
       never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ", kLegacyClassMask,
@@ -40,7 +39,7 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
   return json;
 }
 
-// The share of the sea, and the total beside it.
+// The contribution of the sea, and the total beside it.
 nlohmann::ordered_json AnswersJson(const LasAnnotation& annotation, const AnnotatedLas& annotated) {
   nlohmann::ordered_json json = annotated.summary.Json();
   if (!annotation.total.has_value()) return json;
@@ -85,7 +84,8 @@ class LasFiles {
         Findings{.input_bytes = annotated->input_bytes,
                  .input = InputJson(*annotated),
                  .output = {{"format", std::string(Name(annotated->output_kind))}},
-                 .answers = AnswersJson(annotation_, *annotated)},
+                 .answers = AnswersJson(annotation_, *annotated),
+                 .tally = annotated->summary.Tally()},
         absl::StrCat(
             "\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
             absl::StrJoin(annotated->notes, "",
@@ -125,7 +125,7 @@ absl::Status OpenFilesOf(BeamPlan& plan) {
   return ReadWaterLevels(*plan.water_level_file, PointTimeForm::kAdjustedStandard).status();
 }
 
-// What a mistake in the coordinates would be sought in.
+// The inputs in which a mistake in the coordinates is sought.
 CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
   CauseContext context{.axes = table.axes,
                        .water_level = {},
@@ -167,31 +167,26 @@ absl::Status RunLas(const LasOptions& flags) {
   }
   if (options.style.standard_errors) Note(answerer->ErrorNote());
   LasFiles files(options, *annotation, *kind, source);
-  RunVerdict verdict(ContextOf(annotation->plan, source.table()), "chosen point");
-  const auto judge = [&](const Job& job, const nlohmann::ordered_json& answers) {
-    const std::string problem = verdict.Add(job.output.string(), answers);
-    if (!problem.empty() && jobs->size() > 1) Note(problem);
-  };
   std::vector<std::string> read = FilesOf(annotation->plan);
   if (sea->file.has_value()) read.push_back(*sea->file);
   const absl::Status status = AnnotateFiles(
       *jobs,
       {.command = "las",
        .records = "points",
+       .record = "chosen point",
        .parameters = Parameters(*annotation, *sea, options.format),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
        .annotate = [&](const Job& job, FileProgress& progress) { return files.Annotate(job, progress); },
-       .finished = judge},
+       .cause = ContextOf(annotation->plan, source.table())},
       source.table());
   // With --resume, the files that were skipped may have such points.
   if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
     return absl::FailedPreconditionError(
         "no file has a point of the bathymetric classes; name them with --classes");
   }
-  if (const std::string note = verdict.DeepNote(); !note.empty()) Note(note);
-  return status.ok() ? verdict.status() : status;
+  return status;
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ void AddStyleOptions(CLI::App& command, AnswerStyle& style) {
           "--coverage",
           [&style](const std::string& text) {
             style.coverage = *FindCoverage(text);
-            style.coverage_told = true;
+            style.coverage_given = true;
           },
           "2sigma for twice the standard deviation (default), p95 for 95 %, 1sigma for one standard "
           "deviation")

@@ -1,7 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -42,7 +40,7 @@ struct PlanOptions {
   std::vector<double> winds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   std::vector<double> heights = {0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3};  // Of waves, m.
   std::string order = "1a", output;
-  bool json = false, no_page = false, kds_told = false;
+  bool json = false, no_page = false, kds_given = false;
   Existing existing = Existing::kKeep;
 };
 
@@ -58,7 +56,7 @@ absl::StatusOr<TotalPlan> PlanOf(const SurveyDescription& survey) {
                             .decided = true});
 }
 
-// In rising order, each once. What is too small for float32, in which tables are asked, is 0.
+// In ascending order, each once. Values too small for float32, the precision of table queries, become 0.
 std::vector<double> Rising(std::vector<double> values) {
   for (double& value : values)
     if (value < std::numeric_limits<float>::min()) value = 0;
@@ -67,7 +65,7 @@ std::vector<double> Rising(std::vector<double> values) {
   return values;
 }
 
-// The sea with waves that together have this significant height.
+// The sea with its waves scaled to this significant height in total.
 ToldSea WithHeight(ToldSea sea, double height) {
   double energy = 0;
   for (const JonswapWaves& each : sea.waves)
@@ -122,9 +120,10 @@ class Planner {
     if (sea_.has_waves() &&
         std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
       return UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
-    if (options_.kds_told && (!survey_.water.has_value() || survey_.water->without_column))
+    if (options_.kds_given && (!survey_.water.has_value() || survey_.water->without_column))
       return UsageError(
-          "plan: --kds has no effect without the share of the water column; describe the water in --survey");
+          "plan: --kds has no effect without the contribution of the water column; describe the water in "
+          "--survey");
     const absl::StatusOr<Sensor> sensor = FindSensor(*survey_.sensor->name);
     if (!sensor.ok()) return sensor.status();
     absl::StatusOr<TotalPlan> total = PlanOf(survey_);
@@ -191,7 +190,7 @@ class Planner {
     return absl::OkStatus();
   }
 
-  // Values that the table answers; others would look like conditions under which nothing can be reached.
+  // Keeps the values that the table covers; others would look like conditions under which no depth can be reached.
   absl::Status KeepWithin(AxisId axis, const std::string& flag, std::vector<double>& values) const {
     const AxisRange& range = source_table().axes[Index(axis)];
     const auto is_outside = [&](double value) { return value < range.first || value > range.last; };
@@ -306,12 +305,12 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   list("--altitudes", options->altitudes, "Others to compare [m]", 10, 5000, "m");
   list("--incidences", options->incidences, "Others to compare [degree]", 0, 60, "degree");
   list("--kds", options->kds, "Diffuse attenuations at 532 nm to compare [1/m]", 0.001, 10, "1/m");
-  list("--winds", options->winds, "Wind speeds, where no waves are told [m/s]", 0, 100, "m/s");
+  list("--winds", options->winds, "Wind speeds, where no waves are given [m/s]", 0, 100, "m/s");
   list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01,
        30, "m");
   std::vector<std::string> orders;
   for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
-  command->add_option("--order", options->order, "Order of S-44 that is asked for")
+  command->add_option("--order", options->order, "Required order of S-44")
       ->check(OneOf(orders))
       ->capture_default_str();
   command->add_option("--output", options->output, "Folder for plan.html and plan.json")
@@ -329,7 +328,7 @@ void AddPlanCommand(CLI::App& program, Run& run) {
           "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",
           "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
   command->callback([options, command, &run] {
-    options->kds_told = command->count("--kds") > 0;
+    options->kds_given = command->count("--kds") > 0;
     run = [options] { return RunPlan(*options); };
   });
 }

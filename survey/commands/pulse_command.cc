@@ -3,7 +3,6 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
@@ -30,7 +29,7 @@ struct PulseOptions {
   bool json = false;
 };
 
-// What of the inputs only a total takes, and a footprint from the divergence of the sensor.
+// Adds the inputs that only a total takes, and a footprint from the divergence of the sensor.
 absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, PulseTotal& total) {
   if (!inputs[PulseInput::kAltitude].has_value())
     return UsageError("pulse: --altitude is missing; a total needs the height of the sensor above the water");

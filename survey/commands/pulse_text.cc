@@ -51,7 +51,7 @@ std::string ValueText(Quantity quantity, const PulseAnswer& answer) {
   return absl::StrCat(text, ", ", CoverageText(style.coverage));
 }
 
-// What a limit leaves for all other sources of uncertainty.
+// The part of a limit that remains for all other sources of uncertainty.
 std::string RemainderText(double limit, double surface) {
   const std::optional<double> left = RemainingBudget(limit, surface);
   return left.has_value() ? absl::StrFormat("%.3f m", *left) : "exceeded";

@@ -56,7 +56,7 @@ std::string Row(const SeaFacts& facts, const SlopeFacts& slopes) {
   return row + "\n";
 }
 
-// The records that are asked for: all, or the one at --sea-time.
+// The selected records: all, or the one at --sea-time.
 std::vector<std::size_t> RecordsOf(const SeaTimeline& seas) {
   std::vector<std::size_t> records;
   if (!seas.by_time()) {
@@ -73,7 +73,7 @@ absl::Status WriteSea(const SeaTimeline& seas, const SeaCommandOptions& options)
   if (records.size() != 1) {
     return UsageError(
         absl::StrCat("sea: --output holds the table of one sea (there are ", records.size(), " records ",
-                     seas.by_time() ? SpanText(seas) : absl::StrCat("around ", *seas.told().time),
+                     seas.by_time() ? SpanText(seas) : absl::StrCat("around ", *seas.settings().time),
                      "); choose the time of a record by "
                      "--sea-time, such as ",
                      SeaTimeText(*seas.record(records.back()).time)));
@@ -86,11 +86,11 @@ absl::Status WriteSea(const SeaTimeline& seas, const SeaCommandOptions& options)
 absl::Status RunSea(const SeaCommandOptions& options) {
   const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
   if (!survey.ok()) return survey.status();
-  const absl::StatusOr<ToldSea> told = ToldBy(options.sea, *survey);
-  if (!told.ok()) return told.status();
-  if (!told->has_waves())
-    return UsageError("sea: no waves are told; give a FILE, --survey, or --hs and --tp");
-  const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(*told);
+  const absl::StatusOr<ToldSea> settings = ToldBy(options.sea, *survey);
+  if (!settings.ok()) return settings.status();
+  if (!settings->has_waves())
+    return UsageError("sea: no waves are given; give a FILE, --survey, or --hs and --tp");
+  const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(*settings);
   if (!seas.ok()) return seas.status();
   if (!options.output.empty()) {
     if (absl::Status status = WriteSea(*seas, options); !status.ok()) return status;

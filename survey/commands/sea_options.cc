@@ -205,9 +205,10 @@ std::string Answerer::SeaText() const {
 
 absl::Status Answerer::CheckOneTime(const std::string& command) const {
   if (timeline_ == nullptr || !timeline_->by_time()) return absl::OkStatus();
-  return UsageError(absl::StrCat(
-      command, ": ", *timeline_->told().file, " has ", timeline_->size(), " records ", SpanText(*timeline_),
-      " (pulses have no time here); choose one by --sea-time, such as ", SeaTimeText(timeline_->end())));
+  return UsageError(absl::StrCat(command, ": ", *timeline_->settings().file, " has ", timeline_->size(),
+                                 " records ", SpanText(*timeline_),
+                                 " (pulses have no time here); choose one by --sea-time, such as ",
+                                 SeaTimeText(timeline_->end())));
 }
 
 }  // namespace albtpu::client

@@ -100,7 +100,7 @@ absl::Status CheckTotalFlags(const TotalOptions& flags, const SurveyDescription&
 
 void TakeStyle(const SurveyDescription& survey, AnswerStyle& style) {
   if (!survey.output.has_value()) return;
-  if (!style.coverage_told && survey.output->coverage.has_value())
+  if (!style.coverage_given && survey.output->coverage.has_value())
     style.coverage = *FindCoverage(*survey.output->coverage);
   if (!style.s44_order.has_value() && survey.output->s44_order.has_value())
     style.s44_order = FindS44Order(*survey.output->s44_order);

@@ -92,7 +92,7 @@ void AddTrajectoryCommand(CLI::App& program, Run& run) {
   EndHelp(*command,
           "Prints times, records per second, gaps, heights, speed, median standard deviations, and how well "
           "stated\n"
-          "velocities agree with differences of position. The content of a file tells its format. An ASCII\n"
+          "velocities agree with differences of position. The format is detected by content. An ASCII\n"
           "trajectory has 15 columns: time, longitude, latitude, X, Y, Z, roll, pitch, heading, sigma X, Y, "
           "Z, sigma\n"
           "roll, pitch, heading (s, degree, m); or the 20 columns of POSPac's export.\n"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -27,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Medians are those of at most this many records, spread evenly over the file.
-constexpr std::size_t kMostSamples = 4096;
+constexpr std::size_t kMaxSamples = 4096;
 
 // NaN without finite values.
 double Median(std::vector<double> values) {
@@ -60,7 +59,7 @@ std::optional<TrajectorySigma> MedianSigma(
       &TrajectorySigma::velocity_north, &TrajectorySigma::velocity_east, &TrajectorySigma::velocity_down,
       &TrajectorySigma::roll,           &TrajectorySigma::pitch,         &TrajectorySigma::heading};
   std::array<std::vector<double>, kFields.size()> values;
-  const std::size_t samples = std::min(records, kMostSamples);
+  const std::size_t samples = std::min(records, kMaxSamples);
   for (std::size_t i = 0; i < samples; ++i) {
     const std::optional<TrajectorySigma> sigma = sigma_at(i * records / samples);
     if (!sigma.has_value()) return std::nullopt;
@@ -88,8 +87,8 @@ TrajectorySummary Summarize(const std::string& format, const Trajectory& traject
     least = std::min(least, height);
     greatest = std::max(greatest, height);
   }
-  summary.least_height = least;
-  summary.greatest_height = greatest;
+  summary.min_height = least;
+  summary.max_height = greatest;
   std::vector<double> speeds;
   for (const RecordPair& pair : SpreadPairs(trajectory)) {
     const VelocityPair velocity =
@@ -205,9 +204,9 @@ std::string TrajectoryText(const std::string& path, const TrajectorySummary& sum
   line("end", TimeText(summary.start, summary.end));
   line("duration", absl::StrFormat("%.3f s", summary.duration()));
   line("gaps", GapText(summary));
-  if (summary.least_height.has_value()) {
-    line("height", absl::StrFormat("%.2f m to %.2f m above the ellipsoid", *summary.least_height,
-                                   *summary.greatest_height));
+  if (summary.min_height.has_value()) {
+    line("height",
+         absl::StrFormat("%.2f m to %.2f m above the ellipsoid", *summary.min_height, *summary.max_height));
   }
   if (summary.speed.has_value()) line("speed", absl::StrFormat("%.1f m/s, median", *summary.speed));
   if (summary.sigma.has_value()) {
@@ -251,8 +250,8 @@ Json TrajectoryJson(const std::string& path, const absl::StatusOr<TrajectorySumm
   const bool gaps = summary->gaps.count > 0;
   json["longest_gap"] = gaps ? Json(summary->gaps.longest) : Json(nullptr);
   json["longest_gap_start"] = gaps ? Json(summary->gaps.longest_start) : Json(nullptr);
-  json["least_height"] = Number(summary->least_height);
-  json["greatest_height"] = Number(summary->greatest_height);
+  json["least_height"] = Number(summary->min_height);
+  json["greatest_height"] = Number(summary->max_height);
   json["speed"] = Number(summary->speed);
   const TrajectorySigma sigma = summary->sigma.value_or(TrajectorySigma{});
   json["sigma_north"] = Number(sigma.north);

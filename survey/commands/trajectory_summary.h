@@ -1,4 +1,4 @@
-// What a file of a trajectory, or of its errors, holds: for people and for programs.
+// A summary of a trajectory file, or of an error file: for people and for programs.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ struct TrajectorySummary {
   std::size_t records = 0;
   double start = 0, end = 0;  // s, as Trajectory::TimeAt.
   TimeGaps gaps;
-  std::optional<double> least_height, greatest_height;  // m above the ellipsoid.
-  std::optional<double> speed;                          // m/s over ground, median.
-  std::optional<TrajectorySigma> sigma;                 // Medians.
+  std::optional<double> min_height, max_height;  // m above the ellipsoid.
+  std::optional<double> speed;                   // m/s over ground, median.
+  std::optional<TrajectorySigma> sigma;          // Medians.
   // Rms difference of stated velocities from those of the positions, m/s. A file whose difference is too large is not
   // summarized but refused.
   std::optional<double> velocity_difference;
@@ -34,7 +34,7 @@ struct TrajectorySummary {
   double rate() const;  // Records per second, gaps left out.
 };
 
-// Opens the file, whose format is told by its content, checks it and looks at all records.
+// Opens the file, whose format is detected by its content, checks it and reads all records.
 absl::StatusOr<TrajectorySummary> SummarizeTrajectory(const std::filesystem::path& path);
 
 // Lines of names and values with units, below the path.

@@ -85,7 +85,7 @@ void NameGuilty(const std::vector<CrossPair>& pairs, const VarianceFit& fit, Cro
   for (const auto& [name, factor, differs, variance] :
        {std::tuple{"air", fit.air, fit.air_differs, air}, std::tuple{"sea", fit.sea, fit.sea_differs, sea}}) {
     const double explained = std::abs(std::pow(factor.value, 2) - 1) * variance;
-    if (!differs || std::abs(factor.value - 1) < kLeastDifference || explained <= most) continue;
+    if (!differs || std::abs(factor.value - 1) < kMinDifference || explained <= most) continue;
     check.guilty = name;
     most = explained;
   }
@@ -185,7 +185,7 @@ nlohmann::ordered_json CrossCheckJson(const CrossCheck& check) {
 
 std::string CrossCheckText(const CrossCheck& check) {
   const auto estimate = [](const Estimate& e) {
-    if (!std::isfinite(e.high)) return absl::StrFormat("%.2f (one place tells no interval)", e.value);
+    if (!std::isfinite(e.high)) return absl::StrFormat("%.2f (one place gives no interval)", e.value);
     return absl::StrFormat("%.2f (95 %%: %.2f to %.2f)", e.value, e.low, e.high);
   };
   std::string text = absl::StrFormat(
@@ -198,7 +198,7 @@ std::string CrossCheckText(const CrossCheck& check) {
       100 * check.air_in_variance, estimate(check.factor_air), estimate(check.factor_sea));
   if (check.guilty.empty()) {
     absl::StrAppendFormat(&text, "no share differs from its prediction by %.0f %% and beyond its interval\n",
-                          100 * kLeastDifference);
+                          100 * kMinDifference);
   } else {
     absl::StrAppend(&text, "the share that differs most from its prediction: ", check.guilty, "\n");
   }

@@ -1,8 +1,8 @@
 // Whether the predicted uncertainty explains the differences between overlapping lines.
 //
-// The difference of two neighbouring points of different lines has the variance of what does not cancel between lines:
-// the errors that are drawn anew for each pulse and for each line. What all lines share (offsets, index, datum) cancels
-// and is not tested here.
+// The difference of two neighbouring points of different lines contains the errors that do not cancel between lines:
+// those that are independent from pulse to pulse and from line to line. Errors common to all lines (offsets, index,
+// datum) cancel and are not tested here.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace albtpu::client {
 
-// Pairs of a range of depth, incidence or of the share of the sea in the predicted variance.
+// Pairs of a range of depth, incidence or the fraction of the sea in the predicted variance.
 struct CrossBand {
   double from = 0, to = 0;
   std::size_t pairs = 0;
@@ -25,7 +25,7 @@ struct CrossBand {
       0;  // Reduced: the mean of the squared differences in units of their predicted variance.
 };
 
-// What one line lies above another.
+// The height difference between two lines.
 struct LineDifference {
   int line_a = 0, line_b = 0;
   std::size_t pairs = 0;
@@ -40,20 +40,21 @@ struct CrossCheck {
   double chi_square_within_lines = 0;  // Without the mean difference of each two lines.
   double beyond_three_sigma = 0;       // A fraction; 0.0027 of normal errors.
   double median_factor = 0;            // The factor below by the median, which heavy tails do not raise.
-  Estimate factor;                  // By which the predicted standard deviations would have to be multiplied.
-  Estimate factor_air, factor_sea;  // The same of shares, from how differences depend on them.
-  std::string interval_units;       // What was left out in turn for them: "lines" or "places".
-  double air_in_variance = 0;       // The share of the air side in the predicted variance.
+  Estimate factor;                     // The factor that would make the predicted standard deviations fit.
+  Estimate factor_air,
+      factor_sea;  // The same for air side and sea, from how differences depend on their contributions.
+  std::string interval_units;  // The units left out in turn by the jackknife: "lines" or "places".
+  double air_in_variance = 0;  // The fraction of the air side in the predicted variance.
   double roughness = 0;  // m in a metre of distance, of the bottom around its plane; 0: not significant.
-  // "air" or "sea": the share whose factor differs from 1 by kLeastDifference and beyond an interval of 99 %, and that
-  // explains most; empty: none.
+  // "air" or "sea": the contribution whose factor differs from 1 by kMinDifference and beyond an interval of 99 %,
+  // and that explains most; empty: none.
   std::string guilty;
   std::vector<CrossBand> by_depth, by_incidence, by_sea_share;
   std::vector<LineDifference> lines;  // The largest difference first.
 };
 
 inline constexpr double kOutlier = 6;
-inline constexpr double kLeastDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
+inline constexpr double kMinDifference = 0.1;  // No decision depends on a tenth of a standard deviation.
 
 // Factors and roughness are those of FitVariance. `pairs` is reordered and loses its outliers. Absent without pairs.
 std::optional<CrossCheck> CheckPairs(std::vector<CrossPair>& pairs);

@@ -32,7 +32,7 @@ std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
   }
   const double determinant = sxx * syy - sxy * sxy;
   const std::size_t unknowns = lines.size() + 2;
-  // Points nearly in one straight line do not tell the slope across it.
+  // Points nearly in one straight line do not determine the slope across it.
   if (count <= unknowns || !(determinant > 1e-3 * sxx * syy)) return std::nullopt;
   Slope slope;
   slope.x = (syy * sxz - sxy * syz) / determinant;
@@ -99,7 +99,7 @@ void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs) {
   for (std::size_t begin = 0; begin < patch.points.size();) {
     std::size_t end = begin + 1;
     while (end < patch.points.size() && patch.points[end].line == patch.points[begin].line) ++end;
-    if (end - begin >= kLeastPoints) lines.push_back(Line(patch.points).subspan(begin, end - begin));
+    if (end - begin >= kMinPoints) lines.push_back(Line(patch.points).subspan(begin, end - begin));
     begin = end;
   }
   if (lines.size() < 2) return;

@@ -20,10 +20,10 @@ struct CrossPair {
   float variance() const { return variance_air + variance_sea + variance_slope; }
 };
 
-// Of each two lines that have at least `kLeastPoints` points each in `patch`, the two nearest points. The slope is that
-// of planes fitted to all points of the patch, one for each line, which are parallel: what a line has as a whole too
-// high does not tilt it. None where the points do not define a slope.
-inline constexpr std::size_t kLeastPoints = 3;
+// Of each two lines that have at least `kMinPoints` points each in `patch`, the two nearest points. The slope is that
+// of planes fitted to all points of the patch, one for each line, which are parallel: a constant height error of a line
+// does not tilt it. None where the points do not define a slope.
+inline constexpr std::size_t kMinPoints = 3;
 void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs);
 
 }  // namespace albtpu::client

@@ -56,7 +56,8 @@ absl::StatusOr<CrossCheck> CrossCheckOf(const std::vector<AnnotatedLasFile>& fil
   std::optional<CrossCheck> check = CheckPatches(patches);
   if (check.has_value()) return *std::move(check);
   return absl::FailedPreconditionError(
-      "no lines overlap (lines are told apart by the point source ID); give files of several lines over the "
+      "no lines overlap (lines are distinguished by the point source ID); give files of several lines over "
+      "the "
       "same bottom");
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace albtpu::client {
 namespace {
@@ -41,7 +40,7 @@ void OverlapPatches::Find(std::span<const AnnotatedPoint> points) {
     if (known.points == 0) known.first_line = line;
     known.overlap |= known.first_line != line;
     ++known.points;
-    if (known_.size() > kMostKnown) Thin();
+    if (known_.size() > kMaxKnown) Thin();
   }
 }
 
@@ -80,8 +79,8 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
     const double sea = variance(point.tvu_sea);
     const double own = variance(point.tvu_pulse) + variance(point.tvu_line);
     const double air = std::max(own - sea, 0.0);
-    // A point has the horizontal entries of the total alone. Pulse and line have nearly all of them: what a survey
-    // shares is mostly vertical. The correlations are those of the total.
+    // A point has the horizontal entries of the total alone. Nearly all of them belong to pulse and line: the errors
+    // common to a survey are mostly vertical. The correlations are those of the total.
     const float of_height =
         point.variance_z > 0 ? static_cast<float>(std::sqrt(std::min(own / point.variance_z, 1.0))) : 0;
     const double of_sea = point.thu > 0 ? std::min(std::pow(point.thu_sea / point.thu, 2), 1.0) : 0;

@@ -12,7 +12,7 @@
 
 namespace albtpu::client {
 
-// What a point tells about its line. Lengths in m, variances in m^2 at 1 sigma.
+// A point of a line in a patch. Lengths in m, variances in m^2 at 1 sigma.
 struct PatchPoint {
   float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
   float variance_air = 0;     // Of the height: of pulse and line, without the sea.
@@ -30,7 +30,7 @@ struct Patch {
 
 class OverlapPatches {
  public:
-  static constexpr std::size_t kMostKnown = 1'000'000;   // Patches.
+  static constexpr std::size_t kMaxKnown = 1'000'000;    // Patches.
   static constexpr std::size_t kMostPoints = 1'000'000;  // In patches that are filled.
 
   // `side` of a patch in m, above 0. Where memory would not suffice, a part of the patches is taken, chosen by their
@@ -40,7 +40,7 @@ class OverlapPatches {
 
   // The first reading. Points without a number do not count.
   void Find(std::span<const AnnotatedPoint> points);
-  // Between the readings: forgets the patches of one line, and takes a part of the others if they are too many.
+  // Between the readings: drops the patches of one line, and samples the others if they are too many.
   void Choose();
   // The second reading, of the same points.
   void Fill(std::span<const AnnotatedPoint> points);

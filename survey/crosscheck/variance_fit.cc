@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kTail95 = 0.025, kTail99 = 0.005;  // Of two-sided intervals.
 // Of a variance in weights: no pair may have none, or it would have all weight.
-constexpr double kLeastFactor = 0.05;
+constexpr double kMinFactor = 0.05;
 
-// What is fitted: air, sea, and the square of the distance.
+// The fitted terms: air, sea, and the square of the distance.
 enum Term : std::size_t { kAir, kSea, kRough, kTerms };
 using Terms = std::array<double, kTerms>;
 
@@ -47,7 +47,7 @@ double VarianceBy(const Terms& factors, const CrossPair& pair) {
   return variance;
 }
 
-// The terms `used` (bits) by Gaussian elimination; nullopt if they cannot be told apart.
+// The terms `used` (bits) by Gaussian elimination; nullopt if they are linearly dependent.
 std::optional<Terms> Solve(const Sums& sums, unsigned used) {
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < kTerms; ++i)
@@ -98,7 +98,7 @@ Terms SolveNonNegative(const Sums& sums, unsigned allowed) {
   return best;
 }
 
-// What is left out in turn: each unit has some of the cells, which are the pairs of two lines, or places.
+// The units of the jackknife: each has some of the cells, which are the pairs of two lines, or places.
 struct Units {
   std::string name;
   std::vector<std::size_t> cell_of = {};  // By pair.
@@ -116,7 +116,7 @@ Units UnitsOf(const std::vector<CrossPair>& pairs) {
       for (const int line : {pair.line_a, pair.line_b}) lines[line].push_back(cell->second);
     units.cell_of.push_back(cell->second);
   }
-  if (lines.size() >= kLeastLines) {
+  if (lines.size() >= kMinLines) {
     for (auto& [line, members] : lines) units.members.push_back(std::move(members));
   } else {
     units = {.name = "places"};
@@ -211,7 +211,7 @@ VarianceFit FitVariance(const std::vector<CrossPair>& pairs, double factor) {
   for (int pass = 0; pass < 3; ++pass) {
     cells = SumCells(pairs, units, factors, 0);
     factors = SolveNonNegative(Total(cells), kAll);
-    for (const Term term : {kAir, kSea}) factors[term] = std::max(factors[term], kLeastFactor * guess);
+    for (const Term term : {kAir, kSea}) factors[term] = std::max(factors[term], kMinFactor * guess);
   }
   const auto rough = [](const Sums& sums) { return SolveNonNegative(sums, kAll)[kRough]; };
   const std::vector<double> roughness = Jackknife(cells, units, rough);

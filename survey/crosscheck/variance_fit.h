@@ -1,4 +1,4 @@
-// How the squared differences of neighbouring points depend on what is predicted of them.
+// The dependence of the squared differences of neighbouring points on their predicted variances.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace albtpu::client {
 
-// With an interval: from 0 to infinity where there is nothing to tell it from.
+// With an interval: 0 to infinity where the data do not bound it.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 
@@ -28,7 +28,7 @@ double PredictedVariance(const CrossPair& pair, double rough);
 
 struct VarianceFit {
   Estimate factor;    // By which the predicted standard deviations would have to be multiplied; at 95 %.
-  Estimate air, sea;  // The same of shares.
+  Estimate air, sea;  // The same for air side and sea.
   bool air_differs = false, sea_differs = false;  // From 1, beyond intervals of 99 %.
   double rough = 0;                               // As above; 0 where it is not significant.
   std::string units;  // "lines" or "places": what was left out in turn for the intervals.
@@ -41,9 +41,9 @@ struct VarianceFit {
 // Differences are not independent: all those of a line share the errors of its trajectory, and neighbours share waves.
 // Intervals are therefore by jackknife (Efron and Tibshirani 1993, chapter 11) on the scale of k: each line is left out
 // in turn with all its pairs. Student's t has one degree of freedom less than there are lines. A pair is left out with
-// each of its two lines, which is on the safe side. Fewer than kLeastLines lines cannot tell an interval; then places
+// each of its two lines, which is on the safe side. Fewer than kMinLines lines do not give an interval; then places
 // are left out in turn.
-inline constexpr std::size_t kLeastLines = 5;
+inline constexpr std::size_t kMinLines = 5;
 VarianceFit FitVariance(const std::vector<CrossPair>& pairs, double factor);
 
 }  // namespace albtpu::client

@@ -1,6 +1,5 @@
 #include "survey/csv/csv_aircraft.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -100,7 +99,7 @@ void WaveHeightsOfWinds(const PulseBatch& pulses, const std::string& spectrum, s
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const float wind = winds.empty() ? 0 : winds[winds.size() == 1 ? 0 : i];
     const float fetch = fetches.empty() ? INFINITY : fetches[fetches.size() == 1 ? 0 : i];
-    // Seas of nearly the same wind and fetch share their height: it grows by the square of the wind.
+    // Winds that differ little use one spectrum: the height grows with the square of the wind.
     const std::pair<float, float> key = {
         std::round(wind * 50) / 50, std::isfinite(fetch) && fetch > 0 ? std::round(std::log(fetch) * 50) : 0};
     const auto [at, is_new] = known.try_emplace(key, 0.0f);

@@ -1,10 +1,7 @@
 #include "survey/csv/csv_annotation.h"
 
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
@@ -202,8 +199,8 @@ class BlockWork {
   AnswerSource source_;
 };
 
-// Flags of a total, which stand for an axis only where the other half of their way is known, too; with the divergence
-// of the sensor where a file says nothing of footprints.
+// The flags of a total. A flag determines an axis only together with the other input of its way. The divergence of the
+// sensor is used where a file has neither footprints nor divergences.
 FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const CsvRecord& header,
                     bool& took_divergence) {
   const auto is_known = [&](PulseInput input) {

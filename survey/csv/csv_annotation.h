@@ -24,10 +24,10 @@ struct AnnotatedCsv {
   OutputFile file;               // Complete; Commit() gives it its name.
 };
 
-// How totals are made of the pulses of a file.
+// The settings of totals for the pulses of a file.
 struct CsvTotal {
   TotalPlan plan;
-  bool details = false;             // Append shares and covariance, too.
+  bool details = false;             // Append contributions and covariance, too.
   std::optional<float> divergence;  // mrad: of a file that has neither footprints nor divergences
   std::string wind_spectrum;        // Of the table of winds, for the height of the waves; empty over any sea.
 };
@@ -48,8 +48,8 @@ absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
                                          const AnswerSource& source, FileProgress& progress,
                                          const CsvTotal* total = nullptr);
 
-// total_thu, total_tvu, with details shares and the covariance of the total (axes north, east, down), then the biases
-// and `outcome`; with an order of S-44 also `s44_order_met`.
+// total_thu, total_tvu, with details the contributions and the covariance of the total (axes north, east, down), then
+// the biases and `outcome`; with an order of S-44 also `s44_order_met`.
 std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& style);
 
 }  // namespace albtpu::client

@@ -98,7 +98,7 @@ absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const CsvReco
     if (fixed.any_sea && IsOfSea(*input)) {
       return absl::InvalidArgumentError(
           absl::StrCat(name, " line 1: column '", names[i],
-                       "' contradicts the sea that is told (which has a wind of its own); leave "
+                       "' contradicts the given sea (which has a wind of its own); leave "
                        "out the column, or the sea"));
     }
     column_of[Index(*input)] = i;

@@ -52,7 +52,7 @@ class CsvPulses {
   std::string name_;
   std::size_t column_count_ = 0;
   std::vector<Column> columns_;
-  PulseNumbers fixed_ = {};             // By flags; the others have any value.
+  PulseNumbers fixed_ = {};             // From flags; the others are unspecified.
   FixedCoordinates constant_;           // The same for all pulses.
   std::vector<AxisId> varying_;         // The others, without those that are absent from all pulses.
   std::vector<AxisId> from_other_way_;  // Of these, those that have no column of their own.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -17,7 +16,7 @@ namespace {
 
 constexpr std::size_t kBlockSize = 1 << 20;
 
-// How the record at the beginning of a text ends.
+// The end of the record at the beginning of a text.
 struct RecordEnd {
   std::size_t text_size = 0;      // Without the line ending.
   std::size_t size = 0;           // With it.

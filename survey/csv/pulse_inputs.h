@@ -1,4 +1,4 @@
-// What a pulse may be given by: the coordinates of the table, or what two of them follow from.
+// The inputs of a pulse: the coordinates of the table, or inputs from which two of them follow.
 #pragma once
 
 #include <array>
@@ -48,8 +48,8 @@ using FixedCoordinates = std::array<std::optional<float>, kAxisCount>;
 struct FixedInputs {
   FixedCoordinates coordinates = {};
   std::array<std::optional<float>, kBeamInputs.size()> beam = {};
-  // A sea is told, which has its own wind: pulses have no wind speed, fetch and direction of the wind, and an azimuth
-  // that stands for a beam_azimuth counts from north.
+  // A sea is given, which has its own wind: pulses have no wind speed, fetch and direction of the wind, and an azimuth
+  // from a beam_azimuth counts from north.
   bool any_sea = false;
 
   const std::optional<float>& operator[](PulseInput input) const {
@@ -60,7 +60,7 @@ struct FixedInputs {
   }
 };
 
-// Two inputs that stand for an axis.
+// Two inputs that replace an axis.
 struct OtherWay {
   AxisId axis;
   PulseInput first, second;
@@ -84,7 +84,7 @@ constexpr bool IsOfSea(PulseInput input) {
 // float32 becomes the largest float32 of its sign: it is out of domain, not infinite.
 float FromOtherWay(AxisId axis, const PulseNumbers& numbers);
 
-// Where the inputs come from.
+// The sources of the inputs.
 enum class InputOrigin { kNone, kColumn, kFlag };
 using InputOrigins = std::array<InputOrigin, kPulseInputCount>;
 

@@ -39,9 +39,17 @@ class Run {
       : run_(run),
         settings_{run.command, run.parameters, table, run.files},
         jobs_(jobs),
-        progress_(run.records, jobs.size(), TotalSize(jobs)) {}
+        progress_(run.records, jobs.size(), TotalSize(jobs)),
+        verdict_(run.cause, run.record) {}
 
   absl::Status operator()() {
+    const absl::Status status = AnnotateAll();
+    if (const std::string note = verdict_.DeepNote(); !note.empty()) Note(note);
+    return status.ok() ? verdict_.status() : status;
+  }
+
+ private:
+  absl::Status AnnotateAll() {
     for (const Job& job : jobs_) {
       progress_.NextFile();
       const absl::Status status = Annotate(job);
@@ -66,14 +74,19 @@ class Run {
                                                       "; see the messages above"));
   }
 
- private:
+  // Adds a file that was written or kept to the verdict. Its problem is the whole verdict if there is only one.
+  void Judge(const Job& job, const AnswerTally& answers) {
+    const std::string problem = verdict_.Add(job.output.string(), answers);
+    if (!problem.empty() && jobs_.size() > 1) Note(problem);
+  }
+
   absl::Status Annotate(const Job& job) {
     if (run_.resume) {
       const absl::Status complete = CheckComplete(settings_, job);
       if (complete.ok()) {
         progress_.Skip(SizeOf(job.input));
         Note(absl::StrCat(job.output.string(), ": is already complete; skipped"));
-        if (run_.finished) run_.finished(job, ReadAnswers(job));
+        Judge(job, AnswerTally::FromJson(ReadAnswers(job)));
         return complete;
       }
       if (!absl::IsNotFound(complete) && run_.existing == Existing::kKeep) {
@@ -92,7 +105,7 @@ class Run {
     absl::Status status = CommitWithSummary(std::move(annotated->file), job, summary, run_.existing);
     if (!status.ok()) return status;
     Note(absl::StrCat(job.output.string(), ":"), annotated->text);
-    if (run_.finished) run_.finished(job, annotated->findings.answers);
+    Judge(job, annotated->findings.tally);
     return status;
   }
 
@@ -106,6 +119,7 @@ class Run {
   OutputSettings settings_;
   const std::vector<Job>& jobs_;
   FileProgress progress_;
+  RunVerdict verdict_;
   std::size_t done_ = 0, failed_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
+#include "survey/answers/run_verdict.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
@@ -15,7 +16,7 @@
 
 namespace albtpu::client {
 
-// A complete output that only lacks its name.
+// A complete output without its final name.
 struct AnnotatedFile {
   OutputFile file;
   Findings findings;
@@ -24,19 +25,18 @@ struct AnnotatedFile {
 
 struct AnnotationRun {
   std::string command;                // "las"
-  std::string records;                // What the files contain, for the user: "points".
-  nlohmann::ordered_json parameters;  // Everything that decides the output, apart from input and table.
-  std::vector<std::filesystem::path> files = {};  // Which are read beside the inputs.
+  std::string records, record;        // What the files contain, for the user: "points", "chosen point".
+  nlohmann::ordered_json parameters;  // Everything that determines the output, apart from input and table.
+  std::vector<std::filesystem::path> files = {};  // Read beside the inputs.
   bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;
   std::function<absl::StatusOr<AnnotatedFile>(const Job&, FileProgress&)> annotate;
-  // If set, called with the answers in the summary of each output that was written or kept.
-  std::function<void(const Job&, const nlohmann::ordered_json& answers)> finished = {};
+  CauseContext cause = {};  // The inputs of the coordinates, for the verdict.
 };
 
 // Annotates every file with `table`, the table of the source, and writes a summary beside each output. When one file
 // fails, the others are still annotated. When the source fails, no further file can be annotated: the run ends, and
-// the message says how many files are done.
+// the message says how many files are done. Afterwards the run fails by its RunVerdict, and prints its notes.
 absl::Status AnnotateFiles(const std::vector<Job>& jobs, const AnnotationRun& run, const TableSummary& table);
 
 }  // namespace albtpu::client

@@ -1,4 +1,4 @@
-// Which files a command reads, and where each output goes.
+// The files that a command reads, and the place of each output.
 #pragma once
 
 #include <filesystem>

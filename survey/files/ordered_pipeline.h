@@ -16,7 +16,7 @@
 
 namespace albtpu::client {
 
-inline constexpr int kMostWorkers = 16;
+inline constexpr int kMaxWorkers = 16;
 
 // Runs to the end of the file or to the first failure, and returns the failure that comes first in the file. Memory
 // does not grow with the file: a few chunks, made by `make_chunk()`, are used again and again.
@@ -32,7 +32,7 @@ absl::Status RunOrderedPipeline(MakeChunk make_chunk, Read read, Work work, Writ
   };
   // More threads than cores, because some of them wait for the disk or a server; a limited number, because they all
   // share one disk and each has a chunk in memory.
-  const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMostWorkers) + 2;
+  const int threads = std::min(oneapi::tbb::info::default_concurrency(), kMaxWorkers) + 2;
   std::vector<Slot> slots;
   for (int i = 0; i < threads; ++i) slots.push_back({make_chunk(), absl::OkStatus()});
   std::size_t next = 0;

@@ -1,48 +1,12 @@
-// A file that appears under its name only when it is complete.
+// The output of a command: a file that appears under its name only when it is complete.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <string_view>
 
 #include "absl/status/status.h"
-#include "absl/status/statusor.h"
-#include "tables/file/table_io.h"
+#include "tables/file/atomic_file.h"
 
 namespace albtpu::client {
-
-// Writes to an unnamed file in the same folder, which the system removes when the program ends. Commit() syncs the
-// file and gives it its name. On file systems without unnamed files (NFS) it has a temporary name; unless it is
-// committed, the destructor removes it, or the signal handler when a signal (HUP, INT, TERM) ends the program.
-class OutputFile {
- public:
-  // AlreadyExists when `path` exists and is to be kept. FailedPrecondition when `path` is not a regular file: the
-  // rename would replace a device or a folder.
-  static absl::StatusOr<OutputFile> Create(const std::filesystem::path& path, Existing existing);
-
-  OutputFile(OutputFile&&) = default;
-  OutputFile& operator=(OutputFile&&) = default;
-
-  // Unbuffered: write large pieces.
-  absl::Status Write(std::string_view bytes);
-  // Replaces bytes that were written: what was not known then. Requires offset + bytes.size() <= size().
-  absl::Status WriteAt(std::uint64_t offset, std::string_view bytes);
-  std::uint64_t size() const;  // Bytes written.
-
-  // Brings all bytes to disk, so that only the renaming in Commit() can still fail.
-  absl::Status Sync();
-  absl::Status Commit();
-
- private:
-  struct Temporary;
-  explicit OutputFile(std::unique_ptr<Temporary> temporary);
-
-  struct Discard {
-    void operator()(Temporary* temporary) const;
-  };
-  std::unique_ptr<Temporary, Discard> temporary_;
-};
 
 // FailedPrecondition when `output` and `input` are the same file, under whatever names: the input would be replaced
 // while it is read.

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "tables/version.h"

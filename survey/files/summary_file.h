@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
+#include "survey/answers/answer_tally.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/output_file.h"
 
@@ -18,20 +19,21 @@ namespace albtpu::client {
 // OUT.las.json
 std::filesystem::path SummaryPath(const std::filesystem::path& output);
 
-// Everything that decides the output, apart from the input.
+// Everything that determines the output, apart from the input.
 struct OutputSettings {
   std::string command;                // "las"
   nlohmann::ordered_json parameters;  // The flags, including defaults.
   TableSummary table;
-  std::vector<std::filesystem::path> files = {};  // Which were read beside the input, such as trajectories.
+  std::vector<std::filesystem::path> files = {};  // Read beside the input, such as trajectories.
 };
 
-// What was read and answered.
+// The results of a run over one file.
 struct Findings {
   std::uint64_t input_bytes = 0;
   nlohmann::ordered_json input;                                      // Further properties: points, classes.
-  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // The same: format.
+  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // Further properties: format.
   nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
+  AnswerTally tally = {};                                            // The same, for the verdict.
 };
 
 // The text of a summary. It states no time, host or path, so that equal runs give equal bytes.

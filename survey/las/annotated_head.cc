@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <string_view>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "survey/laz/coding/little_endian.h"

@@ -15,8 +15,8 @@ namespace albtpu::client {
 
 struct LasHead {
   std::string bytes;                        // Up to the points.
-  std::optional<laz::LaszipRecord> record;  // How the points are compressed; LAZ only.
-  std::vector<ReplacedFloat> replaced;      // What takes its place in the records.
+  std::optional<laz::LaszipRecord> record;  // The compression of the points; LAZ only.
+  std::vector<ReplacedFloat> replaced;      // The floats that replace existing ones.
 };
 
 // The Extra Bytes record is extended in place, or added after the last VLR; then follows the LASzip record of LAZ. That
@@ -28,8 +28,8 @@ struct LasHead {
 absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
                                       LasKind kind, bool replace = false);
 
-// Whether a VLR or EVLR of LAZ is as true of the copy. The records of COPC, an index by the places of compressed
-// points, are not.
+// Whether a VLR or EVLR of LAZ is valid for the copy. The records of COPC, an index by the places of compressed points,
+// are not.
 bool IsKept(const LasReader& reader, const VlrEntry& entry);
 
 // Whether the file has records of COPC that are not kept.

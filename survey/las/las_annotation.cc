@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -35,7 +34,7 @@ struct Passing {
   std::string_view output() const { return encoder != nullptr ? compressed : chunk.annotated; }
 };
 
-// No sensor for bathymetry looks farther aside in the median of its points.
+// No bathymetric sensor has a larger median incidence.
 constexpr float kLargestMedianIncidence = 35;  // degree
 
 absl::Status CheckIncidence(const LasReader& reader, const LasAnnotation& annotation,
@@ -51,7 +50,7 @@ absl::Status CheckIncidence(const LasReader& reader, const LasAnnotation& annota
                       reader.name(), incidence.middle(), kLargestMedianIncidence));
 }
 
-// How much of the file was read for `points` points, compressed ones as if all were equally long.
+// The bytes of the file that hold `points` points; compressed points count as equally long.
 std::uint64_t BytesOf(const LasReader& reader, std::uint64_t points) {
   const LasHeader& header = reader.header();
   if (reader.kind() == LasKind::kLas) return header.offset_to_points + points * header.record_length;
@@ -66,7 +65,7 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
                             const LasBeams& beams, const AnswerSource& source, FileProgress::File& progress,
                             AnnotatedLas& annotated) {
   const LasHeader& header = reader.header();
-  const std::uint64_t most_records =
+  const std::uint64_t max_records =
       head.record.has_value()
           ? head.record->chunk_size
           : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
@@ -83,7 +82,7 @@ absl::Status AnnotatePoints(const LasReader& reader, const LasHead& head, const 
                        .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
                        .compressed = {}};
       },
-      [&](Passing& passing) { return runs->Next(most_records, passing.chunk); },
+      [&](Passing& passing) { return runs->Next(max_records, passing.chunk); },
       [&](Passing& passing) {
         absl::Status worked = work(passing.chunk);
         if (worked.ok() && passing.encoder != nullptr) {

@@ -33,9 +33,9 @@ struct AnnotatedLas {
   std::uint64_t sigmas_assumed = 0;
   SurfaceCounts surface;
   CoordinateSpread incidence;       // degree
-  nlohmann::ordered_json geometry;  // How the beams were found, for a summary.
-  nlohmann::ordered_json sea;       // The same of the sea; null where a table of winds answers.
-  std::vector<std::string> notes;   // The same for the user, a line each.
+  nlohmann::ordered_json geometry;  // The determination of the beams, for a summary.
+  nlohmann::ordered_json sea;       // The same for the sea; null where a table of winds answers.
+  std::vector<std::string> notes;   // For the user, a line each.
   OutputFile file;                  // Complete; Commit() gives it its name.
 };
 

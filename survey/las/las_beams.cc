@@ -1,7 +1,6 @@
 #include "survey/las/las_beams.h"
 
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -29,7 +28,7 @@ absl::Status CheckTimes(const LasReader& reader, const LasAnnotation& annotation
   if (GoesByTime(annotation)) {
     return absl::FailedPreconditionError(absl::StrCat(
         reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
-        "), so that the records of the sea cannot be told apart; choose one of them by --sea-time"));
+        "), so that no record of the sea can be assigned to them; choose one of them by --sea-time"));
   }
   if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
   return absl::FailedPreconditionError(absl::StrCat(
@@ -70,7 +69,7 @@ LasBeams::LasBeams() : json_(std::make_unique<nlohmann::ordered_json>(nlohmann::
 LasBeams::~LasBeams() = default;
 
 absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water) {
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a position.
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
   const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
   const bool all_zero = file.times.span.first == 0 && file.times.span.last == 0;
   if (all_zero || !(file.times.span.first <= file.times.span.last)) {
@@ -100,9 +99,9 @@ absl::Status LasBeams::FindSeas(const LasReader& reader, const SeaTimeline& seas
     records_ = {seas.fixed().first, seas.fixed().second};
     return absl::OkStatus();
   }
-  if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a sea.
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
   const absl::StatusOr<double> utc =
-      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.told().file);
+      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
   if (!utc.ok()) return utc.status();
   utc_ = *utc;
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);

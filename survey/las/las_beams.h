@@ -1,4 +1,4 @@
-// Where the beams of a LAS file went: everything that is found out about the file before its points are annotated.
+// The beams of a LAS file: everything that is determined before its points are annotated.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ class LasBeams {
 
  private:
   LasBeams();
-  void NoteLevel();  // Where most returns from the surface lie far from the level.
+  void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
   absl::Status FindSeas(const LasReader& reader, const SeaTimeline& seas);
   absl::Status FindTrack(const LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
 

@@ -185,7 +185,7 @@ void LasChunkWork::Replace(Chunk& chunk) const {
         Store(value, place);
       }
     }
-    // What is new closes up, and the record moves to where it begins among shorter ones.
+    // The new values close up, and the record moves to its place among the shorter records.
     char* end = values;
     auto next = replaced_.begin();
     for (std::size_t k = 0; k < no_data_.size(); ++k) {

@@ -26,13 +26,13 @@
 namespace albtpu::client {
 
 struct LasAnnotation {
-  std::optional<std::set<int>> classes;  // Of bottom seen through water; absent: DefaultClass of the format.
+  std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClass of the format.
   BeamPlan plan;
   std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
   bool details = false;                     // Append the geometry of each beam, too.
   bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
   AnswerStyle style;
-  std::optional<TotalPlan> total = {};  // Absent: the share of the sea surface alone.
+  std::optional<TotalPlan> total = {};  // Absent: the contribution of the sea surface alone.
 
   std::set<int> ClassesOf(int point_format) const;
   Appended appended() const {
@@ -41,11 +41,11 @@ struct LasAnnotation {
             .water = total.has_value() && total->water.share != nullptr,
             .details = details};
   }
-  // How the share of the sea is asked: beside a total at 2 sigma.
+  // How the sea is queried: for a total at 2 sigma.
   AnswerStyle style_of_sea() const;
 };
 
-// Everything that the chunks of a file have in common.
+// The settings of all chunks of a file.
 class LasChunkWork {
  public:
   // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where
@@ -54,7 +54,7 @@ class LasChunkWork {
                const std::vector<ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
                bool pulse_surface, const AnswerSource& source);
 
-  // Memory that is reused from chunk to chunk. The input is a run of points; those that are not its own are only
+  // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
   // searched for returns of the same pulse.
   struct Chunk : LasRun {
     explicit Chunk(AnswerStyle style) : summary(style) {}

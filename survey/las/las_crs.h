@@ -1,4 +1,4 @@
-// What the records of a LAS file state about its coordinate system, and whether it is in feet.
+// The coordinate system that the records of a LAS file state, and whether it is in feet.
 #pragma once
 
 #include <optional>

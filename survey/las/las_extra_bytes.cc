@@ -26,7 +26,7 @@ constexpr std::size_t kNoDataField = 40;
 constexpr std::size_t kDescriptionField = 160;
 
 constexpr std::uint8_t kUndocumented = 0;  // The options field has the number of bytes.
-constexpr std::size_t kMostUndocumented = 255;
+constexpr std::size_t kMaxUndocumented = 255;
 constexpr std::uint8_t kFloat = 9, kDouble = 10;
 constexpr std::uint8_t kNoDataIsSet = 0x01;
 
@@ -141,7 +141,8 @@ std::vector<AppendedFloat> AppendedFloats(const Appended& appended) {
       floats.push_back({name, length, kNoNumber});
     for (const std::string_view name : {"thu_water", "tvu_water"})
       floats.push_back({name, appended.water ? length : "left out", kNoNumber});
-    for (const std::string_view name : {"tvu_pulse", "tvu_line"})  // What is drawn anew for each of them.
+    for (const std::string_view name :
+         {"tvu_pulse", "tvu_line"})  // Errors that are independent between them.
       floats.push_back({name, length, kNoNumber});
     floats.push_back({"bias_along_beam", "too far along the beam, m", kNan});
     floats.push_back({"bias_vertical", "too shallow, m", kNan});
@@ -193,7 +194,7 @@ absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, st
   if (known->bytes > extra_bytes) return MoreThanExist(name, known->bytes, extra_bytes);
   FreeNames free_names(known->names);
   for (std::size_t left = extra_bytes - known->bytes; left > 0;) {
-    const std::size_t bytes = std::min(left, kMostUndocumented);
+    const std::size_t bytes = std::min(left, kMaxUndocumented);
     record += Entry(kUndocumented, static_cast<std::uint8_t>(bytes), free_names.Next(), "");
     left -= bytes;
   }

@@ -20,12 +20,13 @@ struct AppendedFloat {
 
 inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of angles is NaN.
 
-// What is appended to each record.
+// The floats that are appended to each record.
 struct Appended {
   Coverage coverage = Coverage::kTwoSigma;
-  bool total = false;    // The total uncertainty, not the share of the sea surface alone.
-  bool water = false;    // The total has a share of the water column.
-  bool details = false;  // The geometry of each beam, too; of a total also its shares, biases and covariance.
+  bool total = false;  // The total uncertainty, not the contribution of the sea surface alone.
+  bool water = false;  // The total includes the water column.
+  bool details =
+      false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
 };
 
 // In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount

@@ -1,6 +1,5 @@
 #include "survey/las/las_header.h"
 
-#include <array>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
@@ -85,10 +84,10 @@ absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
 }
 
 absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
-  const std::size_t least_header = kHeaderSizes[header.version_minor];
-  if (header.header_size < least_header) {
+  const std::size_t min_header = kHeaderSizes[header.version_minor];
+  if (header.header_size < min_header) {
     return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.",
-                                      header.version_minor, " needs ", least_header, " bytes or more"));
+                                      header.version_minor, " needs ", min_header, " bytes or more"));
   }
   if (header.offset_to_points < header.header_size) {
     return Invalid(
@@ -144,8 +143,8 @@ absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_vi
   if (absl::Status status = CheckVersion(name, bytes); !status.ok()) return status;
   LasHeader header;
   header.version_minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
-  const std::size_t least_header = kHeaderSizes[header.version_minor];
-  if (bytes.size() < least_header) {
+  const std::size_t min_header = kHeaderSizes[header.version_minor];
+  if (bytes.size() < min_header) {
     return Truncated(
         name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
   }

@@ -1,6 +1,5 @@
 #include "survey/las/las_place.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -1,4 +1,4 @@
-// Where a LAS file lies: its coordinate system, its units, and the local frame in which its points are compared.
+// The place of a LAS file: its coordinate system, its units, and the local frame in which its points are compared.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace albtpu::client {
 struct LasPlace {
   LocalFrame frame;                     // Around the middle of the file.
   std::shared_ptr<const MapFrame> map;  // Null if the coordinate system is not known and need not be.
-  std::string remark;  // What the user should know about the coordinate system; may be empty.
+  std::string remark;                   // For the user, about the coordinate system; may be empty.
 };
 
 // The vertical unit is that of the plan, or that of the coordinate system, or metres. Fails when the coordinate system

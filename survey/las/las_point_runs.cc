@@ -39,7 +39,7 @@ absl::StatusOr<bool> LasPointRuns::Next(std::uint64_t most, LasRun& run) {
 
 absl::Status LasPointRuns::ReadLaz(std::uint64_t begin, std::uint64_t end, LasRun& run) {
   const std::size_t length = reader_.header().record_length;
-  // `last_` ends where the decoding has come to, and begins at `begin`.
+  // `last_` begins at `begin` and ends at the last decoded point.
   std::memcpy(run.records.data(), last_.data(), last_.size());
   const absl::Status status = laz_->Read(std::span<char>(run.records).subspan(last_.size()));
   if (!status.ok()) return reader_.Named(status);

@@ -12,7 +12,7 @@
 
 namespace albtpu::client {
 
-// Some points, and others around them that are needed to understand them.
+// A run of points, and neighbours that are needed to interpret them.
 struct LasRun {
   std::uint64_t first = 0;          // Number in the file of the first own point.
   std::size_t before = 0, own = 0;  // Points.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "survey/beams/pair_sample.h"
@@ -17,11 +16,11 @@ namespace albtpu::client {
 namespace {
 
 constexpr std::size_t kChunkBytes = 4 << 20;
-constexpr double kLeastSeparation = 1;  // m; nearer returns tell the direction badly.
+constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
 // ASPRS, LAS 1.4 R15, tables 8 and 17.
 constexpr int kLowNoise = 7, kHighNoise = 18;
 
-// What one chunk contributes.
+// The contribution of one chunk.
 struct Part {
   LasRun run;  // Some records of the next chunk follow.
   std::vector<double> times;
@@ -58,7 +57,7 @@ class PrescanWork {
     const bool a_is_upper = a.position.z() >= b.position.z();
     const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
     if (!lower.chosen || upper.position.z() > highest_) return;
-    if ((upper.position - lower.position).norm() < kLeastSeparation) return;
+    if ((upper.position - lower.position).norm() < kMinSeparation) return;
     pairs.push_back({a.time, upper.position, lower.position});
   }
 
@@ -194,7 +193,7 @@ void Merge(const Part& part, LasPrescan& prescan) {
 
 absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& frame,
                                    const LasPrescanOptions& options) {
-  const std::uint64_t most_records = std::max<std::uint64_t>(kChunkBytes / reader.header().record_length, 1);
+  const std::uint64_t max_records = std::max<std::uint64_t>(kChunkBytes / reader.header().record_length, 1);
   LasPrescan prescan;
   prescan.least.fill(std::numeric_limits<double>::infinity());
   prescan.greatest.fill(-std::numeric_limits<double>::infinity());
@@ -205,7 +204,7 @@ absl::StatusOr<LasPrescan> Prescan(const LasReader& reader, const LocalFrame& fr
   absl::StatusOr<LasPointRuns> runs = LasPointRuns::Open(reader, 0, kPulseReach, laz::WantedFields::kReturns);
   if (!runs.ok()) return runs.status();
   const absl::Status status = RunOrderedPipeline(
-      [] { return Part(); }, [&](Part& part) { return runs->Next(most_records, part.run); }, work,
+      [] { return Part(); }, [&](Part& part) { return runs->Next(max_records, part.run); }, work,
       [&](Part& part) {
         Merge(part, prescan);
         surface.Merge(std::move(part.surface));

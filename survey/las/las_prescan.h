@@ -1,5 +1,5 @@
-// A first pass over the points of a LAS file, for what must be known before the first of them can be annotated: the
-// water surface, where and when the points were measured, and pairs of returns that tell the direction of a beam.
+// A first pass over the points of a LAS file, which collects what annotation needs in advance: the water surface, the
+// extent of the points in space and time, and pairs of returns from which the direction of a beam follows.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct LasPrescanOptions {
 // Records in a file in order of time that belong to one pulse lie at most this far apart.
 inline constexpr std::size_t kPulseReach = 16;
 
-// m; waves of Hs 6 m have three returns in four nearer to the level than this.
+// m; in waves of Hs 6 m, three returns in four are nearer to the level than this.
 inline constexpr double kLevelTolerance = 2;
 
 struct LasPrescan {

@@ -36,7 +36,7 @@ class LasReader {
 
   // The file for other readers, which begin no message with its name.
   const laz::ByteSource& bytes() const { return *file_; }
-  // Where the compressed points lie. Requires LAZ.
+  // The place of the compressed points. Requires LAZ.
   const laz::LazExtent& extent() const { return *extent_; }
 
   // `size` bytes at `offset`, which must lie in the file. Any number of threads may read at a time.

@@ -29,8 +29,7 @@ class LasWriter {
   // The records of `points` points; of LAZ, a compressed chunk of them.
   absl::Status Write(std::string_view bytes, std::uint64_t points);
 
-  // Copies what follows the points in the input, but for EVLRs that are not kept, and completes what the head states of
-  // the file.
+  // Copies what follows the points in the input, but for EVLRs that are not kept, and completes the head.
   absl::Status End(std::uint64_t tail_begin, std::uint64_t tail_end);
 
  private:

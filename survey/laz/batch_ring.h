@@ -19,7 +19,7 @@ class BatchRing {
  public:
   struct Batch {
     std::vector<char> records;
-    absl::Status status;  // Not OK: the reading ends here.
+    absl::Status status;  // Not OK: reading ends here.
   };
 
   explicit BatchRing(std::size_t slots) : slots_(slots) {}

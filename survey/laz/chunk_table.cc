@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "survey/laz/coding/arithmetic_decoder.h"
 #include "survey/laz/coding/arithmetic_encoder.h"
@@ -63,7 +62,7 @@ absl::Status Broken(const Pieces&... problem) {
   return Damaged("its chunk table ", problem...);
 }
 
-// A table, of which only the places are known. NotFound: there is none.
+// Finds the table without reading it. NotFound: there is none.
 absl::StatusOr<ChunkTable> FindTable(const ByteSource& file, std::uint64_t points_begin) {
   const std::uint64_t first = points_begin + kTableOffsetSize, size = file.size();
   const absl::StatusOr<std::uint64_t> stated = ReadNumber<std::uint64_t>(file, points_begin);
@@ -86,7 +85,7 @@ absl::StatusOr<ChunkTable> FindTable(const ByteSource& file, std::uint64_t point
   return absl::NotFoundError("the file was written to a pipe, without the offset of its chunk table");
 }
 
-// Requires sizes that are not more than the points and the bytes that are left.
+// Requires that no more points and bytes are stated than are left.
 absl::StatusOr<std::vector<Chunk>> ReadChunks(ArithmeticDecoder& decoder, const LaszipRecord& record,
                                               std::uint32_t count, std::uint64_t begin, std::uint64_t end,
                                               std::uint64_t point_count) {
@@ -108,7 +107,7 @@ absl::StatusOr<std::vector<Chunk>> ReadChunks(ArithmeticDecoder& decoder, const 
       return Broken("states more bytes than lie before it (", end - begin, ") up to chunk ", i + 1, " of ",
                     count);
     }
-    // Each chunk begins with a record as it is. Some writers end with a chunk without points.
+    // Each chunk begins with an uncompressed record. Some writers end with a chunk without points.
     if ((sizes.bytes < record.record_length()) != (points == 0)) {
       return Broken("states ", sizes.bytes, " bytes for chunk ", i + 1, " of ", count, " (expected ",
                     points == 0 ? "fewer than " : "at least ", record.record_length(), " for its ", points,
@@ -144,7 +143,7 @@ absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRe
   if (*version != 0) return Broken("states version ", *version, " (expected 0)");
   const absl::StatusOr<std::uint32_t> count = ReadNumber<std::uint32_t>(file, table.begin + 4);
   if (!count.ok()) return count.status();
-  // Each chunk begins with a record as it is, which bounds the memory by the size of the file, too. A file without
+  // Each chunk begins with an uncompressed record, so the size of the file bounds the memory, too. A file without
   // points may have a chunk without points.
   const std::uint64_t most = point_count == 0 ? 1 : (table.begin - first) / record.record_length();
   if (*count > most) {

@@ -1,4 +1,4 @@
-// Where the chunks of a LAZ file lie: the table after its points.
+// The places of the chunks of a LAZ file: the table after its points.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ inline constexpr std::uint64_t kTableOffsetSize = 8;
 //
 // NotFound: the file has no table; its chunks must be read one after the other. DataLoss: the table contradicts the
 // file, its chunks do not lie one after the other between the points' begin and the table, or do not have `point_count`
-// points in all. Memory is in proportion to the file, whatever the table states.
+// points in all. Memory is proportional to the size of the file, whatever the table states.
 absl::StatusOr<ChunkTable> ReadChunkTable(const ByteSource& file, const LaszipRecord& record,
                                           std::uint64_t points_begin, std::uint64_t point_count);
 

@@ -17,19 +17,18 @@
 #include "survey/laz/batch_ring.h"
 #include "survey/laz/coding/damage.h"
 #include "survey/laz/coding/little_endian.h"
-#include "survey/laz/items/chunk_decoder.h"
 
 namespace albtpu::laz {
 namespace {
 
-constexpr int kMostThreads = 16;
+constexpr int kMaxThreads = 16;
 // The largest batch.
 constexpr std::size_t kBatchBytes = 4 << 20;
 constexpr std::size_t kBatchPoints = kCommonChunkSize;
 
-// Models take 1.3 kB for each byte of a record in each scanner channel that has points. All threads together have those
-// of records of so many bytes, which one thread alone may need.
-constexpr std::size_t kMostRecordBytes = 1 << 16;
+// Models take 1.3 kB for each byte of a record in each scanner channel that has points. The models of all threads are
+// bounded by those of records of this many bytes, which a single thread may need.
+constexpr std::size_t kMaxRecordBytes = 1 << 16;
 
 // The points of a chunk, and the number of the first of its batches.
 struct ChunkTask {
@@ -38,8 +37,9 @@ struct ChunkTask {
   std::uint64_t first_batch = 0;
 };
 
-// Without a chunk table only the header tells where the points end. A program that was interrupted leaves points behind
-// `end` that it has not counted; a table whose offset is lost may also lie there: version 0, and the number of chunks.
+// Without a chunk table only the header states where the points end. A program that was interrupted leaves points
+// behind `end` that it has not counted; a table whose offset is lost may also lie there: version 0, and the number of
+// chunks.
 absl::Status CheckAllCounted(const ByteSource& file, const LazExtent& extent, std::uint64_t end) {
   const std::uint64_t more = extent.points_end - end, chunk_size = extent.record.chunk_size;
   if (more < extent.record.record_length()) return absl::OkStatus();
@@ -155,7 +155,7 @@ class LazPoints::Impl {
       }
       if (status.ok() && left == 0) status = decoder->End(table_.has_value());
       batch->status = InChunk(task.number, status);
-      // Before the batch is filled: whoever has read all points may ask for the end.
+      // Before the batch is filled, because after the last point End() may be called at once.
       if (!status.ok()) Fail();
       if (status.ok() && left == 0 && !table_.has_value())
         batch->status = EndWithoutTable(decoder->position());
@@ -165,7 +165,7 @@ class LazPoints::Impl {
     return true;
   }
 
-  // What does not fit into the memory ends the reading, as damage does.
+  // Points that do not fit into the memory end the reading, as damage does.
   template <typename Step>
   static absl::Status WithMemory(const Step& step) {
     try {
@@ -216,12 +216,11 @@ namespace {
 std::size_t ThreadCount(int wanted, const std::optional<ChunkTable>& table, const LazExtent& extent) {
   if (extent.point_count == 0) return 0;
   if (!table.has_value()) return 1;
-  const std::size_t most =
-      wanted > 0 ? static_cast<std::size_t>(wanted)
-                 : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
-  const std::size_t most_in_memory =
-      std::max<std::size_t>(kMostRecordBytes / extent.record.record_length(), 1);
-  return std::min({most, most_in_memory, table->chunks.size()});
+  const std::size_t most = wanted > 0
+                               ? static_cast<std::size_t>(wanted)
+                               : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
+  const std::size_t max_in_memory = std::max<std::size_t>(kMaxRecordBytes / extent.record.record_length(), 1);
+  return std::min({most, max_in_memory, table->chunks.size()});
 }
 
 }  // namespace

@@ -14,12 +14,12 @@
 
 namespace albtpu::laz {
 
-// Where the points of a file lie, and how they are compressed.
+// The place of the points in a file, and their compression.
 struct LazExtent {
   LaszipRecord record;
   std::uint64_t points_begin = 0;  // The header's offset to the points.
   std::uint64_t point_count = 0;
-  std::uint64_t points_end = 0;  // Where other data begins at the latest: EVLRs, or the end of the file.
+  std::uint64_t points_end = 0;  // Upper bound of the end: the begin of EVLRs, or the end of the file.
 };
 
 class LazPoints {
@@ -41,8 +41,7 @@ class LazPoints {
   // first failure in the order of the file ends the reading. The messages name the chunk.
   absl::Status Read(std::span<char> records);
 
-  // The end of the points and of what belongs to them (the chunk table). For a file without table it is known once all
-  // points are read.
+  // The end of the points and their chunk table. For a file without table it is known once all points are read.
   std::uint64_t end() const;
 
   // The end of what follows them: of the file, but for the offset of the chunk table that files which were written to a

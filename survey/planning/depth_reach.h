@@ -13,7 +13,7 @@
 
 namespace albtpu::client {
 
-// The beam of a flight over one sea. The direction of the beam against the wind is open: the worse one counts.
+// The beam of a flight over one sea. The direction of the beam relative to the wind is not known: the worse one counts.
 struct PlannedBeam {
   double altitude = 0;   // m above the water
   double incidence = 0;  // degree
@@ -25,7 +25,7 @@ struct PlannedBeam {
 // m: footprint of a beam with this full angle of divergence in mrad.
 double FootprintAt(double altitude, double incidence, double divergence);
 
-// Why an order is met no deeper.
+// What limits the depth to which an order is met.
 enum class ReachLimit { kThu, kTvu, kTable, kWater };
 inline constexpr std::array<std::string_view, 4> kReachLimitNames = {"thu", "tvu", "table", "water"};
 
@@ -33,7 +33,7 @@ struct Reach {
   double depth = 0;  // m: the order is met at all depths from 0 to here.
   ReachLimit limit = ReachLimit::kTvu;
 
-  // Otherwise the tables do not know the beam or the sea, whatever the depth.
+  // Otherwise no table covers the beam or the sea at any depth.
   bool is_known() const { return depth > 0 || limit == ReachLimit::kThu || limit == ReachLimit::kTvu; }
 };
 using Reaches = std::array<Reach, kS44Orders.size()>;

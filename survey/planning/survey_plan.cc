@@ -41,7 +41,7 @@ Json AxisJson(const PlannedAxis& axis) {
 
 }  // namespace
 
-std::optional<double> GreatestSea(const SurveyPlan& plan, S44Order order, double depth) {
+std::optional<double> HighestSea(const SurveyPlan& plan, S44Order order, double depth) {
   std::optional<double> greatest;
   for (std::size_t i = 0; i < plan.seas.size() && Of(plan.planned[i], order).depth >= depth; ++i)
     greatest = plan.seas[i];
@@ -69,7 +69,7 @@ Json PlanJson(const SurveyPlan& plan) {
   for (const double depth : kAskedDepths) {
     Json of_depth = {{"depth", depth}};
     for (const S44Order order : kS44Orders) {
-      const std::optional<double> sea = GreatestSea(plan, order, depth);
+      const std::optional<double> sea = HighestSea(plan, order, depth);
       of_depth[std::string(Name(order))] = sea.has_value() ? Json(*sea) : Json();
     }
     json["greatest_sea"].push_back(std::move(of_depth));
@@ -102,7 +102,7 @@ std::string PlanText(const SurveyPlan& plan) {
   }
   absl::StrAppend(&text, "greatest ", sea, " for order ", std::string(Name(plan.order)), ":");
   for (const double depth : kAskedDepths) {
-    const std::optional<double> greatest = GreatestSea(plan, plan.order, depth);
+    const std::optional<double> greatest = HighestSea(plan, plan.order, depth);
     absl::StrAppend(&text, depth == kAskedDepths.front() ? " " : ", ",
                     greatest.has_value() ? absl::StrCat(*greatest, " ", plan.sea_unit) : "none", " to ",
                     depth, " m");

@@ -250,7 +250,7 @@ absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts,
   const int dominant = codes("dominant_share", "largest share of the vertical variance",
                              static_cast<std::uint8_t>(kVerticalShareNames.size()), "air sea water datum");
   const int gap =
-      codes("gap", "why points have no uncertainty, the gravest reason", 4,
+      codes("gap", "why points have no uncertainty, the most severe reason", 4,
             "above_the_water outside_the_table_or_no_sea_or_water no_water_surface no_trajectory");
   file.EndDefinitions();
   file.Put(ys, Centres(grid.first_row(), rows, grid.cell(), true));

@@ -23,7 +23,7 @@ struct GridFileFacts {
 //   points points_without_number                int
 //   order_met                                   byte, S-44: the least strict order among the best ones of the points
 //   dominant_share                              byte
-//   gap                                         byte, why points have no number: the gravest Gap
+//   gap                                         byte, why points have no number: the most severe Gap
 //
 // Values of cells without a number are the fill value; counts are 0. `gap` has values where points have no number.
 absl::Status WriteGrid(const SurveyGrid& grid, const GridFileFacts& facts, const std::filesystem::path& path);

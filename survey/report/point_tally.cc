@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What a horizontal covariance is at each coverage, m.
+// The horizontal uncertainty at each coverage, m.
 struct HorizontalUncertainty {
   explicit HorizontalUncertainty(const AnnotatedPoint& point) {
     const float mean = (point.variance_x + point.variance_y) / 2;
@@ -40,7 +40,7 @@ ordered_json SpreadJson(const LengthSpread& spread) {
 ClassJudge::ClassJudge(const std::vector<Specification>& specifications) {
   for (const Specification& each : specifications)
     classes_.insert(classes_.end(), each.classes.begin(), each.classes.end());
-  assert(classes_.size() <= kMostClasses);
+  assert(classes_.size() <= kMaxClasses);
 }
 
 std::uint64_t ClassJudge::Met(const AnnotatedPoint& point) const {
@@ -81,7 +81,7 @@ void PointTally::Add(const AnnotatedPoint& point, std::uint64_t met, Coverage co
   bias_vertical_ += point.bias_vertical;
   for (std::size_t i = 0; met >> i != 0; ++i) {
     met_[i] += met >> i & 1;
-    if (i + 1 == ClassJudge::kMostClasses) break;
+    if (i + 1 == ClassJudge::kMaxClasses) break;
   }
 }
 

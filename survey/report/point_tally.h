@@ -1,4 +1,4 @@
-// What many annotated points have in common: THU and TVU, the shares of the variance, and how many meet each class of
+// Statistics of many annotated points: THU and TVU, the contributions to the variance, and how many meet each class of
 // each specification.
 #pragma once
 
@@ -16,9 +16,9 @@ namespace albtpu::client {
 // Which classes a point meets.
 class ClassJudge {
  public:
-  static constexpr std::size_t kMostClasses = 64;
+  static constexpr std::size_t kMaxClasses = 64;
 
-  // `specifications` must outlive it and have at most kMostClasses classes in all.
+  // `specifications` must outlive it and have at most kMaxClasses classes in all.
   explicit ClassJudge(const std::vector<Specification>& specifications);
 
   // Bit c: the point meets class c, counted over all specifications in their order. A class is met where the
@@ -30,11 +30,11 @@ class ClassJudge {
   std::vector<SpecificationClass> classes_;
 };
 
-// The shares of the vertical variance of points.
+// The contributions to the vertical variance of points.
 enum class VerticalShare : std::uint8_t { kAir, kSea, kWater, kDatum };
 inline constexpr std::array<const char*, 4> kVerticalShareNames = {"air", "sea", "water", "datum"};
 
-// m^2 at 1 sigma, by VerticalShare; the datum is what is left of the total. `point` has a number.
+// m^2 at 1 sigma, by VerticalShare; the datum is the rest of the total. `point` has a number.
 std::array<double, 4> VerticalShares(const AnnotatedPoint& point, Coverage coverage);
 
 class PointTally {
@@ -56,7 +56,7 @@ class PointTally {
   LengthSpread thu_, tvu_;
   std::array<double, kVerticalShareNames.size()> shares_ = {};  // Sums, m^2.
   double pulse_ = 0, line_ = 0, bias_vertical_ = 0;             // Sums, m^2 and m.
-  std::array<std::uint64_t, ClassJudge::kMostClasses> met_ = {};
+  std::array<std::uint64_t, ClassJudge::kMaxClasses> met_ = {};
 };
 
 // Points of each metre of depth, the last without an end.

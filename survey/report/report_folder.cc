@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -59,18 +58,25 @@ std::string TextOf(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-absl::Status WriteText(const fs::path& path, const std::string& text) {
-  absl::StatusOr<OutputFile> file = OutputFile::Create(path, Existing::kReplace);
-  if (!file.ok()) return file.status();
-  if (absl::Status status = file->Write(text); !status.ok()) return status;
-  return file->Commit();
-}
-
 absl::Status Move(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
   if (!error) return absl::OkStatus();
   return absl::DataLossError(absl::StrCat(to.string(), ": cannot be written: ", error.message()));
+}
+
+// Writes the JSON, the last of `names`, draws the page, and gives all files their names, the page last.
+absl::Status Finish(const HiddenFolder& hidden, const Json& json, const std::vector<const char*>& names,
+                    bool with_page, const char* page, const fs::path& folder) {
+  absl::Status status = WriteFileAtomically(hidden.path() / names.back(), TextOf(json), Existing::kReplace);
+  if (status.ok() && with_page) status = DrawPage(hidden.path());
+  for (const char* const name : names)
+    if (status.ok()) status = Move(hidden.path() / name, folder / name);
+  if (status.ok() && with_page) status = Move(hidden.path() / page, folder / page);
+  // The page of an earlier report would show old numbers.
+  std::error_code ignored;
+  if (status.ok() && !with_page) fs::remove(folder / page, ignored);
+  return status;
 }
 
 }  // namespace
@@ -86,9 +92,7 @@ absl::Status PrepareFolder(const fs::path& folder, Existing existing) {
     return absl::AlreadyExistsError(absl::StrCat(
         folder.string(), ": is not empty; give another folder, or replace an earlier report by --overwrite"));
   }
-  if (access(folder.c_str(), W_OK) == 0) return absl::OkStatus();
-  return absl::PermissionDeniedError(absl::StrCat(
-      folder.string(), ": cannot be written to: ", std::strerror(errno), "; give another folder"));
+  return access(folder.c_str(), W_OK) == 0 ? absl::OkStatus() : NotWritable(folder);
 }
 
 bool HasReport(const fs::path& folder, const std::vector<AnnotatedLasFile>& files,
@@ -117,27 +121,13 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
     if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok())
       return status;
   }
-  absl::Status status = WriteText(hidden.path() / kJson, TextOf(report.json));
-  if (status.ok() && with_page) status = DrawPage(hidden.path());
-  if (status.ok()) status = Move(hidden.path() / kGrid, folder / kGrid);
-  if (status.ok()) status = Move(hidden.path() / kJson, folder / kJson);
-  if (status.ok() && with_page) status = Move(hidden.path() / kPage, folder / kPage);
-  // The page of an earlier report would not be that of the new numbers.
-  std::error_code ignored;
-  if (status.ok() && !with_page) fs::remove(folder / kPage, ignored);
-  return status;
+  return Finish(hidden, report.json, {kGrid, kJson}, with_page, kPage, folder);
 }
 
 absl::Status WritePlan(const Json& plan, bool with_page, const fs::path& folder) {
   const HiddenFolder hidden(folder);
   if (hidden.path().empty()) return NotWritable(folder);
-  absl::Status status = WriteText(hidden.path() / kPlanJson, TextOf(plan));
-  if (status.ok() && with_page) status = DrawPage(hidden.path());
-  if (status.ok()) status = Move(hidden.path() / kPlanJson, folder / kPlanJson);
-  if (status.ok() && with_page) status = Move(hidden.path() / kPlanPage, folder / kPlanPage);
-  std::error_code ignored;
-  if (status.ok() && !with_page) fs::remove(folder / kPlanPage, ignored);
-  return status;
+  return Finish(hidden, plan, {kPlanJson}, with_page, kPlanPage, folder);
 }
 
 }  // namespace albtpu::client

@@ -23,12 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr TomlKind kSpecificationFile = {"a specification file", "the limits", "the path of --spec"};
-constexpr double kGreatestLimit = 1000;  // m
+constexpr double kMaxLimit = 1000;  // m
 
 std::optional<Limit> ReadLimit(TomlKeys& of_class, std::string_view key) {
   for (TomlKeys& keys : of_class.Table(key)) {
     Limit limit;
-    const std::optional<double> constant = keys.Number("constant", 0, kGreatestLimit, "m");
+    const std::optional<double> constant = keys.Number("constant", 0, kMaxLimit, "m");
     const std::optional<double> of_depth = keys.Number("of_depth", 0, 1, "m in a metre of depth");
     const std::optional<std::string> combined = keys.OneOf("combined", {"sum", "rss"});
     keys.Finish();

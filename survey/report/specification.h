@@ -13,7 +13,7 @@
 
 namespace albtpu::client {
 
-// The greatest uncertainty at a depth: constant + of_depth depth, or the root of the sum of the squares of both.
+// The limit of an uncertainty at a depth: constant + of_depth depth, or the root of the sum of the squares of both.
 struct Limit {
   double constant = 0;  // m
   double of_depth = 0;  // m in a metre of depth.
@@ -36,7 +36,7 @@ struct Specification {
   std::vector<SpecificationClass> classes;
 };
 
-// All of it, compact: what a report was made by.
+// All of it, compact, for `made_from` of a report.
 nlohmann::ordered_json LimitsJson(const Specification& specification);
 
 // Fails on the first problem of the text, with its line.
@@ -54,7 +54,7 @@ absl::StatusOr<Specification> ParseSpecification(std::string_view text);
 // PREFIX/share/albtpu/specifications for a program that runs as PREFIX/bin/NAME.
 std::filesystem::path SpecificationsDirectory();
 
-// All that are installed, S-44 first and the others by name. NotFound if there is none.
+// All installed specifications, S-44 first and the others by name. NotFound if there is none.
 absl::StatusOr<std::vector<Specification>> ListSpecifications();
 
 // The specification in a file (ends in .toml or has a slash), or the installed one of this name in any case; "S-44" is

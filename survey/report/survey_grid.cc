@@ -29,14 +29,12 @@ absl::Status TooLarge(const std::string& why) {
 
 }  // namespace
 
-absl::Status SurveyGrid::CheckExtent(double least_x, double greatest_x, double least_y,
-                                     double greatest_y) const {
-  const double columns = std::ceil((greatest_x - least_x) / cell_) + 1;
-  const double rows = std::ceil((greatest_y - least_y) / cell_) + 1;
-  const double farthest =
-      std::max({std::abs(least_x), std::abs(greatest_x), std::abs(least_y), std::abs(greatest_y)});
-  if (columns * rows <= kMostCells && farthest / cell_ < kGreatestIndex) return absl::OkStatus();
-  return TooLarge(absl::StrFormat("%.0f x %.0f cells of %g, at most %.0f", columns, rows, cell_, kMostCells));
+absl::Status SurveyGrid::CheckExtent(double min_x, double max_x, double min_y, double max_y) const {
+  const double columns = std::ceil((max_x - min_x) / cell_) + 1;
+  const double rows = std::ceil((max_y - min_y) / cell_) + 1;
+  const double farthest = std::max({std::abs(min_x), std::abs(max_x), std::abs(min_y), std::abs(max_y)});
+  if (columns * rows <= kMaxCells && farthest / cell_ < kGreatestIndex) return absl::OkStatus();
+  return TooLarge(absl::StrFormat("%.0f x %.0f cells of %g, at most %.0f", columns, rows, cell_, kMaxCells));
 }
 
 void SurveyGrid::Add(const AnnotatedPoint& point, std::uint8_t best_order) {
@@ -94,11 +92,11 @@ SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
     }
     tile = std::make_unique<Tile>();
     const bool first = tiles_.size() == 1;
-    least_column_ = first ? column : std::min(least_column_, column);
-    greatest_column_ = first ? column : std::max(greatest_column_, column);
-    least_row_ = first ? row : std::min(least_row_, row);
-    greatest_row_ = first ? row : std::max(greatest_row_, row);
-    if (static_cast<double>(columns()) * static_cast<double>(rows()) > 1.1 * kMostCells)
+    min_column_ = first ? column : std::min(min_column_, column);
+    max_column_ = first ? column : std::max(max_column_, column);
+    min_row_ = first ? row : std::min(min_row_, row);
+    max_row_ = first ? row : std::max(max_row_, row);
+    if (static_cast<double>(columns()) * static_cast<double>(rows()) > 1.1 * kMaxCells)
       status_ = TooLarge(absl::StrFormat("points lie %d x %d cells apart", columns(), rows()));
   }
   last_key_ = key;
@@ -108,11 +106,11 @@ SurveyGrid::Tile* SurveyGrid::TileAt(std::int64_t column, std::int64_t row) {
 
 void SurveyGrid::Strip(std::size_t strip, std::vector<GridCell>& cells) const {
   cells.assign(columns() * kTile, {});
-  const std::int64_t row = least_row_ + static_cast<std::int64_t>(strip);
-  for (std::int64_t column = least_column_; column <= greatest_column_; ++column) {
+  const std::int64_t row = min_row_ + static_cast<std::int64_t>(strip);
+  for (std::int64_t column = min_column_; column <= max_column_; ++column) {
     const auto found = tiles_.find(KeyOf(column, row));
     if (found == tiles_.end()) continue;
-    const std::size_t west = static_cast<std::size_t>(column - least_column_) * kTile;
+    const std::size_t west = static_cast<std::size_t>(column - min_column_) * kTile;
     for (std::size_t i = 0; i < Tile::kCells; ++i)
       if (const GridCell* cell = found->second->Find(i); cell != nullptr)
         cells[i / kTile * columns() + west + i % kTile] = *cell;

@@ -17,7 +17,7 @@ namespace albtpu::client {
 
 // The points of a cell, and means over those with a number. 36 bytes: a survey has tens of millions of cells.
 struct GridCell {
-  std::uint32_t gap : 3 = 0;  // The gravest Gap of its points.
+  std::uint32_t gap : 3 = 0;  // The most severe Gap of its points.
   std::uint32_t points : 29 = 0;
   // The least strict best order of a point: 1 to 5 (kS44Orders), 6: a point meets none; 0 without a number.
   std::uint32_t worst_order : 3 = 0;
@@ -31,13 +31,13 @@ class SurveyGrid {
  public:
   static constexpr int kTile = 64;                      // Cells along a side of a tile.
   static constexpr std::size_t kMostBytes = 400 << 20;  // Of cells with points.
-  static constexpr double kMostCells = 2e8;             // Of the rectangle around all points.
+  static constexpr double kMaxCells = 2e8;              // Of the rectangle around all points.
 
   // `cell` is the side of a cell in the units of the coordinates, above 0.
   SurveyGrid(double cell, Coverage coverage) : cell_(cell), coverage_(coverage) {}
 
-  // ResourceExhausted when the rectangle would have more than kMostCells cells.
-  absl::Status CheckExtent(double least_x, double greatest_x, double least_y, double greatest_y) const;
+  // ResourceExhausted when the rectangle would have more than kMaxCells cells.
+  absl::Status CheckExtent(double min_x, double max_x, double min_y, double max_y) const;
 
   // `best_order`: 0 none, otherwise 1 plus the strictest order met. Once status() is not OK, points are ignored.
   void Add(const AnnotatedPoint& point, std::uint8_t best_order);
@@ -47,14 +47,12 @@ class SurveyGrid {
 
   double cell() const { return cell_; }
   bool empty() const { return tiles_.empty(); }
-  // The least index of a column (x / cell, rounded down) and of a row, multiples of kTile, and their number. Of a grid
-  // that is not empty.
-  std::int64_t first_column() const { return least_column_ * kTile; }
-  std::int64_t first_row() const { return least_row_ * kTile; }
-  std::size_t columns() const {
-    return static_cast<std::size_t>(greatest_column_ - least_column_ + 1) * kTile;
-  }
-  std::size_t rows() const { return static_cast<std::size_t>(greatest_row_ - least_row_ + 1) * kTile; }
+  // The smallest index of a column (x / cell, rounded down) and of a row, multiples of kTile, and their number. Of a
+  // grid that is not empty.
+  std::int64_t first_column() const { return min_column_ * kTile; }
+  std::int64_t first_row() const { return min_row_ * kTile; }
+  std::size_t columns() const { return static_cast<std::size_t>(max_column_ - min_column_ + 1) * kTile; }
+  std::size_t rows() const { return static_cast<std::size_t>(max_row_ - min_row_ + 1) * kTile; }
 
   // The cells of kTile rows, from first_row() + kTile strip, into rows of columns() cells, the southern one first.
   void Strip(std::size_t strip, std::vector<GridCell>& cells) const;
@@ -84,7 +82,7 @@ class SurveyGrid {
   double cell_;
   Coverage coverage_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Tile>> tiles_;
-  std::int64_t least_column_ = 0, greatest_column_ = 0, least_row_ = 0, greatest_row_ = 0;  // Of tiles.
+  std::int64_t min_column_ = 0, max_column_ = 0, min_row_ = 0, max_row_ = 0;  // Of tiles.
   std::uint64_t last_key_ = 0;
   Tile* last_ = nullptr;
   std::size_t bytes_ = 0;  // Of tiles and their blocks.

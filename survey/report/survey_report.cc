@@ -1,14 +1,12 @@
 #include "survey/report/survey_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "survey/answers/batch.h"
-#include "survey/crosscheck/overlap_check.h"
 #include "tables/s44.h"
 #include "tables/version.h"
 

@@ -1,4 +1,4 @@
-// The report of a survey: whether it meets what was asked for, where not and why, from its annotated files.
+// The report of a survey, from its annotated files: whether it meets the specification, and where and why not.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ inline constexpr double kDefaultPassShare = 95;  // %, of the points; NOAA asks 
 
 struct ReportOptions {
   double cell = 1;                            // m
-  std::vector<Specification> specifications;  // All that the report states.
-  std::string specification, wanted_class;    // What the survey is held against: names of one of them.
+  std::vector<Specification> specifications;  // All that the report covers.
+  std::string specification, wanted_class;    // The required one: names of one of them.
   double pass_share = kDefaultPassShare;      // %
   double patch = kDefaultPatch;               // m
 };
 
-// What decides the report: the files by name and size, and the options. It is `made_from` in the JSON.
+// Everything that determines the report: the files by name and size, and the options. It is `made_from` in the JSON.
 nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options);
 
 struct SurveyReport {

@@ -14,7 +14,7 @@ std::shared_ptr<OpenSeas::Sea> OpenSeas::Find(std::size_t i) {
   by_record_[i] = order_.begin();
   if (order_.size() > most_) {
     by_record_.erase(order_.back()->record);
-    order_.pop_back();  // Those who use it still do.
+    order_.pop_back();  // Users of the source keep it alive.
   }
   return order_.front();
 }

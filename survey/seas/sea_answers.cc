@@ -12,7 +12,7 @@
 namespace albtpu::client {
 namespace {
 
-// Makes `answers`, those of the first sea, the ones between it and `others`; `weights` are those of the others.
+// Interpolates `answers`, those of the first sea, towards `others`; `weights` are those of the others.
 void Blend(const AnswerBatch& others, const std::vector<float>& weights, AnswerBatch& answers) {
   for (const Quantity quantity : kQuantities) {
     const std::span<float> values = answers.values[Index(quantity)],

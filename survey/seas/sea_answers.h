@@ -1,4 +1,4 @@
-// Answers for pulses from the sea at their times.
+// Answers pulses from the sea at their times.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace albtpu::client {
 
 // Between two records each value is interpolated in variance: its square is linear in time, as the energy of the waves
-// is. So are the standard errors, as relative errors that the two records share; biases are linear. Each value at 95 %
+// is. So are the standard errors, as relative errors common to the two records; biases are linear. Each value at 95 %
 // is interpolated so, too: where the axes of the two seas differ, THU is at most 3 % more than that of the mean
 // covariance. Directions count from each record's own wind.
 class SeaAnswers {

@@ -1,12 +1,8 @@
 #include "survey/seas/sea_facts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -49,7 +45,7 @@ double PeakOfComponents(const std::vector<JonswapWaves>& waves, double depth) {
   return period;
 }
 
-// Where E(f) = S(k) dk/df is greatest.
+// The wavenumber at which E(f) = S(k) dk/df has its maximum.
 double PeakOfSpectrum(const HarmonicSpectrum& spectrum, double depth) {
   double period = 0, highest = 0;
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
@@ -89,12 +85,12 @@ double RefractionAlong(const HarmonicSpectrum& spectrum, const std::vector<Footp
 }
 
 SeaDescription DescriptionAt(const SeaTimeline& seas, std::size_t record) {
-  return DescriptionOf(seas.record(record), seas.told().description());
+  return DescriptionOf(seas.record(record), seas.settings().description());
 }
 
 std::string WindText(const SeaFacts& facts) {
   std::string text = absl::StrFormat("wind %.3g m/s (%s)", facts.sea.wind_speed_10m,
-                                     facts.wind_speed_of == "user"    ? "as told"
+                                     facts.wind_speed_of == "user"    ? "given"
                                      : facts.wind_speed_of == "file"  ? "of the file"
                                      : facts.wind_speed_of == "waves" ? "derived from the waves"
                                                                       : "not known: taken as calm");
@@ -110,26 +106,26 @@ std::string WindText(const SeaFacts& facts) {
 
 SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
   const SeaRecord& state = seas.record(record);
-  const ToldSea& told = seas.told();
+  const ToldSea& settings = seas.settings();
   SeaFacts facts;
   facts.time = state.time;
-  facts.sea = Describe(state, told.description());
+  facts.sea = Describe(state, settings.description());
   const auto* components = std::get_if<WaveComponents>(&state.waves);
   facts.significant_wave_height =
       components != nullptr ? JonswapSpectrum(**components, facts.sea.water_depth).significant_wave_height()
                             : state.significant_wave_height();
   facts.peak_period = PeakPeriod(state, facts.sea.water_depth);
   facts.axis = Axis(facts.sea);
-  facts.wind_speed_of = told.wind_speed.has_value()               ? "user"
+  facts.wind_speed_of = settings.wind_speed.has_value()           ? "user"
                         : state.wind_speed_10m.has_value()        ? "file"
                         : facts.sea.assumed.wind_speed_from_waves ? "waves"
                                                                   : "unknown";
-  facts.wind_direction_of = !(facts.sea.wind_speed_10m > 0) ? "none"
-                            : told.wind_from.has_value()    ? "user"
-                            : state.wind_from.has_value()   ? "file"
-                                                            : "waves";
+  facts.wind_direction_of = !(facts.sea.wind_speed_10m > 0)  ? "none"
+                            : settings.wind_from.has_value() ? "user"
+                            : state.wind_from.has_value()    ? "file"
+                                                             : "waves";
   const bool joined = !IsComplete(state) && facts.sea.wind_speed_10m > 0;
-  facts.tail = joined ? told.tail.value_or("relax") : "none";
+  facts.tail = joined ? settings.tail.value_or("relax") : "none";
   facts.share_measured = ShareMeasured(facts.sea);
   if (!IsComplete(state))
     facts.error = ErrorOfSea(DescriptionAt(seas, record), seas.series().record_length, FootprintWeight);
@@ -181,7 +177,7 @@ SlopeSurvey::SlopeSurvey() {
 }
 
 SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) const {
-  const DescribedSea sea = Describe(seas.record(record), seas.told().description());
+  const DescribedSea sea = Describe(seas.record(record), seas.settings().description());
   SlopeFacts facts;
   facts.mean_square_slope = MeanSquareSlope(sea.spectrum);
   facts.below_11 = MeanSquareSlopeBelow(sea.spectrum, 11);
@@ -197,11 +193,11 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
                                 DegreesOfRadians(beams[i].refraction_cross_wind())});
   }
   if (IsComplete(seas.record(record)) || !(sea.wind_speed_10m > 0)) return facts;
-  ToldSea told = seas.told();
+  ToldSea settings = seas.settings();
   for (const std::string_view rule : kTailRules) {
-    told.tail = rule;
+    settings.tail = rule;
     facts.by_tail_rule.push_back(
-        RefractionAlong(Describe(seas.record(record), told.description()).spectrum, one_footprint_));
+        RefractionAlong(Describe(seas.record(record), settings.description()).spectrum, one_footprint_));
   }
   return facts;
 }
@@ -226,7 +222,7 @@ ordered_json Json(const SlopeFacts& facts) {
 
 ordered_json SeasHeadJson(const SeaTimeline& seas) {
   ordered_json json;
-  const std::optional<std::string>& file = seas.told().file;
+  const std::optional<std::string>& file = seas.settings().file;
   json["file"] =
       file.has_value() ? ordered_json(std::filesystem::path(*file).filename().string()) : ordered_json();
   json["format"] = file.has_value() ? ordered_json(seas.series().format) : ordered_json();
@@ -246,8 +242,8 @@ ordered_json SeasJson(const SeaTimeline& seas, std::size_t first, std::size_t la
 
 std::vector<std::string> SeasNotes(const SeaTimeline& seas, std::size_t first, std::size_t last) {
   std::string where = "sea";
-  if (seas.told().file.has_value())
-    absl::StrAppend(&where, " by ", std::filesystem::path(*seas.told().file).filename().string());
+  if (seas.settings().file.has_value())
+    absl::StrAppend(&where, " by ", std::filesystem::path(*seas.settings().file).filename().string());
   if (!seas.place().empty()) absl::StrAppend(&where, " at ", seas.place());
   const SeaFacts facts = FactsOf(seas, first);
   std::vector<std::string> notes = {absl::StrCat(where, ", ", Text(facts))};

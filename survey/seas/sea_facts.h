@@ -1,4 +1,4 @@
-// What one state of the sea is, in numbers that an oceanographer checks, and what they rest on.
+// One state of the sea in numbers that an oceanographer checks, and their sources.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,7 @@ namespace albtpu::client {
 
 struct SeaFacts {
   std::optional<double> time;          // s since 1970
-  double significant_wave_height = 0;  // m, of the waves that are told or measured, without the tail
+  double significant_wave_height = 0;  // m, of the given or measured waves, without the tail
   double peak_period = 0;              // s; 0 without waves
   double axis = 0;  // degree from north, 0 to 180: along it most of the energy travels, either way
   DescribedSea sea;
@@ -30,7 +30,7 @@ struct SeaFacts {
 SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record);
 nlohmann::ordered_json Json(const SeaFacts& facts);
 
-// One line: time, height, period, wind and whence it is, tail, share, standard error of 2 sigma.
+// One line: time, height, period, wind and its source, tail, share of the measured waves, standard error of 2 sigma.
 std::string Text(const SeaFacts& facts);
 
 // Slopes, which decide the uncertainty.
@@ -62,10 +62,10 @@ class SlopeSurvey {
 
 nlohmann::ordered_json Json(const SlopeFacts& facts);
 
-// Where the states come from: file, format, place, and what the file left open.
+// The source of the states: file, format, place, and what the file does not state.
 nlohmann::ordered_json SeasHeadJson(const SeaTimeline& seas);
 
-// What a run states of its seas, in a summary and to the user: the first and the last of the records that were used.
+// The seas of a run, for a summary and for the user: the first and the last of the records that were used.
 nlohmann::ordered_json SeasJson(const SeaTimeline& seas, std::size_t first, std::size_t last);
 std::vector<std::string> SeasNotes(const SeaTimeline& seas, std::size_t first, std::size_t last);
 

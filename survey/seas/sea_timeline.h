@@ -1,5 +1,4 @@
-// The states of the sea that the user told, in order of time at one place, and between which two of them an instant
-// lies.
+// The states of the given sea at one place, in order of time, and the two of them between which an instant lies.
 #pragma once
 
 #include <cstddef>
@@ -24,18 +23,18 @@ struct BetweenRecords {
 // Immutable.
 class SeaTimeline {
  public:
-  // Reads the file that is told, or takes the waves. `told` has passed CheckSea and has waves. Errors begin with the
-  // path of the file: what it cannot be read for, a place that is missing or unknown, a time that it does not have.
-  static absl::StatusOr<SeaTimeline> Open(const ToldSea& told);
+  // Reads the given file, or takes the given waves. `settings` has passed CheckSea and has waves. Errors begin with the
+  // path of the file: it cannot be read, its place is missing or unknown, or it does not have the time.
+  static absl::StatusOr<SeaTimeline> Open(const ToldSea& settings);
 
   // The records of one place.
   std::size_t size() const { return records_.size(); }
   const SeaRecord& record(std::size_t i) const { return records_[i]; }
   KnownSea sea(std::size_t i) const {
-    return KnownSeaOf(records_[i], told_.description(), series_.record_length);
+    return KnownSeaOf(records_[i], settings_.description(), series_.record_length);
   }
 
-  // Whether pulses differ in their sea by their times. If not, fixed() holds for all.
+  // Whether the sea depends on the time of a pulse. If not, fixed() holds for all.
   bool by_time() const { return !fixed_.has_value(); }
   const BetweenRecords& fixed() const { return *fixed_; }
 
@@ -48,7 +47,7 @@ class SeaTimeline {
   double end() const { return times_.back(); }
   double longest_gap() const { return longest_gap_; }  // s
 
-  const ToldSea& told() const { return told_; }
+  const ToldSea& settings() const { return settings_; }
   const SeaSeries& series() const { return series_; }  // what the file states, without its records
   const std::string& place() const { return place_; }  // empty if the file has but one without a name
 
@@ -57,7 +56,7 @@ class SeaTimeline {
   absl::Status TakePlace(std::vector<SeaRecord> records);
   absl::Status TakeTime();
 
-  ToldSea told_;
+  ToldSea settings_;
   SeaSeries series_;
   std::string place_;
   std::vector<SeaRecord> records_;

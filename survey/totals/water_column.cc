@@ -29,17 +29,17 @@ absl::Status InWater(const absl::Status& status) {
   return UsageError(absl::StrCat("[water] ", std::string(status.message())));
 }
 
-ToldOptics OpticsTold(const ToldWater& told) {
-  ToldOptics optics{.kd = told.kd,
-                    .kd_kind = {},
-                    .secchi = told.secchi,
-                    .jerlov = {},
-                    .absorption = told.absorption,
-                    .scattering = told.scattering,
-                    .kd_sigma = told.kd_sigma,
-                    .omega0 = told.omega0,
-                    .omega0_sigma = told.omega0_sigma,
-                    .backscatter_fraction = told.backscatter_fraction};
+OpticsInput OpticsTold(const ToldWater& told) {
+  OpticsInput optics{.kd = told.kd,
+                     .kd_kind = {},
+                     .secchi = told.secchi,
+                     .jerlov = {},
+                     .absorption = told.absorption,
+                     .scattering = told.scattering,
+                     .kd_sigma = told.kd_sigma,
+                     .omega0 = told.omega0,
+                     .omega0_sigma = told.omega0_sigma,
+                     .backscatter_fraction = told.backscatter_fraction};
   if (told.kd_kind.has_value()) optics.kd_kind = static_cast<KdKind>(PlaceOf(kKdKindNames, *told.kd_kind));
   if (told.jerlov.has_value()) optics.jerlov = *told.jerlov;
   return optics;

@@ -17,7 +17,7 @@
 
 namespace albtpu::client {
 
-// What a LAS file and its user state about the coordinate system. A code is 0 where nothing is stated.
+// The statements of a LAS file and its user about the coordinate system. A code is 0 where nothing is stated.
 struct CrsDescription {
   std::string user =
       {};  // --crs: EPSG:26917, well-known text, or whatever else PROJ reads. Overrides the rest.
@@ -39,7 +39,7 @@ struct MapPosition {
   double x = 0, y = 0;  // East and north, in the unit of the points.
 };
 
-// What turns differences of coordinates into metres and true directions, as SensorPosition.
+// Converts differences of coordinates into metres and true directions, as SensorPosition.
 struct MapMetric {
   double metres_per_x = 1, metres_per_y = 1;
   double convergence = 0;  // rad; true azimuth = grid azimuth + convergence.
@@ -58,7 +58,7 @@ class MapFrame {
   const std::string& crs_name() const { return crs_name_; }  // "NAD83 / UTM zone 17N".
   // Well-known text (version 1 of GDAL) of its horizontal part. Empty if PROJ has none.
   const std::string& wkt() const { return wkt_; }
-  // What the user should know about how the coordinate system was found; usually empty.
+  // For the user, about how the coordinate system was found; usually empty.
   const std::string& remark() const { return remark_; }
   bool is_geographic() const { return pipeline_.empty(); }
   bool is_transverse_mercator() const { return is_transverse_mercator_; }

@@ -1,6 +1,5 @@
 #include "survey/trajectories/point_clock.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

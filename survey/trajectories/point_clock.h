@@ -1,4 +1,4 @@
-// UTC of the points of a LAS, for what is known by UTC: states of the sea.
+// The times of the points of a LAS file in UTC, to find the state of the sea at each point.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace albtpu::client {
 // `offset` such that UTC [s since 1970-01-01T00:00:00Z, without leap seconds] = time of a point + offset. Times that
 // are seconds of the week leave the week open: it is the one in which the points lie within `known`, an interval of
 // UTC. Fails, and names the points' times, where they lie wholly outside `known`, and where seconds of the week fit
-// into more than one week of it or start again from 0. `name` begins the message, `of` names what is known: "sea.csv".
+// into more than one week of it or start again from 0. `name` begins the message, `of` names the source of `known`:
+// "sea.csv".
 absl::StatusOr<double> UtcOffset(const std::string& name, const PointTimes& points, const TimeSpan& known,
                                  const std::string& of);
 

@@ -1,4 +1,4 @@
-// What MapFrame needs from a coordinate system that PROJ has read. The only file beside map_frame.cc that knows PROJ.
+// The properties of a coordinate system of PROJ that MapFrame needs. Only this file and map_frame.cc use PROJ.
 #pragma once
 
 #include <proj.h>

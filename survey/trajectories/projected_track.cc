@@ -61,7 +61,7 @@ ProjectedTrack::ProjectedTrack(TrajectoryTimeline timeline, std::shared_ptr<cons
       blocks_[block].run = i;
       blocks_[block].begin = begin;
       blocks_[block].end = std::min(begin + kBlock + 1, run.end);
-      // A run that overlaps the one before it holds from the end of that one.
+      // A run that overlaps the one before it is used from the end of that one.
       const bool follows = begin == run.begin && i > 0;
       begins_.push_back(follows ? std::max(run.TimeAt(begin), runs[i - 1].span().last) : run.TimeAt(begin));
       ++block;
@@ -154,7 +154,7 @@ const std::vector<ProjectedTrack::Row>& ProjectedTrack::RowsOf(std::size_t block
   return slot.rows;
 }
 
-// Where the last time was found: times that follow each other are mostly in the same step or the next one.
+// The step of the last time: successive times are mostly in the same step or the next one.
 class ProjectedTrack::Cursor {
  public:
   explicit Cursor(const ProjectedTrack& track) : track_(track) {}

@@ -49,7 +49,7 @@ class ProjectedTrack : public SensorTrack {
 
   const TrajectoryTimeline& timeline() const { return timeline_; }
 
-  // The sensor at a record: lever arm, geoid separation and projection applied. Slow; what blocks are made of.
+  // The sensor at a record: lever arm, geoid separation and projection applied. Slow; blocks are filled by it.
   SensorPosition PositionOf(const TrajectoryRecord& record) const;
 
  private:

@@ -5,7 +5,6 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"
@@ -40,9 +39,9 @@ std::vector<GeographicPosition> SamplePositions(const TrajectoryTimeline& timeli
   return samples;
 }
 
-// Least distance in m of projected positions from the box; infinite where none can be projected.
-double LeastDistance(const std::vector<MapPosition>& positions, const MapMetric& metric,
-                     const PointExtent& extent) {
+// Minimum distance in m of projected positions from the box; infinite where none can be projected.
+double MinDistance(const std::vector<MapPosition>& positions, const MapMetric& metric,
+                   const PointExtent& extent) {
   double least = HUGE_VAL;
   for (const MapPosition& position : positions) {
     const double x = std::max({extent.x_min - position.x, 0.0, position.x - extent.x_max});
@@ -138,7 +137,7 @@ double DistanceAfter(const Change& change, const std::vector<GeographicPosition>
   std::vector<MapPosition> projected(positions.size());
   frame.Project(positions, projected);
   for (MapPosition& position : projected) position = change.after(position);
-  return LeastDistance(projected, metric, extent);
+  return MinDistance(projected, metric, extent);
 }
 
 }  // namespace
@@ -150,7 +149,7 @@ absl::Status CheckNearPoints(const std::string& las, const TrajectoryTimeline& t
   frame.Project(samples, projected);
   const MapMetric metric =
       frame.is_geographic() ? frame.MetricAt(samples.front()) : MapMetric{frame.unit(), frame.unit(), 0};
-  const double distance = LeastDistance(projected, metric, extent);
+  const double distance = MinDistance(projected, metric, extent);
   if (distance <= kFarthestFromPoints) return absl::OkStatus();
   double least = kFarthestFromPoints;
   std::string cause;

@@ -1,4 +1,4 @@
-// Whether a trajectory and the points of a LAS file belong together, before anything is computed from them.
+// Checks whether a trajectory matches the points of a LAS file, before anything is computed from them.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct PointExtent {
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
 };
 
-// An aircraft that surveys is nearer to its points than this, even where a file has a few of them.
+// A survey aircraft is nearer to its points than this, even if a file has only a few of them.
 inline constexpr double kFarthestFromPoints = 5000;  // m
 
 // InvalidArgument if the trajectory is farther than kFarthestFromPoints from the bounding box at all times of the

@@ -14,7 +14,7 @@ namespace {
 // GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.
 constexpr double kGpsMinusUtcNow = 18;
 
-// GPS - UTC [s] at a GPS time. Which side of a leap second a time is on does not matter within 18 s: nobody surveys at
+// GPS - UTC [s] at a GPS time. Within 18 s of a leap second the result may be off by one: no survey is flown at
 // midnight of New Year's Eve.
 double GpsMinusUtc(double gps) { return LeapSecondsAtUtc(gps - kGpsMinusUtcNow); }
 
@@ -72,7 +72,7 @@ Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const Po
 // A trajectory that does not name its week has records in more than one week of the points.
 bool IsAmbiguous(const TimeSpan& trajectory, const PointTimes& points) {
   if (points.form != PointTimeForm::kAdjustedStandard || !AreWeekSeconds(trajectory)) return false;
-  // Records and points recur where both together last for a week.
+  // Records and points may match in two weeks if their total duration reaches a week.
   const double lasts = trajectory.last - trajectory.first + points.span.last - points.span.first;
   if (lasts < kSecondsPerWeek) return false;
   const double gps = points.span.first + kAdjustedGpsOffset;

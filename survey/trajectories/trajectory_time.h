@@ -1,4 +1,4 @@
-// How the times of trajectories and of points belong together: GPS week, the two forms of LAS, leap seconds.
+// The relation between the times of trajectories and of points: GPS week, the two forms of LAS, leap seconds.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace albtpu::client {
 struct TimeSpan {
   double first = 0, last = 0;
 };
-// How long two intervals overlap, s; negative: how far they are apart.
+// The overlap of two intervals, s; negative: the gap between them.
 double Overlap(const TimeSpan& a, const TimeSpan& b);
 
 // The form of GPS times in a LAS file, global encoding bit 0.
@@ -23,15 +23,15 @@ struct PointTimes {
   PointTimeForm form = PointTimeForm::kAdjustedStandard;
 };
 
-// What the times of a trajectory count: --trajectory-time.
+// The time scale of a trajectory: --trajectory-time.
 enum class TrajectoryClock { kGps, kUtc };
 
 // `offset` such that time of a point = time of the trajectory + offset. Times of a trajectory are either seconds of a
 // week that it does not name, between 0 and a day after the end of the week; or adjusted standard GPS time; or GPS time
 // since 1980. A week that is not named is the one in which the trajectory overlaps the points longest. Where neither
 // names the week, GPS - UTC is that of today, 18 s. Fails when there is no overlap with `points`, and names the two
-// ranges and the cause where it can be told: times that are all 0, another form than the header of the LAS states,
-// another week. Fails also when points of more than a week leave it open which one it is. `name` is the trajectory's.
+// ranges and, if it can be found, the cause: times that are all 0, another form than the header of the LAS states,
+// another week. Also fails when points of more than a week fit several weeks. `name` is the trajectory's.
 absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& trajectory, TrajectoryClock clock,
                                   const PointTimes& points);
 

@@ -108,7 +108,7 @@ absl::Status CheckOverlaps(const std::vector<TimelineRun>& sorted) {
   return absl::OkStatus();
 }
 
-// The parts one after the other: what a later one repeats is left out.
+// The parts in order, without the overlap of each with the one before.
 std::vector<TimelineRun> WithoutRepetition(const std::vector<TimelineRun>& sorted) {
   std::vector<TimelineRun> runs;
   for (TimelineRun run : sorted) {

@@ -31,8 +31,8 @@ TrajectoryRecord Interpolate(const TrajectoryRecord& first, const TrajectoryReco
 
 class TrajectoryTimeline {
  public:
-  // Keeps what overlaps the points in time. Fails when no file does (TimeOffset), when no two of their records are near
-  // enough to be interpolated, and when two files contradict each other.
+  // Keeps the records that overlap the points in time. Fails when no file does (TimeOffset), when no two of their
+  // records are near enough to be interpolated, and when two files contradict each other.
   static absl::StatusOr<TrajectoryTimeline> Create(const TrajectoryFiles& files, TrajectoryClock clock,
                                                    const PointTimes& points);
 
@@ -41,8 +41,8 @@ class TrajectoryTimeline {
   const PointTimes& points() const { return points_; }
 
   // Position, velocity and attitude at the time of a point; nullopt before the first record, after the last one, and in
-  // a gap longer than kLongestStep. Seconds of the week that start again from 0 belong to the next week. Simple and
-  // slow, as ProjectedTrack is complicated and fast.
+  // a gap longer than kLongestStep. Seconds of the week that start again from 0 belong to the next week. The simple and
+  // slow twin of ProjectedTrack.
   std::optional<TrajectoryRecord> RecordAt(double time) const;
 
  private:

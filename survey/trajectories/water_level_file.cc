@@ -146,7 +146,7 @@ class WaterLevelReader {
     std::vector<double>& times = series_.times_;
     if (times.back() - times.front() >= kSecondsPerWeek) {
       return Error(
-          "covers more than a week, but the times of the points are seconds of a week and do not tell which; "
+          "covers more than a week, but the times of the points are seconds of a week that they do not name; "
           "give the levels of the week of the survey alone");
     }
     const double week = std::floor((times.front() + kAdjustedGpsOffset) / kSecondsPerWeek) * kSecondsPerWeek -

@@ -1,128 +1,267 @@
 #include "tables/file/atomic_file.h"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <optional>
 #include <string>
-#include <system_error>
+#include <utility>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 
 namespace albtpu {
 namespace {
 
-namespace fs = std::filesystem;
+// Writing to disk is started whenever this many bytes have accumulated, so that the final sync has little left to do.
+constexpr std::uint64_t kWriteBehind = 32 << 20;
 
-constexpr absl::string_view kTemporaryPrefix = ".albtpu-", kTemporarySuffix = ".tmp";
-
-absl::Status SystemError(const char* verb, const fs::path& path) {
-  return absl::ErrnoToStatus(errno, absl::StrCat("cannot ", verb, " '", path.string(), "'"));
-}
-
-// A file that is removed again unless TakeName succeeds.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& folder) : folder_(folder) {
-    static std::atomic<unsigned> counter = 0;
-    do {
-      path_ = folder_ / absl::StrCat(kTemporaryPrefix, getpid(), "-", counter++, kTemporarySuffix);
-      descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && errno == EEXIST);
-  }
-  ~TemporaryFile() {
-    if (descriptor_ < 0) return;
-    close(descriptor_);
-    if (!named_) unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  bool is_open() const { return descriptor_ >= 0; }
-
-  bool Write(absl::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = write(descriptor_, bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) return false;
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return true;
-  }
-
-  bool Sync() { return fsync(descriptor_) == 0; }
-
-  // Fails with EEXIST if `path` exists and is to be kept.
-  bool TakeName(const fs::path& path, Existing existing) {
-    named_ = existing == Existing::kReplace ? rename(path_.c_str(), path.c_str()) == 0 : RenameToNew(path);
-    return named_;
-  }
-
- private:
-  bool RenameToNew(const fs::path& path) {
-    if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return true;
-    if (errno != EINVAL && errno != ENOSYS) return false;
-    // File systems without this rename, such as NFS, have links, and a link never replaces a file.
-    return link(path_.c_str(), path.c_str()) == 0 && unlink(path_.c_str()) == 0;
-  }
-
-  fs::path folder_;
-  fs::path path_;
-  int descriptor_ = -1;
-  bool named_ = false;
-};
-
-// Makes the name itself durable. Some file systems cannot sync a folder and return EINVAL, which is not an error
-// here.
-bool SyncFolder(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return errno == EACCES;  // A folder may be writable but not readable.
-  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;
+// The system's last error, for `path`.
+absl::Status SystemError(const std::filesystem::path& path, std::string_view suggestion) {
   const int error = errno;
-  close(descriptor);
-  errno = error;
-  return synced;
+  return absl::Status(absl::ErrnoToStatusCode(error),
+                      absl::StrCat(path.string(), ": ", std::strerror(error), " (no output was written); ",
+                                   std::string(suggestion)));
 }
 
-absl::Status AlreadyThere(const fs::path& path) {
+constexpr std::string_view kTemporaryPrefix = ".albtpu-", kTemporarySuffix = ".tmp";
+constexpr std::string_view kMakeRoom = "free some space, or write elsewhere";
+
+absl::Status AlreadyThere(const std::filesystem::path& path) {
   return absl::AlreadyExistsError(
-      absl::StrCat("'", path.string(), "' already exists: it is overwritten only on request"));
+      absl::StrCat(path.string(), ": already exists; choose another name, or add --overwrite"));
 }
 
-absl::Status CheckTarget(const fs::path& path, Existing existing) {
-  if (!path.has_filename()) {
-    return absl::InvalidArgumentError(absl::StrCat("'", path.string(), "' is not a file name"));
-  }
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) return absl::OkStatus();
-  if (!fs::is_regular_file(status)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("'", path.string(), "' is not a regular file: it is not replaced"));
+absl::Status CheckTarget(const std::filesystem::path& path, Existing existing) {
+  struct stat target;
+  if (stat(path.c_str(), &target) != 0) return absl::OkStatus();
+  if (!S_ISREG(target.st_mode)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": is not a regular file; give a file to write"));
   }
   return existing == Existing::kKeep ? AlreadyThere(path) : absl::OkStatus();
 }
 
-}  // namespace
-
-absl::Status WriteFileAtomically(const fs::path& path, absl::string_view bytes, Existing existing) {
-  absl::Status target = CheckTarget(path, existing);
-  if (!target.ok()) return target;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  TemporaryFile file(folder);
-  if (!file.is_open()) return SystemError("write into folder", folder);
-  if (!file.Write(bytes) || !file.Sync()) return SystemError("write", path);
-  if (!file.TakeName(path, existing))
-    return errno == EEXIST ? AlreadyThere(path) : SystemError("write", path);
-  return SyncFolder(folder) ? absl::OkStatus() : SystemError("sync folder", folder);
+// Renames without replacing an existing file. File systems without this rename, such as NFS, have links, and a link
+// never replaces a file; those without links get a check and a rename.
+int RenameToFreeName(const char* from, const char* to) {
+  int result = renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE);
+  if (result == 0 || (errno != EINVAL && errno != ENOSYS)) return result;
+  result = link(from, to);
+  if (result == 0) return unlink(from);
+  if (errno != EPERM && errno != ENOSYS && errno != EOPNOTSUPP) return result;
+  if (access(to, F_OK) == 0) {
+    errno = EEXIST;
+    return -1;
+  }
+  return std::rename(from, to);
 }
 
-bool IsTemporaryName(absl::string_view name) {
-  return absl::StartsWith(name, kTemporaryPrefix) && absl::EndsWith(name, kTemporarySuffix);
+std::string InProc(int descriptor) { return absl::StrCat("/proc/self/fd/", descriptor); }
+
+// Opens an unnamed file in `folder`, which disappears with the program, however the program ends. Negative if the
+// file system has no unnamed files (NFS) or if the file could not be named later.
+int OpenUnnamed(const std::filesystem::path& folder) {
+  const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0 || access(InProc(descriptor).c_str(), F_OK) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+// Calls `make` with names of temporary files in `folder` until it succeeds, or fails for another reason than that
+// the name is taken; returns its result.
+template <typename Make>
+int MakeTemporary(const std::filesystem::path& folder, std::string& name, Make make) {
+  int result = -1;
+  for (int attempt = 0; result < 0; ++attempt) {
+    name = folder /
+           absl::StrCat(std::string(kTemporaryPrefix), getpid(), "-", attempt, std::string(kTemporarySuffix));
+    result = make(name.c_str());
+    if (result < 0 && errno != EEXIST) break;
+  }
+  return result;
+}
+
+std::filesystem::path FolderOf(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+// Temporary files that must not outlive the program, even when a signal ends it. A signal handler may neither
+// allocate nor lock, so their names live in fixed slots. Every command needs at most two. A file for which no slot is
+// left is not removed on a signal.
+struct Slot {
+  std::atomic<bool> taken = false;  // By a RemovedOnSignal.
+  std::atomic<bool> armed = false;  // `path` is complete.
+  char path[PATH_MAX];
+};
+constexpr int kSlots = 8;
+std::array<Slot, kSlots> slots;
+
+extern "C" void RemoveTemporariesAndEnd(int signal) {
+  for (Slot& slot : slots) {
+    if (slot.armed) unlink(slot.path);
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void InstallHandlers() {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_DFL) continue;  // Stay ignored, as HUP under `nohup`.
+    action.sa_handler = RemoveTemporariesAndEnd;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+// Removes `path` when a signal (HUP, INT, TERM) ends the program while this object lives. The destructor does not
+// remove the file.
+class RemovedOnSignal {
+ public:
+  explicit RemovedOnSignal(const std::string& path) {
+    static const bool installed = (InstallHandlers(), true);
+    static_cast<void>(installed);
+    if (path.size() >= PATH_MAX) return;
+    for (Slot& slot : slots) {
+      if (slot.taken.exchange(true)) continue;
+      std::memcpy(slot.path, path.c_str(), path.size() + 1);
+      slot.armed = true;
+      slot_ = &slot;
+      return;
+    }
+  }
+  ~RemovedOnSignal() {
+    if (slot_ == nullptr) return;
+    slot_->armed = false;
+    slot_->taken = false;
+  }
+  RemovedOnSignal(const RemovedOnSignal&) = delete;
+  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+
+ private:
+  Slot* slot_ = nullptr;
+};
+
+}  // namespace
+
+struct OutputFile::Temporary {
+  std::filesystem::path path;  // The final name.
+  Existing existing;
+  int descriptor;                   // Negative once closed.
+  std::string temporary_path = {};  // Empty while there is no name to remove.
+  std::uint64_t size = 0, handed_to_disk = 0;
+  std::optional<RemovedOnSignal> removed_on_signal = {};
+};
+
+void OutputFile::Discard::operator()(Temporary* temporary) const {
+  if (temporary->descriptor >= 0) close(temporary->descriptor);
+  if (!temporary->temporary_path.empty()) unlink(temporary->temporary_path.c_str());
+  delete temporary;
+}
+
+OutputFile::OutputFile(std::unique_ptr<Temporary> temporary) : temporary_(temporary.release()) {}
+
+absl::StatusOr<OutputFile> OutputFile::Create(const std::filesystem::path& path, Existing existing) {
+  if (absl::Status status = CheckTarget(path, existing); !status.ok()) return status;
+  std::unique_ptr<Temporary> temporary(new Temporary{path, existing, OpenUnnamed(FolderOf(path))});
+  if (temporary->descriptor >= 0) return OutputFile(std::move(temporary));
+  temporary->descriptor = MakeTemporary(FolderOf(path), temporary->temporary_path, [](const char* name) {
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  });
+  if (temporary->descriptor < 0) return SystemError(path, "write to a folder that exists and is writable");
+  temporary->removed_on_signal.emplace(temporary->temporary_path);
+  return OutputFile(std::move(temporary));
+}
+
+absl::Status OutputFile::Write(std::string_view bytes) {
+  Temporary& temporary = *temporary_;
+  while (!bytes.empty()) {
+    const ssize_t count = write(temporary.descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemError(temporary.path, kMakeRoom);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    temporary.size += static_cast<std::uint64_t>(count);
+  }
+  if (temporary.size - temporary.handed_to_disk >= kWriteBehind) {
+    // Starts writing without waiting for it. If this fails, Sync() does all the work.
+    static_cast<void>(sync_file_range(temporary.descriptor, static_cast<off_t>(temporary.handed_to_disk),
+                                      static_cast<off_t>(temporary.size - temporary.handed_to_disk),
+                                      SYNC_FILE_RANGE_WRITE));
+    temporary.handed_to_disk = temporary.size;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status OutputFile::WriteAt(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        pwrite(temporary_->descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemError(temporary_->path, kMakeRoom);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return absl::OkStatus();
+}
+
+std::uint64_t OutputFile::size() const { return temporary_->size; }
+
+absl::Status OutputFile::Sync() {
+  if (fsync(temporary_->descriptor) == 0) return absl::OkStatus();
+  return SystemError(temporary_->path, kMakeRoom);
+}
+
+absl::Status OutputFile::Commit() {
+  Temporary& temporary = *temporary_;
+  if (absl::Status status = Sync(); !status.ok()) return status;
+  if (temporary.temporary_path.empty()) {
+    std::string name;
+    const std::string unnamed = InProc(temporary.descriptor);
+    const int linked = MakeTemporary(FolderOf(temporary.path), name, [&unnamed](const char* new_name) {
+      return linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, new_name, AT_SYMLINK_FOLLOW);
+    });
+    if (linked != 0) return SystemError(temporary.path, kMakeRoom);
+    temporary.removed_on_signal.emplace(name);
+    temporary.temporary_path = name;
+  }
+  if (close(std::exchange(temporary.descriptor, -1)) != 0) return SystemError(temporary.path, kMakeRoom);
+  // Check again: another program may have created the file meanwhile.
+  if (absl::Status status = CheckTarget(temporary.path, temporary.existing); !status.ok()) return status;
+  const char* from = temporary.temporary_path.c_str();
+  const char* to = temporary.path.c_str();
+  const int renamed =
+      temporary.existing == Existing::kReplace ? std::rename(from, to) : RenameToFreeName(from, to);
+  if (renamed != 0 && errno == EEXIST) return AlreadyThere(temporary.path);
+  if (renamed != 0) return SystemError(temporary.path, "choose another name");
+  temporary.temporary_path.clear();
+  // The rename is permanent only when the folder is on disk, too. Some file systems cannot sync folders; that is not
+  // an error.
+  const int folder = open(FolderOf(temporary.path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    fsync(folder);
+    close(folder);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
+                                 Existing existing) {
+  absl::StatusOr<OutputFile> file = OutputFile::Create(path, existing);
+  if (!file.ok()) return file.status();
+  if (absl::Status status = file->Write(bytes); !status.ok()) return status;
+  return file->Commit();
+}
+
+bool IsTemporaryName(std::string_view name) {
+  return name.starts_with(kTemporaryPrefix) && name.ends_with(kTemporarySuffix);
 }
 
 }  // namespace albtpu

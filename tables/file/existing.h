@@ -1,4 +1,4 @@
-// What to do if a file already has the name of an output.
+// The treatment of an existing file with the name of an output.
 #pragma once
 
 namespace albtpu {

@@ -147,7 +147,7 @@ absl::StatusOr<std::vector<float>> ReadValues(const FloatDataset& dataset, const
   return ReadFloats(dataset, "variable");
 }
 
-// Nothing if the file does not hold the quantity; Table::Create decides whether it has to.
+// nullopt if the file does not have the quantity; Table::Create decides whether it is required.
 absl::StatusOr<std::optional<Variable>> ReadVariable(hid_t file, const Table::Axes& axes,
                                                      const QuantitySchema& quantity) {
   const std::string name(quantity.name);
@@ -223,7 +223,7 @@ absl::StatusOr<const TableSchema*> KindOf(hid_t file, Kinds kinds) {
       absl::StrFormat("is a table of kind '%s': expected kind %s", kind, absl::StrJoin(names, " or ")));
 }
 
-// Guards against a small file that fills any memory because one dataset has several names, or because several chunks
+// Guards against a small file that fills the memory because one dataset has several names, or because several chunks
 // lie in the same bytes.
 absl::Status CheckStoredOnce(hid_t file, const TableSchema& schema, std::size_t length) {
   std::vector<std::string> names;

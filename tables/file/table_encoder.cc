@@ -32,7 +32,8 @@ std::vector<hsize_t> ChunkShape(std::vector<hsize_t> shape) {
   return shape;
 }
 
-// Builds the HDF5 part in memory. A call that fails does not stop the others; `ok_` tells at the end.
+// Builds the HDF5 part in memory. A call that fails does not stop the others; `ok_` shows at the end whether all
+// succeeded.
 class Encoder {
  public:
   explicit Encoder(const Table& table) : table_(table), file_(CreateFile()) {}

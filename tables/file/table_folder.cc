@@ -29,7 +29,7 @@ bool IsName(std::string_view text) {
   });
 }
 
-// The name of the table or version that a file has by its name; nothing for other files.
+// The name of the table or version by the name of a file; nullopt for other files.
 std::optional<std::string> TableStem(const fs::path& path) {
   std::string stem = path.stem().string();
   if (path.extension() != ".h5" || !IsName(stem)) return std::nullopt;
@@ -95,8 +95,8 @@ std::string ListNames(std::span<const TableFile> tables) {
   return names.empty() ? "none" : names;
 }
 
-// The newest version of the only name among the tables for which `counts` holds; nothing if there are several names
-// or none.
+// The newest version of the only name among the tables for which `counts` holds; nullopt if there are several names or
+// none.
 template <typename Predicate>
 std::optional<std::size_t> OnlyName(std::span<const TableFile> tables, Predicate counts) {
   std::optional<std::size_t> only;

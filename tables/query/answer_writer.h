@@ -9,10 +9,10 @@
 
 namespace albtpu {
 
-// Writes the outcomes of a block and the axes that made them; null what is not wanted.
+// Writes the outcomes of a block and the axes that caused them; null for what is not wanted.
 void WriteOutcomes(const PulseBlock& block, std::uint8_t* outcomes, std::uint8_t* outcome_axes);
 
-// Puts NaN where a pulse of the block has no number.
+// Writes NaN where a pulse of the block has no number.
 void ClearOutside(const PulseBlock& block, float* column);
 
 // Of a table of the sea surface. All arguments must outlive it.
@@ -20,13 +20,13 @@ class AnswerWriter {
  public:
   AnswerWriter(const Query& query, const NodeRecords& records, const AnswerColumns& answers);
 
-  // What must be found for the columns that are wanted.
+  // The sets of records that the wanted columns need.
   const Needs& needs() const { return needs_; }
 
-  // Takes what was found at the alternative of the block.
+  // Takes the values at the current alternative of the block.
   void Take(const PulseBlock& block, BlockValues& values);
 
-  // To be called when all alternatives are taken.
+  // Call it when all alternatives are taken.
   void Write(const PulseBlock& block, const BlockValues& values) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace albtpu {
 
 // The outcome of a pulse on an axis as a number: the index of the axis if the coordinate is invalid, kOutside plus
-// that index if it is outside the nodes, or kInside. The outcome of the pulse is the least over all axes.
+// that index if it is outside the nodes, or kInside. The outcome of the pulse is the minimum over all axes.
 namespace outcome_code {
 inline constexpr std::int32_t kOutside = 8;
 inline constexpr std::int32_t kInside = 16;
@@ -29,7 +29,7 @@ class AxisLookup {
   // Counts of coordinates are multiples of this.
   static constexpr std::size_t kPadding = 8;
 
-  // The greatest magnitude of an azimuth in degrees. Azimuths beyond it have to be folded first.
+  // The largest magnitude of an azimuth in degrees. Azimuths beyond it have to be folded first.
   static constexpr float kFarthestAzimuth = 1e6f;
 
   // For each of `count` coordinates, in the units of the axis: adds `step` times the index of the node below it to
@@ -44,7 +44,7 @@ class AxisLookup {
   void AddLowerNodes(const float* coordinates, std::size_t count, std::int32_t step,
                      std::int32_t* rows) const;
 
-  // What the kernels read.
+  // The data that the kernels read.
   struct Nodes {
     std::vector<float> nodes;
     // 1 / the distance of two neighbours; on a log scale, the distance of their logarithms.

@@ -1,4 +1,4 @@
-// Blocks of pulses that are interpolated together: few enough for their data to stay in the nearest caches. For all
+// Blocks of pulses that are interpolated at a time: few enough for their data to stay in the nearest caches. For all
 // values and standard errors of the sea surface, a block touches 25 KiB of PulseBlock and BlockValues, or 38 KiB if the
 // azimuth is absent. The rest of BlockValues is for kinds of tables that have more sets of records.
 #pragma once

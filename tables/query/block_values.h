@@ -36,7 +36,7 @@ class BlockValues {
   // error that belongs to it.
   void TakeLarger(const PulseBlock& block);
 
-  // The largest that were taken; those of the first alternative are without TakeLarger().
+  // The largest values taken; without TakeLarger(), those of the first alternative.
   const BlockOf<float>& value(std::size_t quantity) const {
     return Column(largest_, records_.values[quantity]);
   }

@@ -3,16 +3,37 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cassert>
 #include <thread>
 
 #include "tables/query/answer_writer.h"
-#include "tables/query/table_layout.h"
+#include "tables/query/block_values.h"
+#include "tables/query/node_records.h"
+#include "tables/query/pulse_block.h"
+#include "tables/query/sorted_pulses.h"
 
 namespace albtpu {
 
-struct ColumnInterpolator::Layout : TableLayout {
-  using TableLayout::TableLayout;
+// Immutable. The schema of the table must outlive it, the table need not.
+struct ColumnInterpolator::Layout {
+  explicit Layout(const Table& table)
+      : schema(table.schema()),
+        grid(table),
+        records(table),
+        fewest_to_sort(SortedPulses::Fewest(RecordCount(records))) {}
+
+  const TableSchema& schema;
+  Grid grid;
+  NodeRecords records;
+  std::size_t fewest_to_sort;
+
+ private:
+  static std::size_t RecordCount(const NodeRecords& records) {
+    std::size_t largest = 0;
+    for (const NodeRecords::Set& set : records.sets) largest = std::max(largest, set.numbers.size());
+    return largest / kRecordSize;
+  }
 };
 
 ColumnInterpolator::ColumnInterpolator(const UncertaintyTable& table)
@@ -37,12 +58,45 @@ void ForEachColumn(const AnswerColumns& wanted, AnswerColumns& other, const Visi
   visit_if_wanted(wanted.best_s44_orders, other.best_s44_orders);
 }
 
+// Interpolates the pulses from `begin` on, block by block. Stops at `end`, or after a scattered block if at least
+// `fewest_to_sort` pulses follow it. Returns the index of the first pulse that it has not interpolated.
+template <typename Layout>
+std::size_t InterpolateBlocks(const Layout& layout, const PulseColumns& pulses, std::size_t begin,
+                              std::size_t end, std::size_t fewest_to_sort, AnswerWriter writer) {
+  if (begin == end) return end;
+  PulseBlock block(layout.grid, pulses, std::min(kBlock, end - begin));
+  BlockValues values(layout.records, writer.needs());
+  while (begin < end) {
+    block.MoveTo(begin, std::min(kBlock, end - begin));
+    for (std::size_t alternative = 0; alternative < block.alternatives(); ++alternative) {
+      block.TakeAlternative(alternative);
+      values.Find(block);
+      writer.Take(block, values);
+    }
+    writer.Write(block, values);
+    begin += block.count();
+    if (end - begin >= fewest_to_sort && block.IsScattered()) break;
+  }
+  return begin;
+}
+
 void ColumnInterpolator::Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin,
                                      std::size_t end, const AnswerColumns& answers) const {
   assert(CheckLengths(layout_->schema, pulses).ok() && begin <= end && end <= pulses.size);
-  InterpolateColumns(*layout_, pulses, begin, end, answers, [&](const AnswerColumns& columns) {
-    return AnswerWriter(query, layout_->records, columns);
-  });
+  while (true) {
+    begin = InterpolateBlocks(*layout_, pulses, begin, end, layout_->fewest_to_sort,
+                              AnswerWriter(query, layout_->records, answers));
+    if (begin == end) return;
+    // The pulses after a scattered block are likely to be scattered, too.
+    const std::size_t count =
+        std::min(end - begin, SortedPulses::kMost) / AxisLookup::kPadding * AxisLookup::kPadding;
+    const SortedPulses sorted(layout_->grid, pulses, begin, count);
+    SortedAnswers<AnswerColumns> sorted_answers(sorted, answers);
+    InterpolateBlocks(*layout_, sorted.pulses(), 0, count, SortedPulses::kNever,
+                      AnswerWriter(query, layout_->records, sorted_answers.columns()));
+    sorted_answers.CopyBack();
+    begin += count;
+  }
 }
 
 void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,

@@ -43,12 +43,6 @@ class ColumnInterpolator {
   void Interpolate(const Query& query, const PulseColumns& pulses, std::size_t begin, std::size_t end,
                    const AnswerColumns& answers) const;
 
-  [[deprecated("renamed to Interpolate")]] void Answer(const Query& query, const PulseColumns& pulses,
-                                                       std::size_t begin, std::size_t end,
-                                                       const AnswerColumns& answers) const {
-    Interpolate(query, pulses, begin, end, answers);
-  }
-
  private:
   struct Layout;
   std::unique_ptr<const Layout> layout_;
@@ -57,11 +51,5 @@ class ColumnInterpolator {
 // Answers all pulses: on all cores if there are enough pulses for that to be faster, else on the calling thread.
 void InterpolateOnAllCores(const ColumnInterpolator& interpolator, const Query& query,
                            const PulseColumns& pulses, const AnswerColumns& answers);
-
-[[deprecated("renamed to InterpolateOnAllCores")]] inline void AnswerOnAllCores(
-    const ColumnInterpolator& interpolator, const Query& query, const PulseColumns& pulses,
-    const AnswerColumns& answers) {
-  InterpolateOnAllCores(interpolator, query, pulses, answers);
-}
 
 }  // namespace albtpu

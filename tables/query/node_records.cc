@@ -1,6 +1,5 @@
 #include "tables/query/node_records.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 

@@ -10,7 +10,7 @@
 
 namespace albtpu {
 
-// Where the values or the standard errors of a quantity are.
+// The place of the values or the standard errors of a quantity.
 struct RecordPlace {
   std::size_t set = 0;   // index into NodeRecords::sets
   std::size_t lane = 0;  // which of the 4 numbers of a record
@@ -22,7 +22,7 @@ struct RecordPlace {
 struct NodeRecords {
   explicit NodeRecords(const Table& table);
 
-  // The most sets that a table may need: three quantities over one number of axes, six over the other.
+  // The maximum number of sets of a table: three quantities over one number of axes, six over the other.
   static constexpr std::size_t kMaxSets = 6;
   static_assert(kMaxQuantities == 9 && kRecordSize == 4);
 

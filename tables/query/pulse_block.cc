@@ -72,8 +72,8 @@ float Grid::absent_coordinate(std::size_t axis) const {
   return absent_is_last_node_[axis] ? axes_[axis].last_node() : std::numeric_limits<float>::quiet_NaN();
 }
 
-PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t most)
-    : grid_(grid), pulses_(pulses), most_(most) {
+PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t max_count)
+    : grid_(grid), pulses_(pulses), max_count_(max_count) {
   for (std::size_t axis = 0; axis < grid_.axis_count(); ++axis) {
     if (!IsConstant(axis)) continue;
     const std::span<const float> column = pulses_.axis[axis];
@@ -85,7 +85,7 @@ PulseBlock::PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t
     std::int32_t& row = axis == grid_.last() ? constant_last_ : constant_row_;
     row += LocateConstant(axis, coordinate, fractions_[axis]);
   }
-  if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), most, 0.0f);
+  if (grid_.axis_count() < kMaxAxes) std::fill_n(zeros_.begin(), max_count, 0.0f);
   for (const bool over_last_axis : {false, true}) {
     for (const bool later : {false, true}) {
       SetBlended(over_last_axis, later, blended_[over_last_axis ? 1 : 0][later ? 1 : 0]);
@@ -121,7 +121,7 @@ std::int32_t PulseBlock::LocateConstant(std::size_t axis, float coordinate, Bloc
   grid_.axis(axis).Locate(coordinates, kCount, static_cast<std::int32_t>(grid_.step(axis)), rows, fraction,
                           codes);
   constant_code_ = codes[0];
-  std::fill_n(fractions.begin(), most_, fraction[0]);
+  std::fill_n(fractions.begin(), max_count_, fraction[0]);
   return rows[0];
 }
 

@@ -61,8 +61,8 @@ class Grid {
 // other.
 class PulseBlock {
  public:
-  // A block will hold at most `most` pulses. All arguments must outlive it.
-  PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t most);
+  // A block holds at most `max_count` pulses. All arguments must outlive it.
+  PulseBlock(const Grid& grid, const PulseColumns& pulses, std::size_t max_count);
   PulseBlock(const PulseBlock&) = delete;
   PulseBlock& operator=(const PulseBlock&) = delete;
 
@@ -102,7 +102,7 @@ class PulseBlock {
 
   const Grid& grid_;
   const PulseColumns& pulses_;
-  const std::size_t most_;
+  const std::size_t max_count_;
   std::size_t first_ = 0, count_ = 0;
   std::int32_t constant_code_ = outcome_code::kInside, constant_row_ = 0, constant_last_ = 0;
   std::size_t alternative_ = 0, later_ = 0;

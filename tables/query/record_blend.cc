@@ -158,8 +158,8 @@ class Cell {
     }
   }
 
-  // Few lines can be on their way to the first-level cache at a time: prefetching into it raises the rate in random
-  // order by a fifth, prefetching into the second-level cache doubles it.
+  // The first-level cache can have few lines in flight: prefetching into it raises the rate in random order by a fifth,
+  // prefetching into the second-level cache doubles it.
   static HWY_INLINE void ToSecondCache(const float* number) {
     constexpr int kRead = 0, kSecondCache = 2;
     __builtin_prefetch(number, kRead, kSecondCache);

@@ -1,4 +1,4 @@
-// The weighted means of records at the corners around many pulses.
+// The weighted means of the records at the corners around each of many pulses.
 #pragma once
 
 #include <tbb/cache_aligned_allocator.h>
@@ -12,7 +12,7 @@
 
 namespace albtpu {
 
-// Four numbers that are known at a node, side by side, so that they are read and blended together.
+// Four numbers that are known at a node, side by side, so that one load reads all four.
 inline constexpr std::size_t kRecordSize = 4;
 // A record for each node, and one more, so that the last one has a neighbour, too.
 using Records = std::vector<float, tbb::cache_aligned_allocator<float>>;

@@ -9,7 +9,7 @@
 namespace albtpu {
 // Sorting takes an eighth of the time of interpolating in random order. It pays if the table, whose records have 16
 // bytes, does not fit into the second-level cache, and if the pulses, each of which reads 64 records, read at least
-// half as many records as the table has: with fewer, neighbours rarely find what they share in the cache
+// half as many records as the table has: with fewer, neighbours rarely find their common records in the cache
 // (interpolation_bench).
 std::size_t SortedPulses::Fewest(std::size_t records) {
   constexpr std::size_t kRecordsInCache = 1 << 16, kRecordsAPulse = 128;
@@ -27,7 +27,7 @@ SortedPulses::SortedPulses(const Grid& grid, const PulseColumns& pulses, std::si
 // A counting sort by the cell of a pulse without the last axis, because all its nodes in a cell take few cache lines.
 // If there are many cells, neighbours share a count.
 void SortedPulses::FindPlaces(const Grid& grid, const PulseColumns& pulses) {
-  constexpr std::int32_t kMostCounts = 1 << 14;
+  constexpr std::int32_t kMaxCounts = 1 << 14;
   std::vector<std::int32_t> rows(count_);
   for (std::size_t axis = 0; axis < grid.last(); ++axis) {
     if (pulses.axis[axis].size() <= 1) continue;
@@ -36,7 +36,7 @@ void SortedPulses::FindPlaces(const Grid& grid, const PulseColumns& pulses) {
   }
   const std::int32_t last = *std::max_element(rows.begin(), rows.end());
   int shift = 0;
-  while (last >> shift >= kMostCounts) ++shift;
+  while (last >> shift >= kMaxCounts) ++shift;
   std::vector<std::uint32_t> counts(static_cast<std::size_t>(last >> shift) + 1);
   for (std::int32_t& row : rows) {
     row >>= shift;

@@ -13,11 +13,11 @@ namespace albtpu {
 
 class SortedPulses {
  public:
-  // The most pulses that are sorted at a time: a column of them stays in the second-level cache. With their answers
-  // they take at most some 100 bytes a pulse.
+  // The maximum number of pulses that are sorted at a time: a column of them stays in the second-level cache. With
+  // their answers they take at most some 100 bytes a pulse.
   static constexpr std::size_t kMost = std::size_t{1} << 16;
 
-  // The number of pulses in random order from which sorting them is faster, in a table of this many records: at most
+  // The number of pulses in random order from which on sorting is faster, for a table of this many records: at most
   // kMost, or kNever.
   static std::size_t Fewest(std::size_t records);
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();

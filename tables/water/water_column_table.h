@@ -1,4 +1,4 @@
-// A table of the water column, and what it says between its nodes.
+// A table of the water column, and its interpolation.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class OneWater {
   // Interpolates by cubic polynomials through the four nodes around each coordinate; around an incidence near 0, one of
   // them is the mirror image of another. Biases are interpolated over the number of scatterings b z. Below the first
   // optical depth they are in proportion to it, as once-scattered light has them. A field of view above
-  // the last node counts as all, a pulse above the last node as that: its echo is the pulse itself. Nothing if the
+  // the last node counts as all, a pulse above the last node as that: its echo is the pulse itself. nullopt if the
   // incidence or the optical depth is above the last node, the field of view or the pulse below the first, or a
   // coordinate is negative or NaN.
   std::optional<WaterAnswer> At(const WaterBeam& beam) const;

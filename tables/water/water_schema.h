@@ -39,7 +39,7 @@ enum class WaterQuantity {
 inline constexpr std::size_t kWaterQuantityCount = 9;
 
 // An echo of less energy than this is lost in that of the water, and of too few photons to compute.
-inline constexpr double kLeastEchoEnergy = 0.003;
+inline constexpr double kMinEchoEnergy = 0.003;
 
 constexpr std::size_t Index(WaterAxis axis) { return static_cast<std::size_t>(axis); }
 constexpr std::size_t Index(WaterQuantity quantity) { return static_cast<std::size_t>(quantity); }

@@ -227,7 +227,7 @@ class Signals(ServeTest):
         process.terminate()
         self.assertEqual(process.wait(PATIENCE), 0)
         with os.fdopen(reader) as log:
-            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out \(nobody read the log\)\n")
+            self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out \(the reader of the log did not keep up\)\n")
 
     def test_are_reported_to_watchers_of_its_health(self):
         server = self.serve()

@@ -1,7 +1,6 @@
 #include "validation/laboratory/photodiode_array.h"
 
 #include <cassert>
-#include <cmath>
 
 #include "sea/response/refraction.h"
 

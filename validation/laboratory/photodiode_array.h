@@ -30,7 +30,7 @@ class PhotodiodeArray {
 
  private:
   PhotodiodeArrayOptions options_;
-  Eigen::Vector2d corner_;  // the centre of the photodiode with the least x and y
+  Eigen::Vector2d corner_;  // the centre of the photodiode with the smallest x and y
 };
 
 // The points where the refracted rays cross the plane `depth` [m] below the mean surface. Rays, water and spots are

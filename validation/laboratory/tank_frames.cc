@@ -2,8 +2,6 @@
 
 #include <numbers>
 
-#include "validation/laboratory/virtual_tank.h"
-
 namespace albtpu {
 namespace {
 

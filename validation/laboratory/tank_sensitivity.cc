@@ -1,8 +1,6 @@
 #include "validation/laboratory/tank_sensitivity.h"
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace albtpu {
 namespace {

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "validation/published/published_model.h"

@@ -35,8 +35,7 @@ double PublishedCrossWindDiameterFactor(double diameter);
 struct AngleSample {
   double wind_speed, incidence_degrees, angle_degrees;
 };
-// The model with the least sum of squared residuals. The samples must determine it: at least two winds and two
-// incidences in all combinations.
+// The least-squares fit. The samples must determine it: at least two winds and two incidences in all combinations.
 AngleModel FitAngleModel(const std::vector<AngleSample>& samples);
 
 struct LineFit {

@@ -78,7 +78,7 @@ RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& si
   return grid;
 }
 
-double GreatestRelativeStandardError(const RefractionGrid& grid) {
+double LargestRelativeStandardError(const RefractionGrid& grid) {
   double greatest = 0;
   for (const RefractionGrid::Cell& cell : grid.cells)
     greatest = std::max(greatest, cell.along.standard_error / cell.along.value);

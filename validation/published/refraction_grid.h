@@ -46,7 +46,7 @@ struct SimulationSize {
 RefractionGrid SimulateGrid(const GridOptions& options, const SimulationSize& size, std::uint64_t seed);
 
 // Of the along-wind angles.
-double GreatestRelativeStandardError(const RefractionGrid& grid);
+double LargestRelativeStandardError(const RefractionGrid& grid);
 
 // The paper's Table 3 as a grid, without standard errors.
 RefractionGrid GridOf(const PublishedAngles& published);
@@ -65,7 +65,7 @@ std::vector<AngleSample> CrossWindSamples(const RefractionGrid& grid);
 
 // The distribution of ln(factor * ours / paper) over the clean cells of a published table.
 struct LogRatio {
-  double mean, rms, greatest;  // the greatest in magnitude
+  double mean, rms, greatest;  // the largest in magnitude
 };
 LogRatio AlongWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);
 LogRatio CrossWindLogRatio(const RefractionGrid& ours, double factor, const PublishedAngles& paper);

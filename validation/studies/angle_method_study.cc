@@ -18,9 +18,9 @@ namespace {
 constexpr int kDraws = 10'000;  // the paper's
 
 // Half a unit of the second decimal printed, and as much again for the paper's draws, whose standard error is 1 /
-// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the greatest).
+// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the largest).
 constexpr double kQuadratureTolerance = 0.010;  // m
-// The rounding, and three standard errors of our draws and the paper's together at the greatest value, 1.05 m,
+// The rounding, and three standard errors of the difference of our draws and the paper's at the largest value, 1.05 m,
 // rounded down.
 constexpr double kDrawsTolerance = 0.03;  // m
 // Half a unit of the second decimal, since a limit has no other error; 1e-9 for the rounding of binary fractions.
@@ -65,8 +65,8 @@ void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours
   }
 }
 
-double GreatestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
-                         double per_depth) {
+double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
+                        double per_depth) {
   double greatest = 0;
   for (std::size_t i = 0; i < depth.size(); ++i)
     greatest = std::max(greatest, std::abs(depth[i] * per_depth - published[i]));
@@ -74,8 +74,8 @@ double GreatestDeparture(const std::vector<double>& depth, const std::vector<dou
 }
 
 void CompareByDraws(const Table5& paper, const AngleMethodUncertainty& draws, Study& study) {
-  const double greatest = std::max(GreatestDeparture(paper.depth, paper.thu, draws.thu_per_depth),
-                                   GreatestDeparture(paper.depth, paper.tvu, draws.tvu_per_depth));
+  const double greatest = std::max(LargestDeparture(paper.depth, paper.thu, draws.thu_per_depth),
+                                   LargestDeparture(paper.depth, paper.tvu, draws.tvu_per_depth));
   study.comparisons.push_back({.quantity = "Greatest departure of the 20 values with 10,000 draws",
                                .unit = "m",
                                .ours = greatest,

@@ -22,8 +22,7 @@ constexpr double kSourceHeight = 4;  // m
 constexpr double kDepth = 0.25;      // m, of the plane where the rays end
 constexpr double kAbove = 0.1;       // m, of the points where the drawn rays begin
 constexpr int kRays = 500'000;
-constexpr int kRaysPerDrawnRay =
-    9001;  // one ray in so many is drawn; they are spread over the spiral of rays
+constexpr int kRaysPerDrawnRay = 9001;   // one ray in this many is drawn, spread over the spiral of rays
 constexpr double kDrawnSpacing = 0.003;  // m, between points of the drawn surface
 
 // The point where a ray refracted at `hit` reaches a level.

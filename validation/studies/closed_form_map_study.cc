@@ -25,7 +25,7 @@ struct Domain {
 const Domain kWhole = {{1, 2, 3, 5, 7, 10, 12.5, 15}, {100, 3000, kFullyDeveloped}, {0.1, 0.4, 1.5, 5}, 400};
 const Domain kQuick = {{1, 5, 10, 15}, {100, kFullyDeveloped}, {0.1, 0.7, 5}, 100};
 
-// Degrees. All incidences along the wind, and the greatest one also across it.
+// Degrees. All incidences along the wind, and the largest one also across it.
 struct Direction {
   double incidence, azimuth;
 };
@@ -34,7 +34,7 @@ const std::vector<Direction> kDirections = {{0, 0}, {5, 0}, {10, 0}, {15, 0}, {2
 struct MapPart {
   double wind_speed, fetch, footprint;
   SeaCaseRatios ratios;  // beams in the order of kDirections
-  bool is_judged() const { return ratios.seen_fraction >= kLeastSeenFraction; }
+  bool is_judged() const { return ratios.seen_fraction >= kMinSeenFraction; }
 };
 
 std::vector<MapPart> MakeMap(const Domain& domain, std::uint64_t seed) {
@@ -123,7 +123,7 @@ double ThirdOrderAtNadir(double n) {
 
 struct Tally {
   int within = 0, all = 0;
-  double greatest_excess = -std::numeric_limits<double>::infinity();  // in standard errors
+  double max_excess = -std::numeric_limits<double>::infinity();  // in standard errors
 };
 
 Tally CountWithin(const std::vector<MapPart>& map) {
@@ -137,7 +137,7 @@ Tally CountWithin(const std::vector<MapPart>& map) {
       for (const Estimate& ratio : {beam.along, beam.cross, beam.thu}) {
         const double excess = ExcessInStandardErrors(ratio, beam.allowed);
         tally.within += excess <= k;
-        tally.greatest_excess = std::max(tally.greatest_excess, excess);
+        tally.max_excess = std::max(tally.max_excess, excess);
       }
     }
   }
@@ -198,7 +198,7 @@ void Compare(const std::vector<MapPart>& map, const Domain& domain, Study& study
        .basis = absl::StrFormat(
            "all at most 0.015 + 0.3 mss + 0.02 theta/20 degrees below 1 and 0.005 above it, besides %.1f "
            "standard errors, which chance exceeds in one such map of twenty; the worst is %.1f beyond",
-           StandardErrorsFor(tally.all), tally.greatest_excess)});
+           StandardErrorsFor(tally.all), tally.max_excess)});
   const std::vector<Estimate> fit = FitDepartureWithErrors(map);
   study.comparisons.push_back(
       {.quantity = "THU below the closed form as the slopes vanish",

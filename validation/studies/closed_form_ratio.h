@@ -20,7 +20,7 @@ struct SeaCaseRatios {
   std::vector<ClosedFormRatio> beams;
   // Of all waves: the waves shorter than the grid are not drawn, but their effect on refraction is included.
   double mean_square_slope;
-  // The fraction of the slope variance that the footprint passes; the least of the beams.
+  // The fraction of the slope variance that the footprint passes; the minimum of the beams.
   double seen_fraction;
 };
 
@@ -36,7 +36,7 @@ inline constexpr double kDiscretizationError = 0.005;
 // degrees. The nonlinearity of Snell's law only lowers it; above the theory kDiscretizationError is allowed.
 double AllowedDeparture(double mean_square_slope, double incidence_degrees);
 
-// The number of standard errors that the greatest of so many normal deviations exceeds with a probability of 5 %.
+// The number of standard errors that the maximum of this many normal deviations exceeds with a probability of 5 %.
 double StandardErrorsFor(int comparisons);
 
 // The distance, in standard errors, of a ratio below 1 - allowed or above 1 + kDiscretizationError; 0 or negative

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -104,10 +103,10 @@ void CompareTrends(const PaperMonteCarlo& runs, Study& study) {
                                  .basis = absl::StrFormat("at least %.2f: %s", least, why)});
   };
   line("closed form", runs.closed_form, kClosedFormRSquared, "the theory is slightly curved");
-  const double fine_error = GreatestRelativeStandardError(runs.fine);
+  const double fine_error = LargestRelativeStandardError(runs.fine);
   line("fine Monte Carlo", runs.fine, fine_error <= kFineStandardError ? kFineRSquared : kPaperRSquared,
        absl::StrFormat("the angles have standard errors of at most %.1g %%", 100 * fine_error));
-  const double plain_error = GreatestRelativeStandardError(runs.by_diameter.front());
+  const double plain_error = LargestRelativeStandardError(runs.by_diameter.front());
   line(runs.plain_name.c_str(), runs.by_diameter.front(), kPaperRSquared,
        absl::StrFormat("the angles have standard errors of at most %.1f %%; the lowest of five lines",
                        100 * plain_error));
@@ -164,8 +163,8 @@ std::vector<std::string> Text(const PaperMonteCarlo& runs, const PaperMonteCarlo
           "incidences of a wind see the same surfaces.",
           size.plain.surfaces,
           size.plain.rays ? absl::StrFormat(" of %d rays, the paper's size,", *size.plain.rays) : "",
-          100 * GreatestRelativeStandardError(runs.by_diameter.front()), size.fine.surfaces,
-          100 * GreatestRelativeStandardError(runs.fine)),
+          100 * LargestRelativeStandardError(runs.by_diameter.front()), size.fine.surfaces,
+          100 * LargestRelativeStandardError(runs.fine)),
       absl::StrFormat(
           "Without any scaling our along-wind angles are on average %.2f of the printed ones, in the closed "
           "form and in the Monte Carlo. One factor on all slopes brings them together: the best factor is "

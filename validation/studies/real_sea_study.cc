@@ -23,18 +23,18 @@ double WaveHeight(const SeaState& sea) { return 4 * std::sqrt(ElevationVariance(
 // In the order of the tables' columns.
 constexpr const SpectrumModel* kSpectra[] = {&kApelModel, &kElfouhailyModel};
 
-// The range of winds observed by Cox and Munk, and the least wind at which Elfouhaily's sea has short waves, m/s.
-constexpr int kLeastObserved = 1, kGreatestObserved = 14, kShortWavesFrom = 3;
+// The range of winds observed by Cox and Munk, and the lowest wind at which Elfouhaily's sea has short waves, m/s.
+constexpr int kMinObserved = 1, kMaxObserved = 14, kShortWavesFrom = 3;
 
 // The rms departure of the total mean square slope from Cox and Munk's line, over their winds from `first` on in
 // steps of 1 m/s.
 double RmsDepartureOfSlope(const SpectrumModel& model, int first) {
   double squares = 0;
-  for (int wind = first; wind <= kGreatestObserved; ++wind) {
+  for (int wind = first; wind <= kMaxObserved; ++wind) {
     const double departure = SlopeCovariance(Sea(model, wind)).trace() - CoxMunkTotal(wind).mean_square;
     squares += departure * departure;
   }
-  return std::sqrt(squares / (kGreatestObserved - first + 1));
+  return std::sqrt(squares / (kMaxObserved - first + 1));
 }
 
 void CompareSlopes(Study& study) {
@@ -79,7 +79,7 @@ void CompareSlopes(Study& study) {
   for (const SpectrumModel* model : kSpectra) {
     const double scatter = CoxMunkTotal(1).scatter;
     for (const auto& [first, winds] :
-         {std::pair{kLeastObserved, "all observed winds, including those below 3 m/s"},
+         {std::pair{kMinObserved, "all observed winds, including those below 3 m/s"},
           std::pair{
               kShortWavesFrom,
               "only from 3 m/s on: in lighter winds Elfouhaily's sea has no short waves and is too steep"}}) {
@@ -87,7 +87,7 @@ void CompareSlopes(Study& study) {
       study.comparisons.push_back(
           {.quantity =
                absl::StrFormat("Mean square slope, rms departure from Cox and Munk over %d-%d m/s, %s", first,
-                               kGreatestObserved, std::string(model->author)),
+                               kMaxObserved, std::string(model->author)),
            .unit = "1",
            .published = scatter,
            .ours = rms,
@@ -183,7 +183,7 @@ absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options) {
           "of winds: the rms departure of its total mean square slope is %.4f from %d m/s on and %.4f over "
           "all winds from %d m/s.",
           CoxMunkTotal(1).scatter, RmsDepartureOfSlope(kElfouhailyModel, kShortWavesFrom), kShortWavesFrom,
-          RmsDepartureOfSlope(kElfouhailyModel, kLeastObserved), kLeastObserved),
+          RmsDepartureOfSlope(kElfouhailyModel, kMinObserved), kMinObserved),
       "Heights: Pierson and Moskowitz (1964), Hs = 0.21 U^2 / g with the wind at 19.5 m; and by fetch "
       "JONSWAP, Hs = 1.6e-3 (g x / U^2)^(1/2) U^2 / g with the wind at 10 m, up to the fully developed sea. "
       "At short fetch Apel's waves are 2-3 times too low, because its level A does not depend on fetch; "

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <random>
-#include <string>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -40,7 +39,7 @@ struct Bound {
   ComparedQuantity quantity;
   double rms, each;
 };
-// Beams on the same surfaces share most of the random error of their biases along: their rms is of few samples.
+// Beams on the same surfaces have nearly the same random error of the bias along the beam: its rms is of few samples.
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
 constexpr std::array<Bound, 7> kOnManySeas = {{{ComparedQuantity::kAlong, 0.0035, 0.02},
@@ -50,8 +49,8 @@ constexpr std::array<Bound, 7> kOnManySeas = {{{ComparedQuantity::kAlong, 0.0035
                                                {ComparedQuantity::kBiasAlongBeam, kAny, 0.01},
                                                {ComparedQuantity::kBiasVertical, 0.01, 0.01},
                                                {ComparedQuantity::kThuAtSurface, 0.03, 0.06}}};
-// Tracing does not draw the waves shorter than its grid, whose mean effect it adds to the rays. Where there are none
-// such, it is exact.
+// Tracing does not draw the waves shorter than its grid, but adds their mean effect to the rays. Without such waves it
+// is exact.
 constexpr std::array<Bound, 7> kOnResolvedSeas = {{{ComparedQuantity::kAlong, 0.001, 0.003},
                                                    {ComparedQuantity::kCross, 0.001, 0.003},
                                                    {ComparedQuantity::kThu, 0.001, 0.003},
@@ -59,7 +58,7 @@ constexpr std::array<Bound, 7> kOnResolvedSeas = {{{ComparedQuantity::kAlong, 0.
                                                    {ComparedQuantity::kBiasAlongBeam, kAny, 0.005},
                                                    {ComparedQuantity::kBiasVertical, kAny, 0.005},
                                                    {ComparedQuantity::kThuAtSurface, 0.01, 0.02}}};
-// Where a footprint passes less than this share of the mean square slope, it is far longer than the waves. There THU by
+// A footprint that passes less than this fraction of the mean square slope is far longer than the waves. There THU by
 // the theory is up to half a per cent less.
 constexpr double kFarLonger = 0.01;
 constexpr Bound kUnderFarLongerBeams = {ComparedQuantity::kThu, kAny, 0.015};
@@ -95,7 +94,7 @@ std::vector<ComparedBeam> CompareBeams(const ResponseSea& sea, SeaCase sea_case,
   const SeaState state(sea_case.sea);
   Discretization grid = ChooseDiscretization(state, sea_case.beams);
   grid.points_per_footprint *= effort.finer;
-  grid.rays = std::min(effort.finer * effort.finer * grid.rays, kMostRays);
+  grid.rays = std::min(effort.finer * effort.finer * grid.rays, kMaxRays);
   sea_case.discretization = grid;
   const SeaCaseResult traced = Simulate(
       sea_case, {.realizations = effort.realizations, .most_realizations = effort.realizations}, seed, cell);
@@ -158,18 +157,18 @@ Estimate RatioOf(const ComparedBeam& beam, ComparedQuantity quantity) {
   };
   const BeamResponse& ours = beam.theory;
   const BeamUncertainty& traced = beam.traced;
-  const double least_angle = RadiansOfDegrees(0.2), least_length = 0.0005 * kComparedDepth;
+  const double min_angle = RadiansOfDegrees(0.2), min_length = 0.0005 * kComparedDepth;
   switch (quantity) {
     case ComparedQuantity::kAlong:
-      return ratio(ours.refraction_along_wind(), traced.refraction_along_wind, least_angle);
+      return ratio(ours.refraction_along_wind(), traced.refraction_along_wind, min_angle);
     case ComparedQuantity::kCross:
-      return ratio(ours.refraction_cross_wind(), traced.refraction_cross_wind, least_angle);
+      return ratio(ours.refraction_cross_wind(), traced.refraction_cross_wind, min_angle);
     case ComparedQuantity::kThu:
       return ratio(ours.Thu(kComparedDepth), traced.thu[1], 0);
     case ComparedQuantity::kTvu:
-      return ratio(ours.Tvu(kComparedDepth), traced.tvu[1], least_length);
+      return ratio(ours.Tvu(kComparedDepth), traced.tvu[1], min_length);
     case ComparedQuantity::kBiasAlongBeam:
-      return ratio(ours.BiasAlongBeam(kComparedDepth), traced.bias_along_beam[1], least_length);
+      return ratio(ours.BiasAlongBeam(kComparedDepth), traced.bias_along_beam[1], min_length);
     case ComparedQuantity::kBiasVertical:
       return ratio(ours.BiasVertical(kComparedDepth), traced.bias_vertical[1], 0);
     case ComparedQuantity::kThuAtSurface:

@@ -26,7 +26,7 @@ inline constexpr double kComparedDepth = 20;  // m
 
 struct TracingEffort {
   int realizations = 300;
-  int finer = 1;  // times as many points and rays along the footprint as are chosen by default
+  int finer = 1;  // the factor on the default numbers of points and rays along the footprint
 };
 
 // Traces the beams of `sea_case` on `sea`. `cell` chooses the random numbers.
@@ -38,8 +38,8 @@ std::vector<ComparedBeam> CompareBeams(const ResponseSea& sea, SeaCase sea_case,
 std::vector<ComparedBeam> CompareRandomBeams(const std::vector<ResponseSea>& seas, bool few,
                                              const TracingEffort& effort, std::uint64_t seed);
 
-// What of a beam is compared, where it is not too small to matter: refraction from 0.2 degrees on, TVU and the bias
-// along the beam from 0.5 mm per metre of depth, THU at the surface from 0.5 mm.
+// The compared quantities of a beam, with lower limits: refraction from 0.2 degrees on, TVU and the bias along the beam
+// from 0.5 mm per metre of depth, THU at the surface from 0.5 mm.
 enum class ComparedQuantity { kAlong, kCross, kThu, kTvu, kBiasAlongBeam, kBiasVertical, kThuAtSurface };
 inline constexpr std::array kComparedQuantities = {
     ComparedQuantity::kAlong,       ComparedQuantity::kCross,         ComparedQuantity::kThu,
@@ -55,7 +55,7 @@ struct Agreement {
   int beams = 0;  // that count
   double rms = 0, worst = 0;
   double standard_error = 0;  // rms of those of the tracing
-  double worst_beyond = 0;    // the greatest error less `allowed` standard errors
+  double worst_beyond = 0;    // the largest error less `allowed` standard errors
 };
 Agreement AgreementOf(const std::vector<ComparedBeam>& beams, ComparedQuantity quantity,
                       double standard_errors);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"

@@ -16,16 +16,16 @@ absl::StatusOr<Study> PaperMonteCarloStudy(const StudyOptions& options);
 // degrees and 5.25 m/s, by quadrature and with the paper's 10,000 draws.
 absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options);
 
-// Where the small-slope theory holds over the domain of a survey, and where it fails.
+// The range of validity of the small-slope theory over the domain of a survey.
 absl::StatusOr<Study> ClosedFormMapStudy(const StudyOptions& options);
 
 // The spectra beside measurements of real seas, and how the choice of spectrum changes the uncertainty of a beam.
 absl::StatusOr<Study> RealSeaStudy(const StudyOptions& options);
 
-// The theory that answers for measured and described seas, beside tracing.
+// The response theory, which makes the tables of measured and described seas, beside tracing.
 absl::StatusOr<Study> ResponseTheoryStudy(const StudyOptions& options);
 
-// What scattering in the water does to the reported bottom, beside what is known of its parts.
+// The effect of scattering in the water on the reported bottom, beside known results for its parts.
 absl::StatusOr<Study> WaterColumnStudy(const StudyOptions& options);
 
 // Figure 1a of the paper: gravity waves longer than the footprint, removed by a correction for the local slope.

@@ -1,4 +1,4 @@
-// A photon that flies through homogeneous water, one scattering after another: the slow twin of PhotonWalk.
+// A photon on its way through homogeneous water, from scattering to scattering: the slow twin of PhotonWalk.
 #pragma once
 
 #include <Eigen/Core>
@@ -73,7 +73,7 @@ class Traveller {
     return End::kLost;
   }
 
-  // Leaves the bottom as a Lambertian surface sends it.
+  // Leaves the bottom in a direction of Lambertian reflection.
   void Reflect(std::mt19937_64& random) {
     going = Turned(normal_, std::sqrt((1 - std::sqrt(Uniform(random))) / 2), random);
   }

@@ -53,8 +53,8 @@ double PulseLength(const LidarSystem& lidar, double depth) {
   return PulseLengthOverDepth(lidar.nanoseconds, depth, kGroupIndex);
 }
 
-// What a program apart from this one found by the same definitions, rounded: too deep by peak and half [cm], and the
-// spot [m].
+// The rounded results of an independent program with the same definitions: too deep by peak and half [cm], and the spot
+// [m].
 struct Found {
   const LidarSystem& lidar;
   double attenuation, depth, peak, half, spot, peak_rounding, half_rounding;

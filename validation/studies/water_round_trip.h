@@ -1,6 +1,6 @@
 // The slow twin of the water column's Monte Carlo: every photon goes down, off the bottom and up again, and counts if
-// it leaves the water where and whither the receiver sees it. No reciprocity, no pairs, no scaling, and its own
-// arithmetic.
+// it leaves the water within the field of view and the cone of the receiver. No reciprocity, no pairs, no scaling, and
+// independent code.
 #pragma once
 
 #include <cstdint>

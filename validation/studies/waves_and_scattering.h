@@ -1,4 +1,4 @@
-// One simulation of a rough surface and turbid water at once, against each of them alone.
+// A simulation of a rough surface over turbid water, compared with each of the two alone.
 #pragma once
 
 #include <array>
@@ -27,9 +27,9 @@ struct Comparison {
   std::array<ReportedBottom, 3> waves, scattering, both;  // by Detector
 };
 
-// Photons enter through the waves under the beam, and those that are walked backwards from the receiver through the
-// same waves under its field of view; they meet on the bottom. Each realization has two sets of photons. Covariances
-// between the two are variances over the sea, without the noise of the photons.
+// Photons of the beam and photons traced backwards from the receiver enter through the same waves and meet on the
+// bottom. Each realization has two sets of photons. Covariances between the two are variances over the sea, without the
+// noise of the photons.
 Comparison Compare(const PhaseFunction& phase, const WavesAndScattering& at, int realizations, int photons,
                    std::uint64_t seed);
 

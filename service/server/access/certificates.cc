@@ -24,7 +24,7 @@ Bytes OpenPem(const std::string& pem) {
   return Bytes(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
 }
 
-// Rejects encrypted keys: there is nobody to ask for a passphrase.
+// Rejects encrypted keys: a server cannot ask for a passphrase.
 int NoPassphrase(char*, int, int, void*) { return -1; }
 
 Certificate FirstCertificate(const std::string& pem) {

@@ -1,4 +1,4 @@
-// How a server proves its identity, and who may call it.
+// The certificate of a server, and the authentication of its callers.
 #pragma once
 
 #include <grpcpp/security/server_credentials.h>

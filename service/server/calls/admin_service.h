@@ -9,7 +9,7 @@
 
 namespace albtpu::server {
 
-// Whose calls are accepted.
+// The callers that are accepted.
 enum class AdminCallers {
   kLocal,  // Callers on this machine, by their address. A proxy on this machine hides its clients.
   kAll,    // Everyone. For servers that authenticate all callers.

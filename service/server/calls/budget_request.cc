@@ -1,7 +1,6 @@
 #include "service/server/calls/budget_request.h"
 
 #include <cmath>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "budget/query/query_check.h"

@@ -17,7 +17,7 @@ class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
   explicit HealthService(std::set<std::string> services) : services_(std::move(services)) {}
 
-  // Reports NOT_SERVING from now on, tells the watchers and ends their streams.
+  // Reports NOT_SERVING from now on, notifies the watchers and ends their streams.
   void StopServing();
 
   grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext* context,

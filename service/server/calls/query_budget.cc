@@ -1,6 +1,5 @@
 #include "service/server/calls/query_budget.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "service/server/calls/request_columns.h"
 
 #include <algorithm>
-#include <array>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <set>
 #include <system_error>
@@ -28,7 +27,7 @@ constexpr int kMaxAcceptsPerTurn = 64;
 // Pause before the next attempt when the system has no resources for another connection.
 constexpr int kPauseMilliseconds = 100;
 
-// The first descriptor that is too high. The system assigns the lowest free descriptor, so its number tells how many
+// The first descriptor that is too high. The system assigns the lowest free descriptor, so its number shows how many
 // are open.
 int DescriptorLimit() {
   rlimit limit{};

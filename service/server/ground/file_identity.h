@@ -1,4 +1,4 @@
-// Tells whether a file on disk is still the one that was read.
+// Detects whether a file on disk is still the one that was read.
 #pragma once
 
 #include <sys/stat.h>

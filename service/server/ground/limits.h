@@ -9,8 +9,8 @@ namespace albtpu::server {
 // Largest message. By default a gRPC client accepts no larger one, so no answer may exceed it, and no request needs to.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{4} << 20;
 
-// Pulses in one message. The largest answer in columns has 59 bytes per pulse: outcome and axis (2), six quantities
-// and their standard errors (48), S-44 (9).
+// Maximum number of pulses in one message. The largest answer in columns has 59 bytes per pulse: outcome and axis (2),
+// six quantities and their standard errors (48), S-44 (9).
 inline constexpr std::size_t kMaxPulses = 65536;
 static_assert(kMaxPulses * 59 < kMaxMessageBytes);
 
@@ -38,7 +38,7 @@ inline constexpr std::size_t kMaxInlineBudgetBytes = kMaxInlineBytes / 4;
 // pulses in rows.
 inline constexpr int kMaxBulkCalls = 128;
 
-// What a sea of a request may have. Spectra of buoys and models have 25 to 100 frequencies, the program's own over
+// Limits of a sea in a request. Spectra of buoys and models have 25 to 100 frequencies, the program's own over
 // wavenumber 281. With six harmonics such a sea takes 57 KiB. A component costs up to a millisecond of the time to
 // compile a sea; partitions of models have three to seven.
 inline constexpr std::size_t kMaxSeaSamples = 512;
@@ -108,7 +108,7 @@ inline constexpr int kOwnDescriptors = 64;
 // client that connects and stays silent is disconnected after this time.
 inline constexpr std::chrono::seconds kMaxHandshake{10};
 
-// A connection without a call. Clients reconnect when they have a question.
+// A connection without a call. Clients reconnect when they have a query.
 inline constexpr std::chrono::minutes kMaxConnectionIdle{5};
 
 // After this time, which gRPC varies by a tenth, a client is asked to reconnect, so that replaced certificates and
@@ -140,8 +140,7 @@ inline constexpr std::chrono::seconds kDrainTime{10};
 // Length of a caller's `x-request-id`, which is logged. A UUID has 36 characters, a W3C trace context 55.
 inline constexpr std::size_t kMaxRequestIdBytes = 64;
 
-// Log lines about calls per second; further lines are counted and not written. Nobody reads more, and a caller in a
-// loop must not fill a disk.
+// Log lines about calls per second; further lines are counted and not written: a caller in a loop must not fill a disk.
 inline constexpr int kMaxCallLinesPerSecond = 100;
 
 // gRPC uses threads for reflection only: one for each open stream. Further streams fail with RESOURCE_EXHAUSTED. Tools

@@ -1,6 +1,6 @@
 // The threads that handle long requests, one for each core. The threads of gRPC, which receive and send, never wait
-// for them: the operating system shares the cores between both, so short requests are answered promptly under any
-// load of long ones.
+// for them: the operating system shares the cores between both, so short requests are answered promptly under any load
+// of long ones.
 #pragma once
 
 #include <tbb/global_control.h>

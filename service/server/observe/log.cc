@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -96,7 +95,8 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
  private:
   void sink_it_(const spdlog::details::log_msg& line) override {
     if (left_out_ > 0 && HasRoom()) {
-      const std::string text = absl::StrCat(left_out_, " lines were left out (nobody read the log)");
+      const std::string text =
+          absl::StrCat(left_out_, " lines were left out (the reader of the log did not keep up)");
       const LogFields* fields = std::exchange(line_fields, nullptr);
       const RequestId* request = std::exchange(current_request, nullptr);
       Write(spdlog::details::log_msg(line.logger_name, spdlog::level::warn, text));

@@ -1,7 +1,6 @@
 #include "service/server/observe/metrics.h"
 
 #include <algorithm>
-#include <string>
 
 #include "absl/status/status.h"
 #include "tables/schema.h"

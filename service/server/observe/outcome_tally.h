@@ -15,7 +15,7 @@ struct OutcomeTally {
   // By the axis that caused the outcome.
   std::array<std::size_t, kAxisCount> out_of_domain = {};
   std::array<std::size_t, kAxisCount> invalid = {};
-  std::size_t invalid_aircraft = 0;  // A number of the aircraft did.
+  std::size_t invalid_aircraft = 0;  // Caused by a number of the aircraft.
 
   std::size_t pulses() const;
 

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
-#include <optional>
 #include <system_error>
 
 namespace albtpu::server {

@@ -1,4 +1,4 @@
-// What a server records of its calls and reloads: log lines, and the metrics of each call.
+// The records of a server's calls and reloads: log lines, and the metrics of each call.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -32,7 +32,7 @@ class CallLog {
   long left_out_ = 0;
 };
 
-// Where calls, and callers that are refused, are recorded.
+// The records of calls, and of callers that are refused.
 struct Recorders {
   CallMetrics& metrics;
   AccessMetrics& access;
@@ -54,8 +54,8 @@ class CallRecord {
   // Counts an answer with pulses to a request that arrived, or in a stream began to be handled, at `requested`.
   void CountAnswer(const OutcomeTally& tally, Clock::time_point requested);
 
-  // Called once, last, and before gRPC is told of the end: after that the context may no longer exist. A caller whose
-  // call failed also gets the id of the request (metadata x-request-id).
+  // Called once, last, and before the call is finished in gRPC: after that the context may no longer exist. A caller
+  // whose call failed also gets the id of the request (metadata x-request-id).
   void End(const grpc::Status& status) const;
 
  private:

@@ -1,6 +1,5 @@
 #include "service/server/seas/sea_request.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -18,7 +17,7 @@
 namespace albtpu::server {
 namespace {
 
-// What a number of the wire may be. sea.proto states the same ranges.
+// The range of a number on the wire. sea.proto states the same ranges.
 struct Range {
   double lowest, highest;
   std::string_view unit;
@@ -30,7 +29,7 @@ constexpr Range kDirection = {-4 * std::numbers::pi, 4 * std::numbers::pi, " rad
 constexpr Range kSpread = {0, std::numbers::sqrt2, " rad"};
 constexpr Range kFrequency = {kLowestFrequency, kHighestFrequency, " Hz"};
 constexpr Range kWavenumber = {kLowestWavenumber, kHighestWavenumber, " rad/m"};
-constexpr Range kDensity = {0, kGreatestDensity, ""};
+constexpr Range kDensity = {0, kMaxDensity, ""};
 constexpr Range kRecordLength = {1, 1e9, " s"};
 constexpr Range kWindSpeed = {0, kStrongestWind, " m/s"};
 constexpr Range kDepth = {0.1, kDeepestWater, " m"};
@@ -163,7 +162,7 @@ class Reader {
     return std::make_shared<const HarmonicSpectrum>(std::move(sea));
   }
 
-  // Checks the lists of a spectrum; `longest(i)` is the greatest length of a harmonic at i. Returns the number of
+  // Checks the lists of a spectrum; `longest(i)` is the maximum length of a harmonic at i. Returns the number of
   // harmonics.
   template <typename Longest>
   std::size_t CheckSpectrum(const std::string& path, const std::string& axis_name, const Numbers& axis,

@@ -16,7 +16,7 @@ namespace albtpu::server {
 // Thread-safe.
 class LiveTables {
  public:
-  // What happened to each table, or why nothing changed.
+  // The change of each table, or why nothing changed.
   using ReloadResult = absl::StatusOr<std::vector<TableCatalog::Change>>;
   using Listener = std::function<void(const ReloadResult&)>;
 

@@ -28,7 +28,7 @@ class TableCatalog {
   static absl::StatusOr<TableCatalog> Load(const std::filesystem::path& folder,
                                            std::string_view default_table);
 
-  // What happened to a table when its folder was read again.
+  // The change of a table when its folder was read again.
   struct Change {
     enum class Kind {
       kLoaded,   // New, or its file has changed.

@@ -11,10 +11,10 @@
 
 namespace albtpu::laz {
 
-// Invariant: value_ < length_, whatever the bytes are, so that no bytes lead outside of a model.
+// Invariant: value_ < length_ for any bytes, so that no bytes lead outside of a model.
 //
-// Each symbol waits for the one before it. Hot loops therefore work on a copy in a local variable, whose members stay
-// in registers as long as all that codes with it is inlined, and store it at the end.
+// Each symbol depends on the one before it. Hot loops therefore work on a local copy, whose members stay in registers
+// as long as all functions that use it are inlined, and store the copy at the end.
 class ArithmeticDecoder {
  public:
   static constexpr bool kEncodes = false;

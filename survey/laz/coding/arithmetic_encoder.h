@@ -21,7 +21,7 @@ class ArithmeticEncoder {
   using Model = SymbolModel<kMost, false>;
 
   void Begin() {
-    if (bytes_->empty()) bytes_->resize(kLeastRoom);
+    if (bytes_->empty()) bytes_->resize(kMinRoom);
     room_ = RoomBehind(0, *bytes_);
     base_ = 0;
     length_ = 0xFFFFFFFFu;
@@ -72,7 +72,7 @@ class ArithmeticEncoder {
 
  private:
   static constexpr std::uint32_t kLeastLength = 1u << 24;
-  static constexpr std::size_t kLeastRoom = 4096;  // Bytes.
+  static constexpr std::size_t kMinRoom = 4096;  // Bytes.
 
   // Moves the begin of the interval, and then shifts bytes out of it until it is at least kLeastLength long.
   [[gnu::always_inline]] void Raise(std::uint32_t by) {
@@ -89,7 +89,7 @@ class ArithmeticEncoder {
       room_ = Grow(room_.next, *bytes_);
   }
 
-  // Where the next bytes are written. Four have room as long as `next` is not behind `last`.
+  // The place of the next bytes. Four have room as long as `next` is not behind `last`.
   struct Room {
     char *next = nullptr, *last = nullptr;
   };

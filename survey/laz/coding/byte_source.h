@@ -1,4 +1,4 @@
-// Where compressed bytes come from: a file, or memory.
+// A source of compressed bytes: a file, or memory.
 #pragma once
 
 #include <cstddef>

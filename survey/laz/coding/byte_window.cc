@@ -5,7 +5,7 @@
 namespace albtpu::laz {
 namespace {
 
-// Zeros behind the end are given as many at a time.
+// The number of zeros after the end that are given at a time.
 constexpr std::size_t kZeros = 64;
 
 }  // namespace

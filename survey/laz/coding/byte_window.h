@@ -28,7 +28,7 @@ class ByteWindow {
   // The bytes from `next` on, where `next` is at most kPeekSize bytes behind the last of the piece before.
   Piece Continue(const std::uint8_t* next);
 
-  // Where in the source `next` lies, or would lie.
+  // The position of `next` in the source, even beyond its end.
   std::uint64_t position(const std::uint8_t* next) const {
     return piece_begin_ + static_cast<std::uint64_t>(next - bytes_.data());
   }

@@ -1,4 +1,4 @@
-// What is said of bytes that contradict each other.
+// Errors about bytes that contradict each other.
 #pragma once
 
 #include "absl/status/status.h"

@@ -1,7 +1,7 @@
-// How probable each symbol of an alphabet is, learned from the symbols that were coded: the adaptive models of
-// A. Said, "Introduction to Arithmetic Coding - Theory and Practice", HP Laboratories HPL-2004-76, section 3.2, with
-// the precision and the times of updates that the LASzip format prescribes (M. Isenburg, "LASzip: lossless compression
-// of lidar data", Photogrammetric Engineering & Remote Sensing 79(2), 2013).
+// The probability of each symbol of an alphabet, learned from the coded symbols: the adaptive models of A. Said,
+// "Introduction to Arithmetic Coding - Theory and Practice", HP Laboratories HPL-2004-76, section 3.2, with the
+// precision and the times of updates that the LASzip format prescribes (M. Isenburg, "LASzip: lossless compression of
+// lidar data", Photogrammetric Engineering & Remote Sensing 79(2), 2013).
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace albtpu::laz {
 
-inline constexpr int kProbabilityBits = 15;              // A probability of 1 is 1 << 15.
-inline constexpr std::uint32_t kMostCounted = 1u << 15;  // Then all counts are halved.
+inline constexpr int kProbabilityBits = 15;             // A probability of 1 is 1 << 15.
+inline constexpr std::uint32_t kMaxCounted = 1u << 15;  // Then all counts are halved.
 
 // Of at most `kMost` symbols. `kForDecoding` adds a table that finds the symbol of a cumulative probability.
 // A model begins anew by Forget(); its arrays are filled when its first symbol is coded.
@@ -62,7 +62,7 @@ class SymbolModel {
   // One for numbers above the range, and room for a piece behind the last.
   static constexpr std::size_t kSlots = kForDecoding ? (std::size_t{1} << kSlotBits) + 1 + Piece().size() : 0;
 
-  // All symbols are equally probable at first. Most models have kMost symbols: they copy what is the same for all.
+  // All symbols are equally probable at first. Most models have kMost symbols and copy a common initial state.
   [[gnu::noinline]] void Start() {
     if (symbols_ < kMost) return StartCounting();
     static const SymbolModel fresh = [] {
@@ -82,7 +82,7 @@ class SymbolModel {
   }
 
   [[gnu::noinline]] void Update() {
-    if ((total_ += cycle_) > kMostCounted) {
+    if ((total_ += cycle_) > kMaxCounted) {
       total_ = 0;
       for (std::uint32_t i = 0; i < symbols_; ++i) {
         total_ += shares_[i].count = static_cast<std::uint16_t>((shares_[i].count + 1) >> 1);
@@ -96,7 +96,7 @@ class SymbolModel {
       sum += shares_[i].count;
       if constexpr (kForDecoding) FillSlots(i, below, scale * sum >> (31 - kProbabilityBits));
     }
-    shares_[symbols_].below = 0xFFFF;  // Above all numbers that SymbolAt() is asked for.
+    shares_[symbols_].below = 0xFFFF;  // Above all arguments of SymbolAt().
     if constexpr (kForDecoding) first_[std::size_t{1} << kSlotBits] = static_cast<Slot>(last_symbol());
     cycle_ = std::min((5 * cycle_) >> 2, (symbols_ + 6) << 3);
     until_update_ = cycle_;
@@ -137,10 +137,10 @@ class BitModel {
   }
 
  private:
-  static constexpr std::uint32_t kMostCounted = 1u << 13, kLongestCycle = 64;
+  static constexpr std::uint32_t kMaxCounted = 1u << 13, kLongestCycle = 64;
 
   void Update() {
-    if ((total_ += cycle_) > kMostCounted) {
+    if ((total_ += cycle_) > kMaxCounted) {
       total_ = (total_ + 1) >> 1;
       zeros_ = (zeros_ + 1) >> 1;
       if (zeros_ == total_) ++total_;

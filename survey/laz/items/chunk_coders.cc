@@ -1,4 +1,4 @@
-// Which decoder and which encoder a LASzip record asks for.
+// Chooses decoder and encoder by the LASzip record.
 #include <memory>
 
 #include "survey/laz/items/chunk_decoder.h"

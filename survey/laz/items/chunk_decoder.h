@@ -11,11 +11,11 @@
 
 namespace albtpu::laz {
 
-// Which fields of points are decoded. Those that are left out are, in all points of a chunk, as in its first one; what
-// is wrong in their layers goes unnoticed. Only layered chunks can leave fields out: others have all of them.
+// Which fields of points are decoded. Fields that are left out have, in all points of a chunk, the values of its first
+// point; damage in their layers goes unnoticed. Only layered chunks can leave fields out: others have all of them.
 enum class WantedFields {
   kAll,
-  kReturns,  // Where and when each return was: coordinates, returns, scanner channels, classes and GPS times.
+  kReturns,  // The place and time of each return: coordinates, returns, scanner channels, classes and GPS times.
 };
 
 // Decodes one chunk after the other; the memory for the models (some hundred kB to few MB) is used again. A chunk is

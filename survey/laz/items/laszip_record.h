@@ -23,7 +23,7 @@ enum class Compressor : std::uint16_t {
   kLayeredChunked = 3,    // Formats 6 to 10: in each chunk a stream for each field.
 };
 
-// Fields that are compressed together.
+// Groups of fields that are compressed as one item.
 enum class ItemType : std::uint16_t {
   kByte = 0,  // Extra bytes of formats 0 to 5.
   kPoint10 = 6,

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kNumberSize = sizeof(std::uint32_t);  // Of points, and of bytes of a layer.
 
-// What all layers together have in memory, but for records of thousands of bytes, each of which has a layer.
-constexpr std::size_t kPieceBytes = 16 << 20, kLeastPieceSize = 1 << 10;
+// The memory of all layers, except for records of thousands of bytes, each of which has a layer.
+constexpr std::size_t kPieceBytes = 16 << 20, kMinPieceSize = 1 << 10;
 
 }  // namespace
 
@@ -24,8 +24,7 @@ LayeredDecoder::LayeredDecoder(const LaszipRecord& record, WantedFields wanted)
       head_(record_length_ + kNumberSize * (1 + point_.streams().size())),
       windows_(point_.streams().size()),
       stream_ends_(point_.streams().size()),
-      piece_size_(
-          std::clamp(kPieceBytes / point_.streams().size(), kLeastPieceSize, ByteWindow::kPieceSize)) {}
+      piece_size_(std::clamp(kPieceBytes / point_.streams().size(), kMinPieceSize, ByteWindow::kPieceSize)) {}
 
 absl::Status LayeredDecoder::Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
                                    std::uint64_t points) {

@@ -35,7 +35,7 @@ class LayeredDecoder : public ChunkDecoder {
   LayeredPoint<ArithmeticDecoder> point_;
   WantedFields wanted_;
   std::size_t record_length_;
-  std::vector<char> head_;                  // What lies before the layers.
+  std::vector<char> head_;                  // The bytes before the layers.
   std::vector<ByteWindow> windows_;         // Of each stream.
   std::vector<std::uint64_t> stream_ends_;  // In the source.
   std::size_t piece_size_;                  // Bytes of each layer in memory.

@@ -1,4 +1,4 @@
-// Encodes the chunks of compressor 3, whose parts layered_decoder.h tells.
+// Encodes the chunks of compressor 3; layered_decoder.h describes their parts.
 #pragma once
 
 #include <cstddef>

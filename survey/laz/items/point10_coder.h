@@ -1,4 +1,4 @@
-// The fields that all point formats from 0 to 5 have: which of them changed, then those, then the coordinates.
+// The fields common to point formats 0 to 5: which of them changed, then the changed ones, then the coordinates.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace albtpu::laz {
 
-// As it lies in a record.
+// As in a record.
 struct Point10 {
   std::int32_t x, y, z;
   std::uint16_t intensity;
@@ -61,13 +61,13 @@ class Point10Coder {
     x_steps.Add(x_step);
 
     StreamingMedian& y_steps = y_steps_[context.returns];
-    const std::uint32_t y_context = context.single + Even(std::min(dx_.size(), kMostSizeForY));
+    const std::uint32_t y_context = context.single + Even(std::min(dx_.size(), kMaxSizeForY));
     const std::int32_t y_step = dy_.Code(coder, y_steps.median(), Minus(point.y, last_.y), y_context);
     y_steps.Add(y_step);
 
     std::int32_t& z = z_[context.level];
     const std::uint32_t z_context =
-        context.single + Even(std::min((dx_.size() + dy_.size()) / 2, kMostSizeForZ));
+        context.single + Even(std::min((dx_.size() + dy_.size()) / 2, kMaxSizeForZ));
     z = dz_.Code(coder, z, point.z, z_context);
 
     point.x = Plus(last_.x, x_step);
@@ -86,7 +86,7 @@ class Point10Coder {
     kIntensityChanged = 1 << 4,
     kReturnsChanged = 1 << 5,
   };
-  static constexpr std::uint32_t kMostSizeForY = 20, kMostSizeForZ = 18;
+  static constexpr std::uint32_t kMaxSizeForY = 20, kMaxSizeForZ = 18;
   static constexpr std::uint32_t kIntensityContexts = 4;
 
   static Point10Context ContextOf(std::uint8_t returns) { return kPoint10Contexts[returns & 63]; }
@@ -148,8 +148,8 @@ class Point10Coder {
   using ByteModel = typename Coder::template Model<256>;
   typename Coder::template Model<64> changes_;
   IntegerCoder<Coder, 32, 2> dx_;
-  IntegerCoder<Coder, 32, kMostSizeForY + 2> dy_;
-  IntegerCoder<Coder, 32, kMostSizeForZ + 2> dz_;
+  IntegerCoder<Coder, 32, kMaxSizeForY + 2> dy_;
+  IntegerCoder<Coder, 32, kMaxSizeForZ + 2> dz_;
   IntegerCoder<Coder, 16, kIntensityContexts> intensities_;
   IntegerCoder<Coder, 16, 1> sources_;
   std::array<ByteModel, 2> scan_angles_;                              // By scan direction.

@@ -1,5 +1,5 @@
-// Which points of formats 0 to 5 are like each other, by their return number r of n returns: the contexts in which
-// LASzip predicts intensities and coordinates, for all numbers of three bits, whether they make sense or not.
+// Classes of similar points of formats 0 to 5, by their return number r of n returns: the contexts in which LASzip
+// predicts intensities and coordinates, for all numbers of three bits, plausible or not.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The points of a chunk of formats 0 to 5: the first one as it is, the others one after the other in a single stream.
+// The points of a chunk of formats 0 to 5: the first one uncompressed, the others in a single stream.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class PointwiseDecoder : public ChunkDecoder {
 
   std::size_t record_length_;
   std::uint64_t begin_ = 0, end_ = 0;  // Of the chunk.
-  std::vector<char> first_;            // The first record, until it is asked for.
+  std::vector<char> first_;            // The first record, until it is read.
   PointwiseItems<ArithmeticDecoder> items_;
   ByteWindow window_;
   ArithmeticDecoder decoder_;

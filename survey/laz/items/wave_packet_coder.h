@@ -1,4 +1,4 @@
-// Wave packets: where the waveform of a pulse lies, and where the point lies on it.
+// Wave packets: the place of the waveform of a pulse in the file, and of the point on the waveform.
 #pragma once
 
 #include <array>

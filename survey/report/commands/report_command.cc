@@ -3,7 +3,6 @@
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +29,7 @@ struct ReportCommandOptions {
   Existing existing = Existing::kKeep;
 };
 
-// All installed specifications, with one of a file of the user, and what the survey is held against.
+// All installed specifications, a specification from a file of the user, and the required class.
 absl::StatusOr<ReportOptions> Options(const ReportCommandOptions& flags) {
   ReportOptions options{.cell = flags.cell,
                         .specifications = {},
@@ -63,9 +62,9 @@ absl::StatusOr<ReportOptions> Options(const ReportCommandOptions& flags) {
   if (!flags.wanted_class.empty()) options.wanted_class = flags.wanted_class;
   std::size_t classes = 0;
   for (const Specification& each : options.specifications) classes += each.classes.size();
-  if (classes > ClassJudge::kMostClasses) {
+  if (classes > ClassJudge::kMaxClasses) {
     return absl::InvalidArgumentError(absl::StrCat("the specifications have ", classes, " classes; at most ",
-                                                   ClassJudge::kMostClasses, " can be stated"));
+                                                   ClassJudge::kMaxClasses, " can be stated"));
   }
   if (auto wanted = FindClass(options.specifications, options.specification, options.wanted_class);
       !wanted.ok())

@@ -14,7 +14,7 @@ namespace {
 using enum AsciiField;
 
 // Times may be seconds of the week or GPS time minus 1e9 s, which is negative before 2011.
-constexpr double kLeastTime = -1e9, kLargestTime = 1e10;
+constexpr double kMinTime = -1e9, kLargestTime = 1e10;
 constexpr double kLargestGrid = 1e8;  // Metres or feet, with false eastings of some millions.
 constexpr double kLowest = -1000, kHighest = 30000;
 constexpr double kLargestSigma = 10000;  // m
@@ -22,7 +22,7 @@ constexpr double kLargestSpeed = 500;    // m/s
 constexpr double kAnyNumber = 1e300;
 
 constexpr std::array<AsciiColumn, 15> kCblue = {{
-    {kTime, "time", "s", kLeastTime, kLargestTime, "|time|t|gpstime|gps_time|gps time|"},
+    {kTime, "time", "s", kMinTime, kLargestTime, "|time|t|gpstime|gps_time|gps time|"},
     {kLongitude, "longitude", "degree", -360, 360, "|lon|long|longitude|"},
     {kLatitude, "latitude", "degree", -90, 90, "|lat|latitude|"},
     {kX, "X", "m", -kLargestGrid, kLargestGrid, "|x|easting|east|"},
@@ -40,7 +40,7 @@ constexpr std::array<AsciiColumn, 15> kCblue = {{
 }};
 
 constexpr std::array<AsciiColumn, 20> kPosExport = {{
-    {kTime, "time", "s", kLeastTime, kLargestTime, "|time|"},
+    {kTime, "time", "s", kMinTime, kLargestTime, "|time|"},
     {kUnused, "distance", "m", -kAnyNumber, kAnyNumber, "|distance|"},
     {kX, "easting", "m", -kLargestGrid, kLargestGrid, "|easting|"},
     {kY, "northing", "m", -kLargestGrid, kLargestGrid, "|northing|"},

@@ -1,4 +1,4 @@
-// The two layouts of an ASCII trajectory, told apart by the number of columns.
+// The two layouts of an ASCII trajectory, distinguished by the number of columns.
 //
 // 15 columns, as users of cBLUE have them (its documentation of the class Sbet): time, longitude, latitude, X, Y, Z,
 // roll, pitch, heading, sigma X, Y, Z, sigma roll, pitch, heading. Z is the height above the ellipsoid there.
@@ -18,7 +18,7 @@
 
 namespace albtpu::client {
 
-// What a column holds.
+// The quantity of a column.
 enum class AsciiField : unsigned char {
   kTime,
   kLongitude,
@@ -46,17 +46,17 @@ struct AsciiColumn {
   AsciiField field;
   const char* name;
   const char* unit;
-  double least, largest;  // Beyond them, the column holds something else.
-  const char* names;      // How a header may name it: in lower case, each between bars.
+  double least, largest;  // Values beyond them show that the column is another quantity.
+  const char* names;      // Its names in headers: in lower case, each between bars.
 };
 
-inline constexpr std::size_t kMostAsciiColumns = 20;
+inline constexpr std::size_t kMaxAsciiColumns = 20;
 
 // The columns of a file with `count` columns; empty if there is no such layout.
 std::span<const AsciiColumn> AsciiColumns(std::size_t count);
 
-// What contradicts the layout in a line of text above the numbers: a column with a name that belongs to another one, or
-// units other than those above. Empty if nothing does.
+// The contradiction between the layout and a line of text above the numbers: a column with the name of another one, or
+// units other than those above. Empty if there is none.
 std::string HeaderContradiction(std::string_view line, std::span<const AsciiColumn> columns);
 
 }  // namespace albtpu::client

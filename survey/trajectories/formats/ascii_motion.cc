@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,7 +36,7 @@ std::vector<SamplePair> Samples(const Trajectory& trajectory, const GridPosition
   return pairs;
 }
 
-// The value below which a share of the values lie; 0 without values.
+// The value below which a fraction of the values lie; 0 without values.
 double Quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -48,7 +47,7 @@ double Median(std::vector<double> values) { return Quantile(std::move(values), 0
 
 double AngleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
-// What the check looks at. Angles in rad, speeds in m/s.
+// The statistics that are checked. Angles in rad, speeds in m/s.
 struct Motion {
   double speed = 0;       // Median.
   double fast_speed = 0;  // A tenth of the stretches are faster: an aircraft may have waited on the ground.
@@ -162,7 +161,7 @@ absl::Status CheckMotion(const Trajectory& trajectory, const GridPositions& grid
       return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", mistake.message));
     }
   }
-  // What X and Y alone say is left to the check that knows the map frame.
+  // X and Y alone are checked later, with the map frame.
   if (motion.fits()) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(trajectory.name(), ": ", Describe(motion)));
 }

@@ -1,5 +1,5 @@
-// Whether the records of an ASCII trajectory move as an aircraft does. Without stated velocities this is what tells
-// angles in radians, exchanged columns and foreign headings.
+// Checks whether the records of an ASCII trajectory move as an aircraft does. Without stated velocities this detects
+// angles in radians, exchanged columns and wrong headings.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ inline constexpr double kCrabSpeed = 15;
 
 // InvalidArgument, if possible with the cause, when speeds are not those of an aircraft, when headings do not follow
 // the course, when stated velocities disagree with the positions, or when exchanging columns makes X and Y move with
-// longitude and latitude. OK where the file is too short or too full of gaps to tell.
-// `grid_position` gives X and Y of a record, if the file has them.
+// longitude and latitude. OK where the file is too short or has too many gaps for the check. `grid_position` gives X
+// and Y of a record, if the file has them.
 absl::Status CheckMotion(const Trajectory& trajectory,
                          const std::function<std::optional<GridPosition>(std::size_t)>& grid_position);
 

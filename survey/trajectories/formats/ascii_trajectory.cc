@@ -173,7 +173,7 @@ class AsciiReader {
     if (HasVelocities()) trajectory.velocities_.reserve(most);
   }
 
-  bool HasVelocities() const { return columns_.size() == kMostAsciiColumns; }
+  bool HasVelocities() const { return columns_.size() == kMaxAsciiColumns; }
 
   absl::Status CheckValue(std::size_t column, double value) const {
     const AsciiColumn& expected = columns_[column];

@@ -1,4 +1,4 @@
-// Metres on the ellipsoid: what small differences of latitude and longitude are on the ground.
+// Metres on the ellipsoid: the lengths of small differences of latitude and longitude on the ground.
 #pragma once
 
 #include <cmath>

@@ -1,8 +1,6 @@
 #include "survey/trajectories/formats/open_trajectory.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "survey/trajectories/formats/ascii_trajectory.h"
 #include "survey/trajectories/formats/mapped_file.h"

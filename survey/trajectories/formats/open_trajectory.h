@@ -9,7 +9,7 @@
 
 namespace albtpu::client {
 
-// The format is told by the content: text is an ASCII trajectory, everything else an SBET.
+// The format is detected by the content: text is an ASCII trajectory, everything else an SBET.
 absl::StatusOr<std::unique_ptr<Trajectory>> OpenTrajectory(const std::filesystem::path& path);
 
 }  // namespace albtpu::client

@@ -14,13 +14,13 @@ namespace albtpu::client {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFoot = 0.3048;            // m, exact.
-constexpr double kKnot = 1852.0 / 3600;     // m/s, exact.
-constexpr double kFlying = 20;              // m/s: slower ones may drift, hover or roll on the ground.
-constexpr std::size_t kSectors = 8;         // Of courses, 45 degrees each.
-constexpr std::size_t kLeastInSector = 20;  // Pairs.
+constexpr double kFoot = 0.3048;          // m, exact.
+constexpr double kKnot = 1852.0 / 3600;   // m/s, exact.
+constexpr double kFlying = 20;            // m/s: slower ones may drift, hover or roll on the ground.
+constexpr std::size_t kSectors = 8;       // Of courses, 45 degrees each.
+constexpr std::size_t kMinInSector = 20;  // Pairs.
 
-// A mistake: what it would look like to a reader, and the change that undoes it.
+// A mistake: its description for a message, and the change that undoes it.
 struct Mistake {
   const char* description;
   SbetRecord (*undo)(SbetRecord);
@@ -155,8 +155,8 @@ bool HeightsAreInFeet(std::span<const VelocityPair> velocities) {
   return standard_error < 0.1 && std::abs(slope - 1 / kFoot) < 4 * standard_error + 0.01;
 }
 
-// How far the headings are turned against the courses. Wind turns them to the one side on the way out and to the
-// other on the way back, so the mean of opposite courses is free of it.
+// The angle from the courses to the headings. Wind turns headings to one side on the way out and to the other on the
+// way back, so the mean over opposite courses is free of it.
 struct HeadingTurn {
   double angle = 0;           // rad
   bool free_of_wind = false;  // From opposite courses.
@@ -178,12 +178,12 @@ std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs,
     all += turn;
     wander += std::polar(1.0, pairs[i].first.wander_angle);
   }
-  if (std::abs(all) < kLeastInSector) return std::nullopt;
+  if (std::abs(all) < kMinInSector) return std::nullopt;
   HeadingTurn result = {std::arg(all), false, std::arg(wander)};
   std::complex<double> opposite = 0;
   for (std::size_t i = 0; i < kSectors / 2; ++i) {
     const std::size_t j = i + kSectors / 2;
-    if (counts[i] < kLeastInSector || counts[j] < kLeastInSector) continue;
+    if (counts[i] < kMinInSector || counts[j] < kMinInSector) continue;
     const double weight = static_cast<double>(std::min(counts[i], counts[j]));
     opposite += weight * (sums[i] / std::abs(sums[i]) + sums[j] / std::abs(sums[j]));
   }
@@ -194,7 +194,7 @@ std::optional<HeadingTurn> TurnOfHeadings(std::span<const SbetPair> pairs,
   return result;
 }
 
-// A system may be mounted a quarter or half turn from the nose, which is no mistake: the rest is what matters.
+// A system may be mounted a quarter or half turn from the nose, which is no mistake: only the remainder counts.
 double RestOfQuarterTurns(double angle) { return std::remainder(angle, kPi / 2); }
 
 absl::Status CheckHeadings(const std::string& name, std::span<const SbetPair> pairs,
@@ -202,10 +202,11 @@ absl::Status CheckHeadings(const std::string& name, std::span<const SbetPair> pa
   const std::optional<HeadingTurn> turn = TurnOfHeadings(pairs, velocities);
   if (!turn.has_value()) return absl::OkStatus();
   const double angle = RestOfQuarterTurns(turn->angle);
-  // Within 5 degrees, which lie between what is left of the wind and the smallest wander angle that is looked for.
+  // Within 5 degrees, which is more than the residual effect of wind and less than the smallest wander angle that is
+  // sought.
   const bool is_wander = std::abs(RestOfQuarterTurns(turn->angle - turn->wander)) < RadiansOfDegrees(5) ||
                          std::abs(RestOfQuarterTurns(turn->angle + turn->wander)) < RadiansOfDegrees(5);
-  // One course alone: a cross wind of a third of the speed turns the heading by 20 degrees; more is no survey.
+  // One course alone: a cross wind of a third of the speed turns the heading by 20 degrees; no survey is flown in more.
   const double limit = RadiansOfDegrees(turn->free_of_wind ? 10 : (is_wander ? 15 : 30));
   if (std::abs(angle) <= limit) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(

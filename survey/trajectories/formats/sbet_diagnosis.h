@@ -17,7 +17,7 @@ struct SbetPair {
 };
 
 // The change of a file's numbers after which its velocities agree with its positions, worded for a message ("its
-// latitude and longitude are exchanged"); nullopt if none of the known ones does it.
+// latitude and longitude are exchanged"); nullopt if no known change does.
 std::optional<std::string> VelocityCause(std::span<const SbetPair> pairs);
 
 // InvalidArgument if velocities differ from differences of position by more than kLargestVelocityDifference, if heights

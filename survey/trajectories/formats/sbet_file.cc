@@ -20,7 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "records are read as they lie in the file");
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kLowestHeight = -1000, kGreatestHeight = 20000;  // m; wider than any airborne survey.
+constexpr double kLowestHeight = -1000, kMaxHeight = 20000;  // m; wider than any airborne survey.
 
 absl::Status Invalid(const std::string& name, const std::string& message) {
   return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
@@ -46,8 +46,7 @@ bool IsOnGlobe(const SbetRecord& record) {
 
 bool IsPlausible(const SbetRecord& record) {
   return IsFinite(record) && IsOnGlobe(record) && record.time >= 0 && record.height >= kLowestHeight &&
-         record.height <= kGreatestHeight && std::abs(record.roll) < kPi / 2 &&
-         std::abs(record.pitch) < kPi / 2;
+         record.height <= kMaxHeight && std::abs(record.roll) < kPi / 2 && std::abs(record.pitch) < kPi / 2;
 }
 
 // Whether the first two records follow each other when their bytes are reversed. Reversed numbers are otherwise huge or
@@ -58,7 +57,7 @@ bool IsBigEndian(std::span<const SbetRecord> records) {
   return IsPlausible(first) && IsPlausible(second) && step > 1e-6 && step < 1;
 }
 
-// What is wrong with a record that is not plausible.
+// The problem of a record that is not plausible.
 std::string Implausibility(const SbetRecord& record) {
   if (!IsFinite(record)) return "has a number that is not finite";
   if (record.time < 0) return absl::StrFormat("has the time %.6g s, which is negative", record.time);
@@ -74,7 +73,7 @@ std::string Implausibility(const SbetRecord& record) {
     return absl::StrFormat("has the pitch %.9g rad, beyond pi/2", record.pitch);
   }
   return absl::StrFormat("has the height %.6g m, not between %.0f and %.0f", record.height, kLowestHeight,
-                         kGreatestHeight);
+                         kMaxHeight);
 }
 
 }  // namespace

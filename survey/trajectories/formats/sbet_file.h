@@ -19,9 +19,9 @@ class SbetFile : public Trajectory {
   // Maps the file and checks every record: its numbers are finite, latitude and longitude are angles on the globe, the
   // height lies between -1 and 20 km, roll and pitch are below 90 degrees, times are not negative and increase. At the
   // end of the GPS week they may continue beyond 604 800 s or start again from 0. Then compares velocities with
-  // differences of position (velocity_check.h) and headings with courses. A refusal names the cause where exchanging
-  // fields, units or the wander angle tells it. Reading every record takes about as long as reading the file from the
-  // disk, and 0.1 s for 490 MB that are in memory.
+  // differences of position (velocity_check.h) and headings with courses. An error names the cause where exchanging
+  // fields, units or the wander angle explains it. Reading every record takes about as long as reading the file from
+  // the disk, and 0.1 s for 490 MB that are in memory.
   static absl::StatusOr<std::unique_ptr<SbetFile>> Open(const std::filesystem::path& path);
 
   // The same for an open file, or for memory that is aligned for doubles. `name` is for messages.

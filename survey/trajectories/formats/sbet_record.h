@@ -1,4 +1,4 @@
-// The record of an SBET, and what it says.
+// The record of an SBET, and its interpretation.
 #pragma once
 
 #include <cmath>

@@ -24,8 +24,7 @@ constexpr double kArcMinute = std::numbers::pi / (180 * 60);  // rad; exact defi
 struct Field {
   const char* name;
   const char* unit;
-  double
-      largest;  // Beyond it, the file has another format: no navigation system states that little knowledge.
+  double largest;  // Beyond it, the file has another format: no navigation system states such a large sigma.
 };
 
 constexpr std::array<Field, 10> kFields = {{{"time", "s", 1e10},

@@ -1,4 +1,4 @@
-// What a file of a trajectory gives, whatever its format: position, velocity and attitude at increasing times.
+// A trajectory of any format: position, velocity and attitude at increasing times.
 #pragma once
 
 #include <cstddef>
@@ -63,8 +63,8 @@ class Trajectory {
   std::string name_;
 };
 
-// The formats, each in a file of its own, told apart by the content of the file (OpenTrajectory, open_trajectory.h):
-// SbetFile::Open(path) in sbet_file.h, AsciiTrajectory::Open(path) in ascii_trajectory.h. Both check what they open.
-// Both give absl::StatusOr<std::unique_ptr<...>>. velocity_check.h compares velocities with differences of position.
+// The formats, detected by the content of the file (OpenTrajectory, open_trajectory.h): SbetFile::Open(path) in
+// sbet_file.h, AsciiTrajectory::Open(path) in ascii_trajectory.h. Both check what they open. Both give
+// absl::StatusOr<std::unique_ptr<...>>. velocity_check.h compares velocities with differences of position.
 
 }  // namespace albtpu::client

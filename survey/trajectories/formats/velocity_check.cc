@@ -9,22 +9,22 @@
 namespace albtpu::client {
 namespace {
 
-constexpr std::size_t kMostPairs = 4096;
-constexpr double kStretch = 0.1;          // s
-constexpr std::size_t kMostSteps = 1000;  // In a stretch: disorder costs no more time than order.
+constexpr std::size_t kMaxPairs = 4096;
+constexpr double kStretch = 0.1;         // s
+constexpr std::size_t kMaxSteps = 1000;  // In a stretch: disorder costs no more time than order.
 
 }  // namespace
 
 std::vector<RecordPair> SpreadPairs(const Trajectory& trajectory) {
   std::vector<RecordPair> pairs;
   const std::size_t last = trajectory.size() - 1;
-  const std::size_t count = std::min(kMostPairs, last);
+  const std::size_t count = std::min(kMaxPairs, last);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = i * last / count;
     std::size_t second = first;
     bool whole = true;
     // A margin of half a nanosecond: 20 steps of 0.005 s may add up to a little less than 0.1 s.
-    while (whole && second < last && second - first < kMostSteps &&
+    while (whole && second < last && second - first < kMaxSteps &&
            trajectory.TimeAt(second) - trajectory.TimeAt(first) < kStretch - 5e-10) {
       whole = trajectory.TimeAt(second + 1) - trajectory.TimeAt(second) <= kLongestStep;
       ++second;

@@ -1,5 +1,6 @@
-// Compares the velocities of a trajectory with the differences of its positions. They agree within some cm/s in a right
-// file. Angles in degrees, exchanged fields, a wander angle that was not applied, feet and disorder all break it.
+// Compares the velocities of a trajectory with the differences of its positions. They agree within some cm/s in a
+// correct file, but not with angles in degrees, exchanged fields, a wander angle that was not applied, feet or
+// unordered records.
 #pragma once
 
 #include <cstddef>

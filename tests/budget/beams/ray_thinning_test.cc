@@ -39,8 +39,8 @@ TEST(RayThinning, DoesNotDependOnTheOrderOfRays) {
 TEST(RayThinning, BoundsTheRaysOfEachBinAndOfAll) {
   const auto rays = RandomRays(100000, 1);  // 500 in each bin of 5 ms.
   EXPECT_EQ(ThinRays(rays, {}).size(), 200 * 20u);
-  EXPECT_EQ(ThinRays(rays, {.most_rays = 1000}).size(), 200 * 5u);
-  EXPECT_EQ(ThinRays(rays, {.most_rays = 10}).size(), 200u);
+  EXPECT_EQ(ThinRays(rays, {.max_rays = 1000}).size(), 200 * 5u);
+  EXPECT_EQ(ThinRays(rays, {.max_rays = 10}).size(), 200u);
 }
 
 TEST(RayThinning, KeepsTheLongerSeparations) {

@@ -11,10 +11,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string ProblemOf(const ToldOptics& told) { return std::string(OpticsOf(told).status().message()); }
+std::string ProblemOf(const OpticsInput& given) { return std::string(OpticsOf(given).status().message()); }
 
 TEST(OpticsOf, TakesTheAttenuationAsOfItsKind) {
-  const auto attenuation = [](const ToldOptics& told) { return OpticsOf(told)->attenuation; };
+  const auto attenuation = [](const OpticsInput& given) { return OpticsOf(given)->attenuation; };
   EXPECT_NEAR(attenuation({.kd = 0.12, .kd_kind = KdKind::kDiffuse532}), 0.12 * 0.85, 1e-12);
   // Austin and Petzold's points: 0.05 becomes 0.072, 0.1 0.106, 0.2 0.175.
   EXPECT_NEAR(attenuation({.kd = 0.1, .kd_kind = KdKind::kSatellite490}), 0.1064 * 0.85, 5e-5);

@@ -28,8 +28,8 @@ WaterOptics Coastal(double attenuation = 0.15) {
           .attenuation_log_sigma = 0.26,
           .scattering_over_absorption = 4,
           .ratio_log_sigma = 0.625,
-          .least_ratio = 1,
-          .most_ratio = 19,
+          .min_ratio = 1,
+          .max_ratio = 19,
           .least_fraction = 0.01,
           .most_fraction = 0.03};
 }
@@ -60,7 +60,7 @@ struct Twin {
       const double fraction = 0.01 * std::pow(3, even(random));
       double ratio = 0;
       while (ratio < 1 || ratio > 19) ratio = 4 * std::exp(0.625 * normal(random));
-      ratio = std::min(ratio, WaterOptics::GreatestRatio(attenuation, fraction));
+      ratio = std::min(ratio, WaterOptics::MaxRatio(attenuation, fraction));
       const double tau = attenuation * depth;
       const WaterAnswer answer = *Shipped()
                                       .Of(fraction, ratio)
@@ -69,7 +69,7 @@ struct Twin {
                                            .field_of_view = receiver.field_of_view / depth,
                                            .pulse_length = 0.299792458 * receiver.pulse_length /
                                                            (2 * receiver.group_index * depth)});
-      if (answer[Index(WaterQuantity::kEnergy)] < kLeastEchoEnergy) continue;
+      if (answer[Index(WaterQuantity::kEnergy)] < kMinEchoEnergy) continue;
       const double scale = depth * std::max(1.0, tau / last) *
                            std::min(1.0, ratio / Shipped().Range(WaterAxis::kScatteringOverAbsorption).first);
       const auto detector = static_cast<std::size_t>(receiver.detector);

@@ -143,8 +143,8 @@ axes = {wind_speed=[5], fetch=[inf], incidence=[0], azimuth=[0], footprint=[1], 
   EXPECT_EQ(std::get<std::string_view>(campaign_keys::kSpectrum.absent), campaign.wind_sea.model->key);
   EXPECT_EQ(campaign.effort.realizations, 1000);
   EXPECT_EQ(campaign.effort.relative_error, 0);
-  EXPECT_THAT(std::string(std::get<Derived>(campaign_keys::kMostRealizationsOfBeam.absent).rule),
-              HasSubstr(absl::StrCat(campaign_keys::kMostRealizationsUnlessGiven)));
+  EXPECT_THAT(std::string(std::get<Derived>(campaign_keys::kMaxRealizationsOfBeam.absent).rule),
+              HasSubstr(absl::StrCat(campaign_keys::kMaxRealizationsUnlessGiven)));
   EXPECT_EQ(campaign.effort.estimator, Estimator::kControlVariate);
   EXPECT_EQ(campaign.seed, 1u);
   EXPECT_EQ(campaign.checked_pulses, 40u);

@@ -73,7 +73,7 @@ TEST(NdbcMeteorology, HasOneHeightAndTheWind) {
   EXPECT_NEAR(*record.wind_from, 10 * kDegree, 1e-12);
   EXPECT_FALSE(series->records[0].wind_speed_10m.has_value());
   EXPECT_EQ(Components(series->records[0])[0].spread, std::numbers::sqrt2);  // no direction
-  EXPECT_THAT(series->assumed, Contains(HasSubstr("swell and wind waves are not told apart")));
+  EXPECT_THAT(series->assumed, Contains(HasSubstr("swell and wind waves are not separated")));
 }
 
 TEST(NdbcMeteorology, BringsTheWindOfALowAnemometerTo10m) {

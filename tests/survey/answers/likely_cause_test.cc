@@ -38,7 +38,7 @@ class LikelyCauseTest : public ::testing::Test {
     AnswerBatch answers;
     EXPECT_TRUE(AnswerPulses(source_, {}, pulses_, selection, answers).ok());
     summary_.Add(pulses_, answers);
-    return AnswerTally::FromJson(summary_.Json());
+    return summary_.Tally();
   }
 
   // "WHY; SUGGESTION", or empty.

@@ -20,15 +20,15 @@ CauseContext Context() {
 }
 
 // As a summary states the answers of a file.
-Json Answers(int interpolated, int footprint_above, double least_depth = 1, double footprint = 60) {
+AnswerTally Answers(int interpolated, int footprint_above, double min_depth = 1, double footprint = 60) {
   Json json = {{"outcomes", {{"INTERPOLATED", interpolated}}}};
-  if (interpolated > 0) json["depth"] = {{"least", least_depth}, {"greatest", 50.0}};
+  if (interpolated > 0) json["depth"] = {{"least", min_depth}, {"greatest", 50.0}};
   if (footprint_above > 0) {
     json["outcomes"]["OUT_OF_DOMAIN:footprint:above"] = footprint_above;
     json["outside"]["OUT_OF_DOMAIN:footprint:above"] = {
         {"least", footprint}, {"median", footprint}, {"greatest", footprint}};
   }
-  return Json::parse(json.dump());
+  return AnswerTally::FromJson(Json::parse(json.dump()));
 }
 
 std::string Message(const RunVerdict& verdict) { return std::string(verdict.status().message()); }
@@ -76,11 +76,11 @@ TEST(RunVerdict, TakesAnyJsonForASummary) {
   for (const char* text : {"null", "3", "[]", R"({"outcomes": 3})", R"({"outcomes": {"INTERPOLATED": "x"}})",
                            R"({"outcomes": {"INTERPOLATED": -1}, "depth": []})",
                            R"({"outcomes": {"INVALID": 0}, "outside": {"INVALID": 1}})"}) {
-    EXPECT_EQ(verdict.Add("a.csv", Json::parse(text)), "") << text;
+    EXPECT_EQ(verdict.Add("a.csv", AnswerTally::FromJson(Json::parse(text))), "") << text;
   }
-  EXPECT_THAT(
-      verdict.Add("a.csv", Json::parse(R"({"outcomes": {"NEW": 3}, "outside": {"NEW": {"least": "x"}}})")),
-      HasSubstr("3 NEW"));
+  EXPECT_THAT(verdict.Add("a.csv", AnswerTally::FromJson(Json::parse(
+                                       R"({"outcomes": {"NEW": 3}, "outside": {"NEW": {"least": "x"}}})"))),
+              HasSubstr("3 NEW"));
 }
 
 TEST(RunVerdict, FailsWhereTheOtherSignOfTheWaterLevelExplainsThatNoPulseIsShallow) {

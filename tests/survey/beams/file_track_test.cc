@@ -214,7 +214,8 @@ TEST(TrackFromReturns, RefusesAFileWithoutRays) {
   file.name = "in.las";
   file.pairs = 7;
   const std::string refusal(FromReturns(file).status().message());
-  EXPECT_THAT(refusal, HasSubstr("in.las: its returns do not tell where the sensor was (7 pairs"));
+  EXPECT_THAT(refusal,
+              HasSubstr("in.las: the position of the sensor cannot be derived from its returns (7 pairs"));
   EXPECT_THAT(refusal, HasSubstr("or give a trajectory by --trajectory"));
 }
 

@@ -98,7 +98,7 @@ TEST(CrossCheck, HasNoIntervalFromOnePlace) {
   EXPECT_FALSE(check.factor.excludes(1));
   EXPECT_EQ(check.guilty, "");
   EXPECT_TRUE(CrossCheckJson(check)["factor"]["low"].is_null());
-  EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("tells no interval"));
+  EXPECT_THAT(CrossCheckText(check), ::testing::HasSubstr("gives no interval"));
 }
 
 TEST(CrossCheck, LeavesOutPlacesWhereLinesAreFew) {

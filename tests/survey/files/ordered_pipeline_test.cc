@@ -77,7 +77,7 @@ TEST(OrderedPipeline, KeepsOnlyAFewChunksInMemory) {
       });
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(written, 1000);
-  EXPECT_LE(most, kMostWorkers + 3);
+  EXPECT_LE(most, kMaxWorkers + 3);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace albtpu::testing {
 namespace {
 
 constexpr double kResolution = 2e-9;  // m; heights are differences of numbers near 6.4e6 m.
-constexpr int kMostSteps =
+constexpr int kMaxSteps =
     50;  // The slopes of waves and seabed make an error at least 5 times smaller a step.
 
 }  // namespace
@@ -28,7 +28,7 @@ Eigen::Vector3d Refract(const Eigen::Vector3d& beam, const Eigen::Vector3d& norm
 BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam,
                      double time) {
   BeamPath path;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     path.water_point = sensor + path.slant_range * beam;
     const Geodetic here = GeodeticFrom(kWgs84, path.water_point);
     const WavySurface::Local local = scene.waves.At(scene.chart.EastNorth(here), time);
@@ -47,7 +47,7 @@ BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Ei
 
 double DistanceToGround(const Scene& scene, const Eigen::Vector3d& begin, const Eigen::Vector3d& beam) {
   double distance = 0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Geodetic here = GeodeticFrom(kWgs84, begin + distance * beam);
     const double above = here.height - scene.coast.HeightAt(scene.chart.EastNorth(here));
     if (std::abs(above) < kResolution) break;

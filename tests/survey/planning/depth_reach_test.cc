@@ -102,9 +102,9 @@ SurveyPlan PlanOf(const std::vector<double>& depths) {
 
 TEST(SurveyPlan, SaysHowMuchSeaThereMayBe) {
   const SurveyPlan plan = PlanOf({30, 20, 10, 25});  // A deep reach beyond a shallow one does not count.
-  EXPECT_EQ(GreatestSea(plan, S44Order::k1a, 10), 4);
-  EXPECT_EQ(GreatestSea(plan, S44Order::k1a, 15), 2);
-  EXPECT_EQ(GreatestSea(plan, S44Order::k1a, 35), std::nullopt);
+  EXPECT_EQ(HighestSea(plan, S44Order::k1a, 10), 4);
+  EXPECT_EQ(HighestSea(plan, S44Order::k1a, 15), 2);
+  EXPECT_EQ(HighestSea(plan, S44Order::k1a, 35), std::nullopt);
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST_F(SeaAnswersTest, AtARecordAreThoseOfItsTable) {
 // The same instant for all, and by the time of each.
 TEST_F(SeaAnswersTest, AtAnInstantThatIsToldAreThoseOfTheSeries) {
   const std::shared_ptr<const SeaTimeline> timeline = Hourly(3);
-  ToldSea told = timeline->told();
+  ToldSea told = timeline->settings();
   told.time = "2020-06-08T05:15Z";
   const auto instant = std::make_shared<const SeaTimeline>(SeaTimeline::Open(told).value());
   PulseBatch pulses = RandomPulses(100, 2);

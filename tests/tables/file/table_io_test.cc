@@ -202,7 +202,7 @@ TEST(TableIo, ReadsAndWritesFromManyThreads) {
 TEST(TableIo, ReportsAMissingFolder) {
   const TemporaryFolder folder;
   const absl::Status status = WriteTable(TinyTable(), folder / "no/t.h5", Existing::kKeep);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("cannot write into folder"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("write to a folder that exists"));
 }
 
 }  // namespace

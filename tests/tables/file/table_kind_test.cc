@@ -144,22 +144,5 @@ TEST(TableSchema, NamesAxesQuantitiesAndStandardErrorsDifferently) {
   EXPECT_FALSE(is_well_formed("", "spread", "shift"));
 }
 
-template <typename Schema>
-concept TakesSixValues = requires {
-  Schema{"thu", "m", "THU", true, false, false};
-};
-
-TEST(QuantitySchema, KeepsTheFormerNameOfAMember) {
-  for (const bool over_last_axis : {false, true}) {
-    const QuantitySchema quantity{"thu", "m", "THU", over_last_axis, false};
-    EXPECT_EQ(quantity.over_depth, over_last_axis);
-    const bool over_depth = quantity.over_depth;
-    EXPECT_EQ(over_depth, over_last_axis);
-    EXPECT_EQ(quantity, QuantitySchema(quantity));
-    EXPECT_NE(quantity, QuantitySchema({"thu", "m", "THU", !over_last_axis, false}));
-  }
-  static_assert(!TakesSixValues<QuantitySchema>, "The two names could differ.");
-}
-
 }  // namespace
 }  // namespace albtpu

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/tables/query/table_kinds.h"
+
 namespace albtpu {
 namespace {
 
@@ -42,6 +44,15 @@ TEST(PulseColumns, MayLackOnlyFetchAndAzimuth) {
     PulseColumns pulses{.size = 3, .axis = {kOne, kOne, kThree, kThree, kOne, kThree}};
     pulses.axis[Index(absent)] = {};
     EXPECT_EQ(CheckLengths(pulses).ok(), absent == AxisId::kFetch || absent == AxisId::kAzimuth);
+  }
+}
+
+TEST(PulseColumns, OfAnotherKindMayLackOnlyWhatTheSchemaAllows) {
+  const TableSchema& schema = testing::kThreeAxes;
+  for (std::size_t absent = 0; absent < schema.axes.size(); ++absent) {
+    PulseColumns pulses{.size = 3, .axis = {kThree, kThree, kThree}};
+    pulses.axis[absent] = {};
+    EXPECT_EQ(CheckLengths(schema, pulses).ok(), absent != 2);
   }
 }
 

@@ -19,25 +19,12 @@ constexpr AxisSchema kHeading = {.name = "heading",
                                  .scale = Scale::kLinear,
                                  .fold = Fold::kQuadrant,
                                  .if_absent = IfAbsent::kLargerOfEnds};
-constexpr AxisSchema kBearing = {.name = "bearing",
-                                 .units = "degree",
-                                 .long_name = "bearing",
-                                 .scale = Scale::kLinear,
-                                 .fold = Fold::kHalfTurn,
-                                 .if_absent = IfAbsent::kLargestOfNodes};
-constexpr AxisSchema kLoad = {.name = "load",
-                              .units = "1",
-                              .long_name = "load",
-                              .scale = Scale::kLinear,
-                              .is_endless = true,
-                              .if_absent = IfAbsent::kLastNode};
 constexpr AxisSchema kRange = {.name = "range", .units = "m", .long_name = "range", .scale = Scale::kLinear};
 
 constexpr std::array<AxisSchema, 3> kThree = {kAttenuation, kHeading, kRange};
 constexpr std::array<QuantitySchema, 2> kTwoQuantities = {
     {{"spread", "m", "2 sigma", true, false}, {"shift", "degree", "mean error", false, true}}};
 constexpr std::array<std::size_t, 3> kThreeOrder = {1, 0, 2};
-constexpr std::array<AxisSchema, 3> kTurned = {kLoad, kBearing, kRange};
 
 constexpr AxisSchema Plain(const char* name, Scale scale) {
   return {.name = name, .units = "1", .long_name = name, .scale = scale};
@@ -64,17 +51,16 @@ constexpr TableSchema kSchemas[] = {
     {.name = "three_axes", .axes = kThree, .quantities = kTwoQuantities, .blend_order = kThreeOrder},
     {.name = "three_axes_renamed", .axes = kThree, .quantities = kTwoQuantities, .blend_order = kThreeOrder},
     {.name = "largest_kind", .axes = kSix, .quantities = kNineQuantities, .blend_order = kSixOrder},
-    {.name = "one_axis", .axes = kOne, .quantities = kOneQuantity, .blend_order = kOneOrder},
-    {.name = "half_turn", .axes = kTurned, .quantities = kTwoQuantities, .blend_order = kThreeOrder}};
+    {.name = "one_axis", .axes = kOne, .quantities = kOneQuantity, .blend_order = kOneOrder}};
 static_assert(IsWellFormed(kSchemas[0]) && IsWellFormed(kSchemas[1]) && IsWellFormed(kSchemas[2]) &&
-              IsWellFormed(kSchemas[3]) && IsWellFormed(kSchemas[4]));
+              IsWellFormed(kSchemas[3]));
 
 std::vector<double> RandomNodes(const AxisSchema& axis, std::size_t size, std::mt19937& random) {
   if (axis.fold != Fold::kNone && size > 1) {
     std::vector<double> nodes;
     for (std::size_t i = 0; i < size; ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(size - 1);
-      nodes.push_back(static_cast<float>(GreatestAngle(axis.fold) * fraction));
+      nodes.push_back(static_cast<float>(MaxAngle(axis.fold) * fraction));
     }
     return nodes;
   }
@@ -85,27 +71,12 @@ std::vector<double> RandomNodes(const AxisSchema& axis, std::size_t size, std::m
   return nodes;
 }
 
-// Repeats at 180 degrees of a folded axis what is at 0.
-void CloseTurns(const Table::Axes& axes, bool over_last_axis, std::vector<float>& values) {
-  std::size_t step = 1;  // from one node of the axis to the next
-  for (std::size_t axis = axes.size() - (over_last_axis ? 0 : 1); axis-- > 0;) {
-    const std::size_t size = axes[axis].size();
-    if (axes[axis].schema().fold == Fold::kHalfTurn && axes[axis].nodes().back() == 180) {
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i / step % size == size - 1) values[i] = values[i - (size - 1) * step];
-      }
-    }
-    step *= size;
-  }
-}
-
 }  // namespace
 
 constinit const TableSchema kThreeAxes = kSchemas[0];
 constinit const TableSchema kThreeAxesRenamed = kSchemas[1];
 constinit const TableSchema kLargestKind = kSchemas[2];
 constinit const TableSchema kOneAxis = kSchemas[3];
-constinit const TableSchema kHalfTurn = kSchemas[4];
 
 Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& sizes, std::uint32_t seed,
                   Scale scale, bool with_standard_errors) {
@@ -124,8 +95,6 @@ Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& siz
     for (float& number : variable.values) number = value(random);
     if (with_standard_errors) variable.standard_errors.resize(variable.values.size());
     for (float& number : variable.standard_errors) number = error(random);
-    CloseTurns(axes, quantity.over_last_axis, variable.values);
-    CloseTurns(axes, quantity.over_last_axis, variable.standard_errors);
     variables.push_back(std::move(variable));
   }
   return Table::Create(

@@ -17,8 +17,6 @@ extern const TableSchema kThreeAxesRenamed;
 extern const TableSchema kLargestKind;
 // One axis and one quantity.
 extern const TableSchema kOneAxis;
-// As kThreeAxes, with an axis folded into half a turn, whose absence means all its nodes, and an endless linear one.
-extern const TableSchema kHalfTurn;
 
 // A table of random values. Axes have `sizes` nodes, spaced unevenly; quantities that are not biases have `scale`.
 Table RandomTable(const TableSchema& schema, const std::vector<std::size_t>& sizes, std::uint32_t seed,

@@ -62,7 +62,7 @@ TEST(Point, AgreesWithTheClosedFormUnderRandomConditions) {
     ASSERT_LT(cell, 3u * kConditions) << "too many footprints average out all waves";
     const SeaCase sea_case = Draw(draws);
     const SeaCaseRatios ratios = CompareWithClosedForm(sea_case, kRealizations, 1, cell);
-    if (ratios.seen_fraction < kLeastSeenFraction) continue;
+    if (ratios.seen_fraction < kMinSeenFraction) continue;
     ++judged;
     const ClosedFormRatio& beam = ratios.beams[0];
     EXPECT_LE(ExcessInStandardErrors(beam.along, beam.allowed), k) << "along wind at " << Describe(sea_case);

@@ -41,7 +41,7 @@ TEST(ClosedFormRatio, IsNearOneAndHasNoTvuAtNadir) {
   }
   EXPECT_TRUE(std::isnan(ratios.beams[0].tvu.value));
   EXPECT_TRUE(std::isfinite(ratios.beams[1].tvu.value));
-  EXPECT_GT(ratios.seen_fraction, kLeastSeenFraction);
+  EXPECT_GT(ratios.seen_fraction, kMinSeenFraction);
   EXPECT_LT(ratios.seen_fraction, 1);
 }
 

@@ -1,4 +1,4 @@
-// Layers of one stream each, for a field of its own in the record, that are coded together.
+// Layers of one stream and one field each, which are coded in one loop.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace albtpu::laz {
 
-// A number that lies in a record as it is.
+// A number that a record holds directly.
 template <typename T, std::size_t kOffset>
 struct PlainField {
   using Number = T;
@@ -30,8 +30,8 @@ struct PlainField {
   }
 };
 
-// Codes fields point after point: a processor works on some streams at a time, which do not depend on each other.
-// A field knows where its number lies (Number, Load and Store, as in PlainField) and how it is predicted:
+// Codes fields point after point: a processor works on some streams at a time, which do not depend on each other. A
+// field provides access to its number (Number, Load and Store, as in PlainField) and its prediction:
 //   void Start(channel, first);               // After the first point of a chunk, which has the number `first`.
 //   class Pass: what it needs for a run of points, which stays in registers:
 //     Pass(field, run);

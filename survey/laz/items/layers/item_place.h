@@ -1,4 +1,4 @@
-// Where an item after the first lies in the records of formats 6 to 10, and how its points are predicted.
+// The place of an item after the first in the records of formats 6 to 10, and the prediction of its points.
 #pragma once
 
 #include <cstddef>

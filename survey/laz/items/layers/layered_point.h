@@ -1,4 +1,5 @@
-// A point of formats 6 to 10 as layers, which are coded batch by batch: the first tells the contexts of all others.
+// A point of formats 6 to 10 as layers, which are coded batch by batch: the first layer determines the contexts of all
+// others.
 #pragma once
 
 #include <algorithm>

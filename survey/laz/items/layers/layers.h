@@ -21,7 +21,7 @@ struct LayerStream {
   bool present = false;  // Absent when the field is the same in all points of the chunk.
 };
 
-// One layer or several that are coded together. `Coder` is ArithmeticDecoder or ArithmeticEncoder.
+// One layer, or several that are coded in one loop. `Coder` is ArithmeticDecoder or ArithmeticEncoder.
 template <typename Coder>
 class Layers {
  public:
@@ -41,7 +41,7 @@ class Layers {
   virtual void FindChanges(Streams streams, const RecordRun<Coder>& points) const = 0;
 };
 
-// What a stream knows of each scanner channel. Made when a channel is used first, and used again in later chunks.
+// The state of a stream for each scanner channel. Allocated when a channel is first used, and reused in later chunks.
 template <typename History>
 class ChannelHistories {
  public:

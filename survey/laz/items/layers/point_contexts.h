@@ -1,5 +1,5 @@
-// What all layers must know of the points of a batch, which the first layer tells: their scanner channels, which of
-// their fields changed, and which of their models code the others.
+// What all layers need of the points of a batch, which the first layer provides: their scanner channels, which of their
+// fields changed, and the models that code the other fields.
 #pragma once
 
 #include <array>
@@ -67,8 +67,8 @@ struct PointContexts {
   bool Changes(std::size_t i, std::uint32_t what) const { return (changes[i] & what) != 0; }
 };
 
-// The runs of items of version 3. By a slip of the first implementation, which is now the format, they take part in a
-// change of the channel, but fall back to channel 0 with the next point; and when the models change to a channel that
+// The runs of items of version 3. By a mistake of the first implementation, which is now the format, they take part in
+// a change of the channel, but fall back to channel 0 with the next point; and when the models change to a channel that
 // is in use already, the last point stays that of the channel before.
 class Version3Path {
  public:

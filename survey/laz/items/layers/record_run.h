@@ -35,7 +35,7 @@ class RecordRun {
     return number;
   }
 
-  // What a decoder has read. Changes nothing for an encoder.
+  // Stores what a decoder has read. Does nothing for an encoder.
   template <typename Number>
   void Set(std::size_t i, std::size_t offset, Number number) const {
     if constexpr (!Coder::kEncodes) std::memcpy((*this)[i] + offset, &number, sizeof number);

@@ -1,4 +1,5 @@
-// How the layers of formats 6 to 10 tell returns apart: a return is coded beside earlier ones of the same kind.
+// The kinds of returns by which the layers of formats 6 to 10 choose contexts: a return is predicted from earlier ones
+// of its kind.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 namespace albtpu::laz {
 
-// Both are from 0 to 15. They need not make sense: files have return 0, or more returns than there are.
+// Both are from 0 to 15 and need not be plausible: files have return 0, or more returns than there are.
 struct Returns {
   std::uint8_t number = 0;  // Of this return in its pulse.
   std::uint8_t count = 0;   // Of all returns of the pulse.
@@ -25,7 +26,8 @@ struct Returns {
 inline constexpr int kReturnKinds = 6;
 inline constexpr int kReturnLevels = 8;
 
-// The kind of a return, which tells how far away the previous point is: [count][number], prescribed by the format.
+// The kind of a return, which correlates with the distance of the previous point: [count][number], prescribed by the
+// format.
 inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kReturnKind = {{
     {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5},
     {1, 0, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3},

@@ -1,5 +1,5 @@
 // The first layer of points of formats 6 to 10: their scanner channel, which of their fields changed, their return, x
-// and y. It is always there, and tells the contexts of all other layers.
+// and y. It is always present, and determines the contexts of all other layers.
 #pragma once
 
 #include <algorithm>

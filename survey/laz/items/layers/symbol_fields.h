@@ -9,8 +9,8 @@
 
 namespace albtpu::laz {
 
-// A number that is coded as it is, by a model for the last one. `Place` knows where it lies, and `Circumstance` which
-// of 64 models codes it.
+// A number that is coded as a symbol, by a model for the last one. `Place` accesses it, and `Circumstance` chooses one
+// of 64 models.
 template <typename Coder, typename Place, int kSymbols, typename Circumstance>
 class SymbolField : public Place {
   using Models = std::array<typename Coder::template Model<kSymbols>, 64>;
