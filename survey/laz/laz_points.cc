@@ -24,7 +24,7 @@ namespace {
 constexpr int kMaxThreads = 16;
 // The largest batch.
 constexpr std::size_t kBatchBytes = 4 << 20;
-constexpr std::size_t kBatchPoints = kCommonChunkSize;
+constexpr std::size_t kPointsOfBatch = kCommonChunkSize;
 
 // Models take 1.3 kB for each byte of a record in each scanner channel that has points. The models of all threads are
 // bounded by those of records of this many bytes, which a single thread may need.
@@ -65,7 +65,7 @@ class LazPoints::Impl {
         extent_(extent),
         wanted_(wanted),
         record_length_(extent.record.record_length()),
-        batch_points_(std::clamp<std::size_t>(kBatchBytes / record_length_, 1, kBatchPoints)),
+        batch_points_(std::clamp<std::size_t>(kBatchBytes / record_length_, 1, kPointsOfBatch)),
         table_(std::move(table)),
         tail_end_(tail_end),
         next_begin_(begin),
