@@ -122,9 +122,8 @@ class ColumnStream(_Calls):
             yield column, getattr(answer.sea_surface_standard_error, name)
         if columns.best_s44_orders is not None:
             yield columns.best_s44_orders, answer.s44.best_orders
-        if columns.remaining_thu is not None and columns.remaining_tvu is not None:
-            yield columns.remaining_thu, answer.s44.remaining_thu
-            yield columns.remaining_tvu, answer.s44.remaining_tvu
+        if columns.remaining is not None:
+            yield from zip(columns.remaining, (answer.s44.remaining_thu, answer.s44.remaining_tvu))
 
 
 class _Sender:

@@ -129,10 +129,9 @@ class _Answers:
         thu[without_number] = tvu[without_number] = np.nan
         if columns.best_s44_orders is not None:
             columns.best_s44_orders[block] = best_orders(thu, tvu, depth)
-        if columns.remaining_thu is not None and columns.remaining_tvu is not None:
-            thu_limit, tvu_limit = limits(str(self._query.s44_order), depth)
-            columns.remaining_thu[block] = remaining(thu_limit, thu)
-            columns.remaining_tvu[block] = remaining(tvu_limit, tvu)
+        if columns.remaining is not None:
+            for column, limit, ours in zip(columns.remaining, limits(str(self._query.s44_order), depth), (thu, tvu)):
+                column[block] = remaining(limit, ours)
 
 
 def _azimuths(content: TableContent) -> list[float]:

@@ -29,8 +29,7 @@ class AnswerColumns:
     values: dict[str, Floats]
     standard_errors: dict[str, Floats]
     best_s44_orders: Numbers | None
-    remaining_thu: Floats | None
-    remaining_tvu: Floats | None
+    remaining: tuple[Floats, Floats] | None  # Of THU and TVU.
 
     @classmethod
     def for_query(cls, query: Query) -> AnswerColumns:
@@ -45,8 +44,7 @@ class AnswerColumns:
                    values={name: floats() for name in query.quantities},
                    standard_errors={name: floats() for name in query.quantities if query.standard_errors},
                    best_s44_orders=np.empty(size, np.uint8) if query.best_s44_order else None,
-                   remaining_thu=floats() if query.s44_order else None,
-                   remaining_tvu=floats() if query.s44_order else None)
+                   remaining=(floats(), floats()) if query.s44_order else None)
 
     def fill_sides(self, pulses: Mapping[str, NDArray[Any]], axes_of_table: Callable[[], Mapping[str, Axis]]) -> None:
         """Sets `outcome_sides`: where a pulse out of domain is. The twin of SideOf in tables/pulse.h.
@@ -108,8 +106,9 @@ class Uncertainties:
         self.standard_errors: Mapping[str, Floats] = {
             name: shaped(column) for name, column in columns.standard_errors.items()}
         self.best_s44_orders: Numbers | None = shaped(columns.best_s44_orders)
-        self.remaining_thu: Floats | None = shaped(columns.remaining_thu)
-        self.remaining_tvu: Floats | None = shaped(columns.remaining_tvu)
+        self.remaining_thu: Floats | None
+        self.remaining_tvu: Floats | None
+        self.remaining_thu, self.remaining_tvu = map(shaped, columns.remaining or (None, None))
         self.__dict__.update(self.values)
 
     def __getattr__(self, name: str) -> Any:

@@ -70,23 +70,23 @@ def against_depth(report: Report, quantity: str) -> str:
     wanted = report["wanted"]["index"]
     direction = "horizontal" if quantity == "thu" else "vertical"
     for specification in report["specifications"]:
-        for of in specification["classes"]:
-            if of[direction] is None:
+        for entry in specification["classes"]:
+            if entry[direction] is None:
                 continue
-            if of["index"] != wanted and specification["title"] != report["wanted"]["specification"]:
+            if entry["index"] != wanted and specification["title"] != report["wanted"]["specification"]:
                 continue
             # A vertical limit converts to the coverage of the points; for a horizontal one there is no single factor.
-            same = of["coverage"] == report["coverage"]
-            factor = SIGMAS[report["coverage"]] / SIGMAS[of["coverage"]] if quantity == "tvu" else 1.0
-            limits = [factor * limit_at(of[direction], d) for d in ends]
-            if of["index"] == wanted:
+            same = entry["coverage"] == report["coverage"]
+            factor = SIGMAS[report["coverage"]] / SIGMAS[entry["coverage"]] if quantity == "tvu" else 1.0
+            limits = [factor * limit_at(entry[direction], d) for d in ends]
+            if entry["index"] == wanted:
                 at = "" if same else (f", at {COVERAGES[report['coverage']]}" if quantity == "tvu" else
-                                      f", which is at {COVERAGES[of['coverage']]}")
-                label = f"limit of {specification['title']} {of['name']}{at}"
+                                      f", which is at {COVERAGES[entry['coverage']]}")
+                label = f"limit of {specification['title']} {entry['name']}{at}"
                 axes.plot(ends, limits, color=RED, linewidth=2, label=label)
             elif limits[-1] < 2.5 * highest:
                 axes.plot(ends, limits, color=GREY, linewidth=0.9)
-                axes.annotate(of["name"], (ends[-1], limits[-1]), fontsize=7, color=GREY, va="bottom", ha="right")
+                axes.annotate(entry["name"], (ends[-1], limits[-1]), fontsize=7, color=GREY, va="bottom", ha="right")
     axes.set_ylim(0, None)
     axes.set_xlim(0, ends[-1])
     axes.legend(fontsize=8)

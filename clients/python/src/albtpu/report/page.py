@@ -92,9 +92,10 @@ def _judged(fraction: float, report: Report, digits: int = 1) -> str:
 def _specifications(report: Report) -> str:
     rows = []
     for specification in report["specifications"]:
-        for of in specification["classes"]:
-            rows.append([text(specification["title"]), text(of["name"]), COVERAGES[of["coverage"]],
-                         limit_text(of["horizontal"]), limit_text(of["vertical"]), _judged(of["fraction"], report)])
+        for entry in specification["classes"]:
+            rows.append([text(specification["title"]), text(entry["name"]), COVERAGES[entry["coverage"]],
+                         limit_text(entry["horizontal"]), limit_text(entry["vertical"]),
+                         _judged(entry["fraction"], report)])
     sources = "".join(f"<li>{text(each['title'])}: {text(each['source'])}</li>" for each in report["specifications"])
     return ("<h2>Specifications</h2><p class='soft'>A class is met where the uncertainty plus the magnitude of the bias"
             " is within each limit; d is the depth.</p>"
@@ -111,8 +112,8 @@ def _band_name(band: dict[str, Any]) -> str:
 
 def _class_matrix(report: Report, what: str, rows: list[tuple[str, list[int], int]], kind: str = "sortable") -> str:
     """The percentage of points that meet each class. A row is a name, the points that meet each class, all points."""
-    head = [what] + [f"{text(each['title'])}<br>{text(of['name'])}" for each in report["specifications"]
-                     for of in each["classes"]]
+    head = [what] + [f"{text(each['title'])}<br>{text(entry['name'])}" for each in report["specifications"]
+                     for entry in each["classes"]]
     return table(head, [[text(name)] + [_judged(met / points, report, 0) if points else "–" for met in meeting]
                         for name, meeting, points in rows], kind)
 
