@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "budget/beams/facing_slopes.h"
+#include "budget/beams/return_pair.h"
 
 namespace albtpu {
 namespace {
@@ -17,12 +18,6 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
 
 constexpr double kCorrelation = 0.5;  // s, as in the fit of a track.
 constexpr double kCell = 0.05;        // s
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 int Parameters(Displacement displacement) {
   return displacement == Displacement::kTime ? 1 : displacement == Displacement::kOffset ? 3 : 4;

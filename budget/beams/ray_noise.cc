@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "budget/beams/return_pair.h"
+
 namespace albtpu {
 namespace {
 
@@ -44,12 +46,6 @@ void SolveVariances(const Sums& s, RayNoise& noise) {
   }
   noise.slopes = std::max(std::sqrt(slopes), kMinSigma);
   noise.points = std::sqrt(points);
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "budget/beams/return_pair.h"
+
 namespace albtpu {
 namespace {
 
 // More rays do not make a better start.
 constexpr std::size_t kMaxRays = 600;
 constexpr std::size_t kMinRays = 6;
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -26,7 +22,7 @@ std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < count; ++i) centre += rays[i * stride].water_point / static_cast<double>(count);
 
-  std::vector<double> weights(count, 1), distances(count), sorted(count);
+  std::vector<double> weights(count, 1), distances(count);
   KnotState state = KnotState::Zero();
   for (int round = 0; round <= 8; ++round) {
     KnotMatrix normal = KnotMatrix::Zero();
@@ -54,8 +50,7 @@ std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time
           centre + state.head<3>() + (ray.time - time) * state.tail<3>() - ray.water_point;
       distances[i] = gap.cross(ray.direction).norm();
     }
-    sorted = distances;
-    const double scale = std::max(Median(sorted), 1e-6);
+    const double scale = std::max(Median(distances), 1e-6);
     for (std::size_t i = 0; i < count; ++i) {
       const double e = distances[i] / scale;
       weights[i] = 1 / (1 + e * e);

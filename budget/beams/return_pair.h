@@ -12,7 +12,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 namespace albtpu {
 
@@ -35,5 +37,12 @@ struct AirRay {
 // into their direction, or if a number is not finite.
 std::optional<AirRay> RayOfPair(const ReturnPair& pair, double water_height, double index,
                                 double min_separation = 1);
+
+// The middle one of `values`, which are at least one; of an even number the upper one of the two in the middle.
+inline double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 }  // namespace albtpu

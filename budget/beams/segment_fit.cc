@@ -10,6 +10,7 @@
 
 #include "budget/beams/facing_slopes.h"
 #include "budget/beams/ray_windows.h"
+#include "budget/beams/return_pair.h"
 
 namespace albtpu {
 namespace {
@@ -22,12 +23,6 @@ constexpr double kConverged = 1e-3;  // m; a hundredth of the accuracy that is n
 
 // q: the prior is one step with the density of light turbulence; the bounds lie far below and far above any flight.
 constexpr double kUsualDensity = 0.3, kMinDensity = 0.003, kMaxDensity = 30;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Rays of a bin of time: their information on the position, their scores, and the scores times the weights of the
 // four states of the knots around them.

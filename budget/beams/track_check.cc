@@ -9,6 +9,7 @@
 
 #include "budget/beams/facing_slopes.h"
 #include "budget/beams/ray_windows.h"
+#include "budget/beams/return_pair.h"
 #include "sea/angle.h"
 
 namespace albtpu {
@@ -18,12 +19,6 @@ constexpr double kInternationalFoot =
     0.3048;  // m, exact. The US survey foot differs by 2e-6, which no height shows.
 constexpr double kLargestLeverArm = 10;  // m forward; no survey aircraft mounts a laser farther off.
 constexpr double kNearby = 100;          // m; beyond it a displacement is no error of mounting.
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<AirRay> EvenlyThinned(std::span<const AirRay> rays, std::size_t most) {
   const std::vector<AirRay> sorted = ThinRays(rays, {.rays_per_bin = 4, .max_rays = 8 * most});

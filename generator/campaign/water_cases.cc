@@ -23,12 +23,12 @@ constexpr std::uint32_t kCellOfChecks = 0xffffffff;  // of random numbers, used 
 // The tolerance of an interpolated bias: 3 mm, or 4 % if that is more.
 constexpr double kAllowed = 3e-3, kAllowedShare = 0.04;
 
-const std::vector<double>& Nodes(const Campaign& campaign, WaterAxis axis) {
+const std::vector<double>& NodesOf(const Campaign& campaign, WaterAxis axis) {
   return campaign.axes[Index(axis)].nodes();
 }
 
 std::vector<double> ViewsOf(const Campaign& campaign) {
-  std::vector<double> views = Nodes(campaign, WaterAxis::kFieldOfView);
+  std::vector<double> views = NodesOf(campaign, WaterAxis::kFieldOfView);
   views.back() = kInfinity;
   return views;
 }
@@ -51,11 +51,12 @@ WaterEffort EffortOf(const Campaign& campaign, double scattering_over_absorption
 }
 
 std::size_t EstimatesOfEcho(const Campaign& campaign) {
-  return 7 * Nodes(campaign, WaterAxis::kPulseLength).size() + 2;
+  return 7 * NodesOf(campaign, WaterAxis::kPulseLength).size() + 2;
 }
 
 std::size_t EchoesOfCase(const Campaign& campaign) {
-  return Nodes(campaign, WaterAxis::kOpticalDepth).size() * Nodes(campaign, WaterAxis::kFieldOfView).size();
+  return NodesOf(campaign, WaterAxis::kOpticalDepth).size() *
+         NodesOf(campaign, WaterAxis::kFieldOfView).size();
 }
 
 void Append(const DetectedBias& bias, std::vector<Estimate>& estimates) {
@@ -136,10 +137,10 @@ absl::StatusOr<Table::Variables> VariablesOf(const Campaign& campaign,
       const std::size_t in_echo = at % of_echo;
       const std::size_t quantity = in_echo < 7 * pulses ? in_echo % 7 : 7 + in_echo - 7 * pulses;
       if (!std::isfinite(cases[i][at].standard_error)) {
-        const std::size_t views = Nodes(campaign, WaterAxis::kFieldOfView).size();
+        const std::size_t views = NodesOf(campaign, WaterAxis::kFieldOfView).size();
         return absl::FailedPreconditionError(absl::StrCat(
             "the echo of water case ", i, " has no clear end at an optical depth of ",
-            Nodes(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
+            NodesOf(campaign, WaterAxis::kOpticalDepth)[at / of_echo / views],
             " (too few photons come back); give a smaller maximum optical depth, or more photons"));
       }
       const Estimate rounded = Rounded(cases[i][at]);
@@ -153,21 +154,21 @@ absl::StatusOr<Table::Variables> VariablesOf(const Campaign& campaign,
 }  // namespace
 
 std::size_t WaterCaseCount(const Campaign& campaign) {
-  return Nodes(campaign, WaterAxis::kBackscatterFraction).size() *
-         Nodes(campaign, WaterAxis::kScatteringOverAbsorption).size() *
-         Nodes(campaign, WaterAxis::kIncidence).size();
+  return NodesOf(campaign, WaterAxis::kBackscatterFraction).size() *
+         NodesOf(campaign, WaterAxis::kScatteringOverAbsorption).size() *
+         NodesOf(campaign, WaterAxis::kIncidence).size();
 }
 
 std::vector<Estimate> ComputeWaterCase(const Campaign& campaign, std::size_t index) {
-  const std::vector<double>& incidences = Nodes(campaign, WaterAxis::kIncidence);
-  const std::vector<double>& ratios = Nodes(campaign, WaterAxis::kScatteringOverAbsorption);
+  const std::vector<double>& incidences = NodesOf(campaign, WaterAxis::kIncidence);
+  const std::vector<double>& ratios = NodesOf(campaign, WaterAxis::kScatteringOverAbsorption);
   const double ratio = ratios[index / incidences.size() % ratios.size()];
   const double fraction =
-      Nodes(campaign, WaterAxis::kBackscatterFraction)[index / incidences.size() / ratios.size()];
-  std::vector<double> scattering = Nodes(campaign, WaterAxis::kOpticalDepth);
+      NodesOf(campaign, WaterAxis::kBackscatterFraction)[index / incidences.size() / ratios.size()];
+  std::vector<double> scattering = NodesOf(campaign, WaterAxis::kOpticalDepth);
   for (double& depth : scattering) depth /= OpticalDepthPerScattering(ratio, fraction);
   const std::vector<double> views = ViewsOf(campaign);
-  const std::vector<double>& pulses = Nodes(campaign, WaterAxis::kPulseLength);
+  const std::vector<double>& pulses = NodesOf(campaign, WaterAxis::kPulseLength);
   const std::vector<std::vector<WaterColumnBias>> biases =
       ComputeWaterColumns(PhaseFunction::FournierForand(fraction),
                           ColumnOf(campaign, incidences[index % incidences.size()], ratio), scattering, views,
@@ -196,14 +197,14 @@ CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
     return least * std::pow(most / least, random.Next());
   };
   const auto along = [&](WaterAxis axis) {
-    const std::vector<double>& nodes = Nodes(campaign, axis);
+    const std::vector<double>& nodes = NodesOf(campaign, axis);
     return between(nodes.front(), nodes.back());
   };
   const auto has = [&](WaterAxis axis, double x) {
-    const std::vector<double>& nodes = Nodes(campaign, axis);
+    const std::vector<double>& nodes = NodesOf(campaign, axis);
     return x >= nodes.front() && x <= nodes.back();
   };
-  const std::vector<double>& incidences = Nodes(campaign, WaterAxis::kIncidence);
+  const std::vector<double>& incidences = NodesOf(campaign, WaterAxis::kIncidence);
   CheckedBeam checked;
   // A campaign of few nodes may have no such beam; then the last one that was drawn is held within the nodes.
   for (int draw = 0; draw < 1000; ++draw) {
@@ -221,7 +222,7 @@ CheckedBeam CheckedBeamOf(const Campaign& campaign, std::size_t index) {
       return checked;
   }
   const auto hold = [&](WaterAxis axis, double& x) {
-    x = std::clamp(x, Nodes(campaign, axis).front(), Nodes(campaign, axis).back());
+    x = std::clamp(x, NodesOf(campaign, axis).front(), NodesOf(campaign, axis).back());
   };
   hold(WaterAxis::kOpticalDepth, checked.beam.optical_depth);
   hold(WaterAxis::kFieldOfView, checked.beam.field_of_view);

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "budget/beams/ray_track.h"
+#include "budget/beams/return_pair.h"
 #include "budget/beams/track_check.h"
 #include "sea/angle.h"
 #include "survey/beams/fitted_track.h"
@@ -19,12 +20,6 @@ namespace albtpu::client {
 namespace {
 
 using nlohmann::ordered_json;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Height and speed in the middle of the longest segment, where they do not depend on how many rays each of its parts
 // has, and the uncertainty at the times of the rays.

@@ -22,7 +22,7 @@ struct Angles {
 };
 using AnglesAt = std::function<Angles(double wind_speed, double incidence_degrees, double footprint)>;
 
-struct Nodes {
+struct TableNodes {
   std::vector<double> wind_speeds, incidences, footprints, depths;
 };
 
@@ -30,7 +30,7 @@ struct Nodes {
 // for any fetch. The plane of incidence is along the wind.
 constexpr double kFetch = 30, kAzimuth = 0;
 
-absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const Nodes& nodes) {
+absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const TableNodes& nodes) {
   std::vector<Axis> axes;
   for (const auto& [id, values] :
        {std::pair{AxisId::kWindSpeed, nodes.wind_speeds}, std::pair{AxisId::kFetch, std::vector{kFetch}},
@@ -44,7 +44,7 @@ absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const Nodes& nodes) {
 }
 
 // The angles at each node, and THU and TVU from both angles together, as Table 5 follows from Table 4.
-UncertaintyTable::Variables MakeVariables(const Nodes& nodes, const AnglesAt& angles_at) {
+UncertaintyTable::Variables MakeVariables(const TableNodes& nodes, const AnglesAt& angles_at) {
   Variable along, cross, thu, tvu;
   for (const double wind_speed : nodes.wind_speeds) {
     for (const double incidence : nodes.incidences) {
@@ -96,7 +96,8 @@ Provenance MakeProvenance(std::string id, std::string title, std::string source,
       }};
 }
 
-absl::StatusOr<UncertaintyTable> Make(const Nodes& nodes, const AnglesAt& angles_at, Provenance provenance) {
+absl::StatusOr<UncertaintyTable> Make(const TableNodes& nodes, const AnglesAt& angles_at,
+                                      Provenance provenance) {
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeAxes(nodes);
   if (!axes.ok()) return axes.status();
   return UncertaintyTable::Create(*std::move(axes), MakeVariables(nodes, angles_at), std::move(provenance));
@@ -105,7 +106,7 @@ absl::StatusOr<UncertaintyTable> Make(const Nodes& nodes, const AnglesAt& angles
 }  // namespace
 
 absl::StatusOr<UncertaintyTable> MeasuredTable(const PublishedAngles& table_4) {
-  Nodes nodes{table_4.wind_speeds, table_4.incidences, {0.25}, {}};
+  TableNodes nodes{table_4.wind_speeds, table_4.incidences, {0.25}, {}};
   for (int depth = 1; depth <= 10; ++depth) nodes.depths.push_back(depth);
   std::size_t cell = 0;  // the cells are in the order of the nodes
   const auto angles = [&](double, double, double) {
@@ -127,7 +128,7 @@ absl::StatusOr<UncertaintyTable> MeasuredTable(const PublishedAngles& table_4) {
 }
 
 absl::StatusOr<UncertaintyTable> ModelTable() {
-  Nodes nodes{{2, 2.5, 3, 3.5, 4, 5.25}, {}, {}, {1, 10}};  // THU and TVU are proportional to depth
+  TableNodes nodes{{2, 2.5, 3, 3.5, 4, 5.25}, {}, {}, {1, 10}};  // THU and TVU are proportional to depth
   for (int incidence = 0; incidence <= 20; ++incidence) nodes.incidences.push_back(incidence);
   for (int i = 0; i <= 16; ++i) nodes.footprints.push_back(static_cast<float>(0.25 * std::pow(2, i / 4.0)));
   const auto angles = [](double wind_speed, double incidence, double footprint) {
