@@ -24,49 +24,54 @@ endfunction()
 # Warnings are errors for developers; others may have a compiler that warns of more.
 option(ALBTPU_WERROR "Treat warnings as errors" OFF)
 
-# Compile options of all our own code; to be called once for each target.
-function(albtpu_target target)
+# Warnings of all our own code.
+function(albtpu_warn target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${ALBTPU_WERROR}>:-Werror>)
+endfunction()
+
+# Compile options of all our own code; to be called once for each target. Headers that most of its files include, such
+# as <Eigen/Core>, are precompiled beside those of all targets:
+#   albtpu_target(NAME [<header> ...])
+function(albtpu_target target)
+  albtpu_warn(${target})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   albtpu_sanitize(${target})
-  # At the end of the folder it is known whether the target is a test or position-independent.
-  cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompiled_headers ${target})")
+  # At the end of the folder it is known whether the target is position-independent.
+  cmake_language(EVAL CODE "cmake_language(DEFER CALL albtpu_precompile [[${target}]] [[${ARGN}]])")
 endfunction()
 
-# What most files include, compiled once for all targets that are compiled alike: it is half of the time of a short
-# file. A group is an object library without code; REUSE_FROM asks for the same options.
-#   albtpu_precompiled_group(NAME OPTIONS ... HEADERS ... LIBRARIES ...)
-function(albtpu_precompiled_group name)
-  cmake_parse_arguments(ARG "" "" "OPTIONS;HEADERS;LIBRARIES" ${ARGN})
-  if(TARGET ${name})
-    return()
-  endif()
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "")
-  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cc)
-  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${ALBTPU_WERROR}>:-Werror>
-    -pthread ${ARG_OPTIONS})
-  albtpu_sanitize(${name})
-  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
-  target_precompile_headers(${name} PRIVATE
-    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
-    <string_view> <utility> <vector> <absl/status/statusor.h> <absl/strings/str_cat.h> <absl/strings/str_format.h>
-    ${ARG_HEADERS})
-endfunction()
-
-function(albtpu_precompiled_headers target)
-  get_target_property(is_test ${target} ALBTPU_TEST_OPTIONS)
+# Precompiles what most files include: half of the time of a short file goes into it. Targets that are compiled alike
+# and have the same `headers` share it, by an object library without code.
+function(albtpu_precompile target headers)
+  get_target_property(options ${target} ALBTPU_TEST_OPTIONS)
   get_target_property(relocatable ${target} POSITION_INDEPENDENT_CODE)
-  if(NOT is_test STREQUAL "is_test-NOTFOUND")
-    string(MAKE_C_IDENTIFIER "albtpu_test_headers${is_test}" group)
-    albtpu_precompiled_group(${group} OPTIONS ${is_test} HEADERS <gmock/gmock.h> <gtest/gtest.h>
-      LIBRARIES GTest::gmock GTest::gtest_main)
-  elseif(relocatable)
-    set(group albtpu_package_headers)
-    albtpu_precompiled_group(${group})
-    set_target_properties(${group} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set(libraries Eigen3::Eigen)
+  if(options STREQUAL "options-NOTFOUND")
+    set(options "")
   else()
-    set(group albtpu_headers)
-    albtpu_precompiled_group(${group})
+    list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <fstream> <numbers> <random>)
+    list(APPEND libraries GTest::gmock GTest::gtest_main)
+  endif()
+  set(group "albtpu_headers ${headers} ${options}")
+  if(relocatable)
+    string(APPEND group " relocatable")
+  endif()
+  string(REGEX REPLACE "[^a-zA-Z0-9]+" "_" group "${group}")
+  string(REGEX REPLACE "_$" "" group "${group}")
+  if(NOT TARGET ${group})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${group}.cc CONTENT "")
+    add_library(${group} OBJECT ${PROJECT_BINARY_DIR}/${group}.cc)
+    albtpu_warn(${group})
+    albtpu_sanitize(${group})
+    target_compile_options(${group} PRIVATE -pthread ${options})
+    target_link_libraries(${group} PRIVATE ${libraries})
+    if(relocatable)
+      set_target_properties(${group} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+    target_precompile_headers(${group} PRIVATE
+      <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
+      <string_view> <utility> <vector> <absl/status/statusor.h> <absl/strings/str_cat.h> <absl/strings/str_format.h>
+      ${headers})
   endif()
   target_compile_options(${target} PRIVATE -pthread)  # Some libraries ask for it, and all must be compiled alike.
   target_precompile_headers(${target} REUSE_FROM ${group})
@@ -92,6 +97,7 @@ function(albtpu_kernels target scope)
   # generates implicitly cannot hold its vectors.
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
     target_compile_options(${target} PRIVATE -march=armv8-a+crypto)
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # They are compiled without it.
   endif()
   target_link_libraries(${target} ${scope} hwy::hwy)
 endfunction()
@@ -114,7 +120,7 @@ function(albtpu_test name label)
   set_target_properties(${name} PROPERTIES ALBTPU_TEST_OPTIONS "${options}")
   if(label STREQUAL "validation")
     include(GoogleTest)
-    gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name} PROPERTIES LABELS ${label} COST 100 DISCOVERY_TIMEOUT 60)
   else()
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS ${label})

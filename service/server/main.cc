@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -15,6 +16,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "command_line/checks.h"
 #include "command_line/exit_codes.h"
 #include "command_line/help.h"
 #include "command_line/usage_error.h"
@@ -40,6 +42,7 @@ struct Options {
   std::string default_table;
   std::string listen = "127.0.0.1:50051";
   std::optional<std::string> metrics;
+  long long max_stream_idle = kMaxStreamIdle.count();
   bool log_json = false;
   CredentialFlags credentials;
 };
@@ -59,10 +62,16 @@ void AddFlags(CLI::App& app, Options& options) {
   app.add_option("--metrics", options.metrics,
                  "Address on which to serve metrics to Prometheus, http://HOST:PORT/metrics")
       ->type_name("HOST:PORT");
+  app.add_option("--max-stream-idle", options.max_stream_idle,
+                 "End a stream after this time in which its caller neither sends nor reads")
+      ->type_name("SECONDS")
+      ->check(WholeIn(1, 3600))
+      ->capture_default_str();
   app.add_flag("--log-json", options.log_json, "Log one JSON object per line");
   AddCredentialFlags(app, options.credentials);
   Group(app, "Tables", {"--tables", "--default-table"});
   Group(app, "Addresses", {"--listen", "--metrics"});
+  Group(app, "Limits", {"--max-stream-idle"});
   Group(app, "Log", {"--log-json"});
   EndHelp(app,
           "SIGHUP reloads the tables; SIGTERM and SIGINT finish the calls under way and stop.\n"
@@ -138,8 +147,9 @@ Access MakeAccess(const CredentialFiles& files, std::shared_ptr<grpc::ServerCred
 }
 
 // Serves until a signal stops it; returns the exit code.
-int Serve(TableCatalog catalog, const Addresses& addresses, Access access, ServerMetrics& metrics,
-          const Recorders& recorders, const sigset_t& signals) {
+int Serve(TableCatalog catalog, const Addresses& addresses, Access access,
+          std::chrono::seconds max_stream_idle, ServerMetrics& metrics, const Recorders& recorders,
+          const sigset_t& signals) {
   LiveTables tables(std::move(catalog), [&metrics](const LiveTables::ReloadResult& result) {
     metrics.reloads.Count(result);
     LogReload(result);
@@ -153,7 +163,7 @@ int Serve(TableCatalog catalog, const Addresses& addresses, Access access, Serve
     endpoint = *std::move(started);
   }
   const absl::StatusOr<std::unique_ptr<Server>> server =
-      Server::Start(tables, recorders, addresses.service, std::move(access));
+      Server::Start(tables, recorders, addresses.service, std::move(access), max_stream_idle);
   if (!server.ok()) return Fail(kExitFailure, server.status());
   spdlog::info("ready on {}, {}", (*server)->address(), Summary(*tables.current()));
   if (endpoint != nullptr) spdlog::info("metrics on http://{}/metrics", endpoint->address());
@@ -183,7 +193,8 @@ int Run(const Options& options) {
     return Fail(kExitFailure,
                 WithFlag(options.tables.has_value() ? "--tables" : "no --tables given", catalog.status()));
   }
-  return Serve(*std::move(catalog), *addresses, MakeAccess(files, *credentials), metrics, recorders, signals);
+  return Serve(*std::move(catalog), *addresses, MakeAccess(files, *credentials),
+               std::chrono::seconds(options.max_stream_idle), metrics, recorders, signals);
 }
 
 int ParseAndRun(int argc, char** argv) {

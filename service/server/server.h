@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/security/server_credentials.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "service/server/calls/uncertainty_service.h"
 #include "service/server/connections/connection_gate.h"
 #include "service/server/connections/connection_watch.h"
+#include "service/server/ground/limits.h"
 #include "service/server/ground/listen_address.h"
 #include "service/server/observe/records.h"
 #include "service/server/tables/live_tables.h"
@@ -30,7 +32,8 @@ class Server {
   // Listens and serves `tables`. These and the objects that `recorders` refers to must outlive the server. Unavailable,
   // with the reason, if it cannot listen.
   static absl::StatusOr<std::unique_ptr<Server>> Start(LiveTables& tables, const Recorders& recorders,
-                                                       const ListenAddress& address, Access access = {});
+                                                       const ListenAddress& address, Access access = {},
+                                                       std::chrono::seconds max_stream_idle = kMaxStreamIdle);
 
   // HOST:PORT with the actual port.
   const std::string& address() const { return address_; }
@@ -40,7 +43,7 @@ class Server {
   void Drain();
 
  private:
-  Server(LiveTables& tables, const Recorders& recorders, Access access);
+  Server(LiveTables& tables, const Recorders& recorders, Access access, std::chrono::seconds max_stream_idle);
 
   std::shared_ptr<grpc::ServerCredentials> credentials_;  // Must outlive the listener.
   const Recorders recorders_;

@@ -21,7 +21,7 @@ status=0
 summary=()
 for preset in "${presets[@]}"; do
   cmake --preset "$preset" >/dev/null
-  cmake --build --preset "$preset" -j "$(nproc)"
+  cmake --build --preset "$preset" -j "$(nproc)" --target all benchmarks
   findings=$PWD/build/$preset/findings
   rm -rf "$findings"
   mkdir "$findings"

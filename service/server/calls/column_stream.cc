@@ -11,13 +11,15 @@
 namespace albtpu::server {
 
 ColumnStream::ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
-                           const CallRecord& record, grpc::CallbackServerContext& context)
+                           const CallRecord& record, grpc::CallbackServerContext& context,
+                           std::chrono::seconds max_idle)
     : catalog_(std::move(catalog)),
       seas_(seas),
       workers_(workers),
       record_(record),
       context_(context),
-      idle_watch_(kMaxStreamIdle, [this] { EndIdle(); }) {
+      max_idle_(max_idle),
+      idle_watch_(max_idle, [this] { EndIdle(); }) {
   StartRead(&next_);
 }
 
@@ -110,9 +112,8 @@ void ColumnStream::EndIdle() {
     if (busy_) return context_.TryCancel();
     ended_ = true;
   }
-  End(ToGrpcStatus(absl::DeadlineExceededError(
-      absl::StrCat("no request for ", kMaxStreamIdle.count(),
-                   " s; end a stream after its last request, and open another"))));
+  End(ToGrpcStatus(absl::DeadlineExceededError(absl::StrCat(
+      "no request for ", max_idle_.count(), " s; end a stream after its last request, and open another"))));
 }
 
 }  // namespace albtpu::server

@@ -3,6 +3,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 
@@ -17,7 +18,7 @@ namespace albtpu::server {
 // Handles one request after the other. While an answer is computed and sent, the next request is received and waits: a
 // stream holds at most two requests and one answer, however slowly its caller reads.
 //
-// Without any activity for kMaxStreamIdle the call ends: with DEADLINE_EXCEEDED if the next request does not arrive, as
+// Without any activity for `max_idle` the call ends: with DEADLINE_EXCEEDED if the next request does not arrive, as
 // if cancelled if the caller does not read its answer.
 //
 // Deletes itself when the call is done. `workers` must have admitted the call; its place is then released.
@@ -25,7 +26,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
  public:
   // Uses `catalog` for all answers without a sea. `seas` must outlive the call.
   ColumnStream(std::shared_ptr<const TableCatalog> catalog, SeaTables& seas, Workers& workers,
-               const CallRecord& record, grpc::CallbackServerContext& context);
+               const CallRecord& record, grpc::CallbackServerContext& context, std::chrono::seconds max_idle);
 
  private:
   void OnReadDone(bool ok) override;
@@ -48,6 +49,7 @@ class ColumnStream final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc
   Workers& workers_;
   CallRecord record_;  // Used by one thread at a time: the one that handles a request or ends the call.
   grpc::CallbackServerContext& context_;
+  const std::chrono::seconds max_idle_;
 
   std::mutex mutex_;       // Guards the members up to the blank line.
   bool waiting_ = false;   // `next_` holds a request.

@@ -180,7 +180,8 @@ grpc::ServerUnaryReactor* UncertaintyService::QueryColumns(grpc::CallbackServerC
 grpc::ServerUnaryReactor* UncertaintyService::QueryBudget(grpc::CallbackServerContext* context,
                                                           const grpc::ByteBuffer* request,
                                                           grpc::ByteBuffer* response) {
-  return Handle(Method::kQueryBudget, HandleQueryBudget, kMaxInlineBudgetBytes, *context, *request, *response);
+  return Handle(Method::kQueryBudget, HandleQueryBudget, kMaxInlineBudgetBytes, *context, *request,
+                *response);
 }
 
 // Never at once: the file of a table takes milliseconds.
@@ -192,7 +193,8 @@ grpc::ServerUnaryReactor* UncertaintyService::CompileSea(grpc::CallbackServerCon
 
 ByteStream* UncertaintyService::StreamColumns(grpc::CallbackServerContext* context) {
   CallRecord record(recorders_, Method::kStreamColumns, *context);
-  if (workers_.Admit()) return new ColumnStream(tables_.current(), seas_, workers_, record, *context);
+  if (workers_.Admit())
+    return new ColumnStream(tables_.current(), seas_, workers_, record, *context, max_stream_idle_);
   const grpc::Status refusal = TooManyCalls();
   record.End(refusal);
   return new RefusedStream(refusal);

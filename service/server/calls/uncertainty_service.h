@@ -3,6 +3,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <chrono>
+
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/server/calls/message_handlers.h"
 #include "service/server/calls/unread_answers.h"
@@ -25,11 +27,14 @@ using UncertaintyServiceOfBytes = v1::UncertaintyService::WithRawCallbackMethod_
 
 class UncertaintyService final : public UncertaintyServiceOfBytes {
  public:
-  // `tables` and `recorders` must outlive the service.
-  UncertaintyService(const LiveTables& tables, const Recorders& recorders)
+  // `tables` and `recorders` must outlive the service. Streams without activity and unread answers end after
+  // `max_stream_idle`.
+  UncertaintyService(const LiveTables& tables, const Recorders& recorders,
+                     std::chrono::seconds max_stream_idle)
       : tables_(tables),
         recorders_(recorders),
-        unread_(recorders.metrics),
+        max_stream_idle_(max_stream_idle),
+        unread_(recorders.metrics, max_stream_idle),
         seas_(recorders.seas, recorders.log) {}
 
   grpc::ServerUnaryReactor* QueryPulses(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
@@ -59,6 +64,7 @@ class UncertaintyService final : public UncertaintyServiceOfBytes {
 
   const LiveTables& tables_;
   const Recorders& recorders_;
+  const std::chrono::seconds max_stream_idle_;
   Workers workers_;
   UnreadAnswers unread_;
   SeaTables seas_;

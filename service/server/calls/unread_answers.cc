@@ -6,8 +6,10 @@
 
 namespace albtpu::server {
 
-UnreadAnswers::UnreadAnswers(CallMetrics& metrics)
-    : metrics_(metrics), dropping_(std::chrono::seconds(1), [this] { DropUnread(Clock::now()); }) {}
+UnreadAnswers::UnreadAnswers(CallMetrics& metrics, Clock::duration limit)
+    : metrics_(metrics),
+      limit_(limit),
+      dropping_(std::chrono::seconds(1), [this] { DropUnread(Clock::now()); }) {}
 
 UnreadAnswers::Entry::Entry(UnreadAnswers& all, grpc::CallbackServerContext& context, std::size_t bytes)
     : all_(all), context_(context), bytes_(bytes) {
@@ -28,8 +30,8 @@ void UnreadAnswers::DropUnread(Clock::time_point now) {
   std::vector<grpc_call*> calls;
   {
     const std::lock_guard lock(mutex_);
-    const Clock::duration limit = bytes_ > kMaxUnreadBytes / 2 ? Clock::duration(kMaxUnreadTimeWhenCrowded)
-                                                               : Clock::duration(kMaxStreamIdle);
+    const Clock::duration limit =
+        bytes_ > kMaxUnreadBytes / 2 ? Clock::duration(kMaxUnreadTimeWhenCrowded) : limit_;
     for (Entry* entry : entries_) {
       if (now - entry->made_ < limit) break;
       if (entry->dropped_) continue;

@@ -16,7 +16,7 @@
 namespace albtpu::server {
 
 // gRPC holds an answer, with its request, until the caller has opened its flow control window for it (HTTP/2, RFC 9113,
-// 5.2). A caller that does not do so could make answers accumulate. Answers that wait longer than kMaxStreamIdle are
+// 5.2). A caller that does not do so could make answers accumulate. Answers that wait longer than `limit` are
 // therefore dropped with DEADLINE_EXCEEDED; when there are many, so are those that wait longer than
 // kMaxUnreadTimeWhenCrowded.
 class UnreadAnswers {
@@ -24,7 +24,7 @@ class UnreadAnswers {
   using Clock = std::chrono::steady_clock;
 
   // Counts the dropped answers in `metrics`.
-  explicit UnreadAnswers(CallMetrics& metrics);
+  UnreadAnswers(CallMetrics& metrics, Clock::duration limit);
 
   // One unread answer. Exists until the end of the call, while its context exists.
   class Entry {
@@ -55,6 +55,7 @@ class UnreadAnswers {
 
  private:
   CallMetrics& metrics_;
+  const Clock::duration limit_;
   std::mutex mutex_;
   std::list<Entry*> entries_;  // The oldest first. Guarded by mutex_.
   std::atomic<std::size_t> bytes_ = 0;

@@ -127,7 +127,7 @@ inline constexpr std::chrono::seconds kKeepaliveTimeout{20};
 inline constexpr std::chrono::seconds kMinPingInterval{10};
 
 // A stream that holds one of the kMaxBulkCalls places while its caller neither sends nor reads ends after this time. A
-// single call whose answer is not read does so, too.
+// single call whose answer is not read does so, too. --max-stream-idle sets another.
 inline constexpr std::chrono::seconds kMaxStreamIdle{60};
 
 // Memory that gRPC may use for all connections, including messages in transit: those of kMaxBulkCalls, and half a

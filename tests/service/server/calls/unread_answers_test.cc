@@ -13,7 +13,7 @@ namespace {
 class UnreadAnswersTest : public ::testing::Test {
  protected:
   ServerMetrics metrics_;
-  UnreadAnswers unread_{metrics_.calls};
+  UnreadAnswers unread_{metrics_.calls, kMaxStreamIdle};
   grpc::CallbackServerContext context_;  // Belongs to no call.
 };
 
