@@ -1,13 +1,14 @@
-"""What changed for users between two builds of this tree, each in its own checkout: run it before and after a change
-that should change nothing.
+"""What changed for users between two builds of this tree: run it before and after a change that should change nothing.
 
-Usage: compare_builds.py OLD_CHECKOUT OLD_BUILD NEW_CHECKOUT NEW_BUILD [--pulses N]
+Usage: compare_builds.py OLD_BUILD NEW_BUILD [--pulses N]
 
-Compares, old with new: the table of quick.toml and a unit of survey.toml byte for byte, the version and the commit
-in their provenance aside; `albtpu-generate point --json` of random conditions; the answers to random pulses by CSV
-through a table file and through a server, and in Python through both; help texts and exit codes; names, labels and
-help of metrics; the wire; and the list of installed files. Prints each difference and ends with exit code 1 when
-results differ. Differences of texts are printed for the reader to judge.
+Both are installed into temporary folders and used from there, so that their trees may be laid out differently. One of
+them must have built the target albtpu_simulated_survey, too. Compares, old with new: the table of quick.toml and a unit
+of survey.toml byte for byte, the version and the commit in their provenance aside; `albtpu-generate point --json` of
+random conditions; the answers to random pulses by CSV through a table file and through a server, and in Python through
+both; what compare_surveys.py says; help texts and exit codes; names, labels and help of metrics; the wire; and the list
+of installed files. Prints each difference and ends with exit code 1 when results differ. Differences of texts are
+printed for the reader to judge.
 """
 
 import argparse
@@ -22,11 +23,10 @@ import tempfile
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import compare_surveys  # noqa: E402
 import serving  # noqa: E402
 
-PROGRAMS = {"albtpu-generate": ("table", "merge", "plan", "point", "validate"),
-            "albtpu-serve": (),
-            "albtpu-query": ("pulse", "csv", "las", "tables", "health")}
+PROGRAMS = ("albtpu-generate", "albtpu-serve", "albtpu-query")
 BAD_USAGE = (("albtpu-generate",), ("albtpu-generate", "nonsense"), ("albtpu-generate", "point", "--wind-speed", "x"),
              ("albtpu-generate", "plan", "--campaign", "absent.toml"), ("albtpu-generate", "point", "--help"),
              ("albtpu-query",), ("albtpu-query", "nonsense"), ("albtpu-query", "pulse", "--wind-speed", "7"),
@@ -51,13 +51,17 @@ save(albtpu.connect(sys.argv[3]), sys.argv[5])
 
 
 class Build:
-    """One side of the comparison."""
+    """One side of the comparison, installed into `prefix`."""
 
-    def __init__(self, checkout, build):
-        self.checkout, self.build = checkout, build
-        found = {path.name: path for path in build.rglob("albtpu-*") if path.is_file() and os.access(path, os.X_OK)}
-        self.programs = {name: found[name] for name in PROGRAMS}
-        self.table = next(path for path in checkout.glob("tables/**/survey.h5"))
+    def __init__(self, build, prefix):
+        self.build, self.prefix = build, prefix
+        subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, capture_output=True)
+        self.programs = {name: prefix / "bin" / name for name in PROGRAMS}
+        data = prefix / "share/albtpu"
+        self.tables, self.campaigns, self.python = data / "tables", data / "campaigns", data / "python"
+        self.table, self.protos = self.tables / "survey.h5", data / "proto"
+        self.installed = "\n".join(sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*")
+                                          if path.is_file()))
         version = self.run("albtpu-generate", "--version").stdout
         self.version, self.commit = re.fullmatch(r"\S+ (\S+) \((.+)\)\n", version).groups()
 
@@ -87,23 +91,24 @@ def text_difference(old, new, what):
 
 def equal_but_for_a_checksum(a, b):
     """Whether tables differ by nothing but HDF5's checksum, of 4 bytes, of the block that holds the commit."""
-    places = [i for i in range(min(len(a), len(b))) if a[i] != b[i]]
-    return len(a) == len(b) and (not places or places[-1] - places[0] < 4)
+    if a == b or len(a) != len(b):
+        return a == b
+    places = [i for i in range(len(a)) if a[i] != b[i]]
+    return places[-1] - places[0] < 4
 
 
 def compare_tables(old, new, folder):
     differs = False
     quick, survey, unit = [], [], []
     for name, build in (("old", old), ("new", new)):
-        campaign = build.checkout / "generator/campaigns/quick.toml"
         path = folder / f"{name}.h5"
-        done = build.run("albtpu-generate", "table", "--campaign", campaign, "--output", path)
+        done = build.run("albtpu-generate", "table", "--campaign", build.campaigns / "quick.toml", "--output", path)
         assert done.returncode == 0, done.stderr
         seal = 512  # bytes, among them the digest of all others
         quick.append(build.without_origin(path.read_bytes()[seal:]))
-        work = folder / name
-        build.run("albtpu-generate", "table", "--campaign", build.checkout / "generator/campaigns/survey.toml",
-                  "--work", work, "--shard", "17/400", check=True)
+        work = folder / f"{name}_units"
+        build.run("albtpu-generate", "table", "--campaign", build.campaigns / "survey.toml", "--work", work, "--shard",
+                  "17/400", check=True)
         units = sorted(work.glob("*.unit"))
         digest = 32  # bytes at the end of a unit
         survey.append([path.name for path in units])
@@ -170,7 +175,7 @@ def compare_answers(old, new, folder, count):
                 answers[name, "CSV", way] = output.read_bytes()
             paths = [folder / f"{name}_{way}.npy" for way in ("file", "server")]
             subprocess.run([sys.executable, "-c", PYTHON, folder / "pulses.npz", build.table, server.address, *paths],
-                           env={**os.environ, "PYTHONPATH": build.checkout / "clients/python/src"}, check=True)
+                           env={**os.environ, "PYTHONPATH": build.python}, check=True)
             for way, path in zip(("file", "server"), paths):
                 answers[name, "Python", way] = path.read_bytes()
     for how in ("CSV", "Python"):
@@ -187,8 +192,11 @@ def compare_answers(old, new, folder, count):
 
 
 def compare_help_and_exits(old, new):
-    for program, commands in PROGRAMS.items():
-        for arguments in ((), *((command,) for command in commands)):
+    for program in PROGRAMS:
+        top = "".join(build.run(program, "--help").stdout for build in (old, new))
+        listed = [re.findall(r"^  ([a-z-]+) ", part, re.MULTILINE)
+                  for part in re.findall(r"^Subcommands:\n((?:  .*\n)+)", top, re.MULTILINE)]
+        for arguments in ((), *((command,) for command in sorted(set(sum(listed, []))))):
             helps = [build.run(program, *arguments, "--help").stdout for build in (old, new)]
             text_difference(*helps, f"{' '.join((program, *arguments))} --help")
     differs = False
@@ -202,42 +210,47 @@ def compare_help_and_exits(old, new):
 def metrics_of(build):
     with serving.Server(build.programs["albtpu-serve"], "--tables", build.table.parent, "--metrics",
                         "127.0.0.1:0") as server:
-        text = "\n".join(server.lines)
-        port = re.search(r"metrics on (?:http://)?([\d.]+:\d+)", text)
-        page = urllib.request.urlopen(f"http://{port[1]}/metrics").read().decode()
+        url = re.search(r"http://\S+", server.wait_for("metrics on"))[0]
+        page = urllib.request.urlopen(url).read().decode()
     return "\n".join(sorted({re.sub(r"(\}|\w) [-+.\deInfNa]+$", r"\1", line) for line in page.splitlines()
                              if not line.startswith("albtpu_build_info") and 'le="' not in line}))
 
 
 def wire_of(build, folder):
     path = folder / "wire"
-    protos = sorted((build.checkout / "proto").rglob("*.proto"))
-    subprocess.run(["protoc", "-I", build.checkout / "proto", f"--descriptor_set_out={path}", *protos], check=True)
+    protos = sorted(path.relative_to(build.protos) for path in build.protos.rglob("*.proto"))
+    subprocess.run(["protoc", "-I", build.protos, f"--descriptor_set_out={path}", *protos], check=True)
     return path.read_bytes()
 
 
-def installed(build, prefix):
-    subprocess.run(["cmake", "--install", build.build, "--prefix", prefix], check=True, capture_output=True)
-    return "\n".join(sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if path.is_file()))
+def simulated_survey_of(*builds):
+    for build in builds:
+        for path in build.rglob("albtpu_simulated_survey"):
+            if path.is_file():
+                return path
+    sys.exit("compare_builds.py: no build has albtpu_simulated_survey; build that target in one of them")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("old_checkout", "old_build", "new_checkout", "new_build"):
+    for name in ("old_build", "new_build"):
         parser.add_argument(name, type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--pulses", type=int, default=100_000)
     options = parser.parse_args()
-    old, new = Build(options.old_checkout, options.old_build), Build(options.new_checkout, options.new_build)
+    simulated_survey = simulated_survey_of(options.old_build, options.new_build)
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        differs = compare_points(old, new)
-        differs |= compare_tables(old, new, folder)
-        differs |= compare_answers(old, new, folder, options.pulses)
-        differs |= compare_help_and_exits(old, new)
-        differs |= report(wire_of(old, folder) != wire_of(new, folder), "descriptors of the protos")
+        old, new = Build(options.old_build, folder / "old"), Build(options.new_build, folder / "new")
+        differs = report(wire_of(old, folder) != wire_of(new, folder), "descriptors of the protos")
+        text_difference(old.installed, new.installed, "installed files")
         text_difference(metrics_of(old), metrics_of(new), "metrics: names, labels, help")
-        text_difference(installed(old, folder / "old_prefix"), installed(new, folder / "new_prefix"),
-                        "installed files")
+        differs |= compare_help_and_exits(old, new)
+        (folder / "surveys").mkdir()
+        differs |= compare_surveys.compare(old, new, folder / "surveys", simulated_survey, options.pulses, report,
+                                           equal_but_for_a_checksum)
+        differs |= compare_answers(old, new, folder, options.pulses)
+        differs |= compare_points(old, new)
+        differs |= compare_tables(old, new, folder)
     sys.exit(1 if differs else 0)
 
 

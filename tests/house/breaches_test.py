@@ -147,6 +147,9 @@ class SmallTree(unittest.TestCase):
         self.assert_breach({"programs/more.cc": TREE["programs/main.cc"]}, "programs/more.cc is compiled by 0 targets")
         self.assert_breach({"formats/las/las_main.cc": TREE["formats/las/las.cc"]},
                            "formats/las/las_main.cc is compiled by 0 targets")
+        left_out = 'list(FILTER sources EXCLUDE REGEX "/la(s|z)\\\\.cc$")\nadd_'
+        self.assert_breach(changed("formats/CMakeLists.txt", "add_", left_out),
+                           "formats/las/las.cc is compiled by 0 targets")
         twice = TREE["programs/CMakeLists.txt"] + "add_executable(twice main.cc)\n"
         self.assert_breach({"programs/CMakeLists.txt": twice},
                            "programs/main.cc is compiled by 2 targets")

@@ -184,6 +184,9 @@ class Targets:
                 found = [source for folder in arguments[1:] for source in (path.parent / folder).resolve().glob("*.cc")]
                 variables[f"${{{arguments[0]}}}"] = [
                     source.as_posix() for source in found if not re.search(r"(^|_)main\.cc$", source.name)]
+            elif name == "list" and arguments[0] == "FILTER" and arguments[2] == "EXCLUDE":
+                pattern, variable = arguments[4].replace("\\\\", "\\"), f"${{{arguments[1]}}}"
+                variables[variable] = [value for value in variables.get(variable, []) if not re.search(pattern, value)]
             elif name == "add_library" and "ALIAS" in arguments:
                 self.aliases[arguments[0]] = arguments[-1]
             elif name in ("add_library", "add_executable", "target_sources"):
