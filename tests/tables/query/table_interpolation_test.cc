@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -158,52 +157,6 @@ TEST_P(TableInterpolation, TakesOneNumberForAllPulses) {
       Columns columns = RandomColumns(table, 500, 3);
       columns[constant] = {static_cast<float>(table.axes()[constant].nodes().back())};
       ExpectSlowTwin(table, Pulses(columns, 500));
-    }
-  }
-}
-
-TEST_P(TableInterpolation, IsExactAtEveryNode) {
-  for (const Table& table : TablesOfOtherKinds()) {
-    const std::size_t size = ValueCount(table.axes(), table.schema().quantities[0]);
-    ASSERT_TRUE(table.schema().quantities[0].over_last_axis);
-    Columns columns;
-    for (std::size_t i = 0; i < size; ++i) {
-      std::size_t rest = i;
-      for (std::size_t axis = table.axes().size(); axis-- > 0;) {
-        const std::vector<double>& nodes = table.axes()[axis].nodes();
-        columns[axis].push_back(static_cast<float>(nodes[rest % nodes.size()]));
-        rest /= nodes.size();
-      }
-    }
-    const Answers answers = Interpolated(table, Pulses(columns, size));
-    for (std::size_t q = 0; q < table.schema().quantities.size(); ++q) {
-      const std::size_t values_a_node =
-          table.schema().quantities[q].over_last_axis ? 1 : table.axes().back().size();
-      for (std::size_t i = 0; i < size; ++i) {
-        ASSERT_EQ(answers.values[q][i], table.variable(q)->values[i / values_a_node]);
-        if (table.variable(q)->standard_errors.empty()) continue;
-        ASSERT_EQ(answers.errors[q][i], table.variable(q)->standard_errors[i / values_a_node]);
-      }
-    }
-  }
-}
-
-TEST_P(TableInterpolation, DoesNotDependOnTheOtherPulses) {
-  for (const Table& table : TablesOfOtherKinds()) {
-    const Columns columns = RandomColumns(table, 2000, 4);
-    const PulseColumns pulses = Pulses(columns, 2000);
-    const Answers together = Interpolated(table, pulses);
-    const TableInterpolator interpolator(table);
-    Answers alone(table, 2000);
-    for (std::size_t i = 0; i < 2000; ++i) interpolator.Interpolate(pulses, i, i + 1, alone.columns());
-    EXPECT_EQ(alone.outcomes, together.outcomes);
-    for (std::size_t q = 0; q < table.schema().quantities.size(); ++q) {
-      for (std::size_t i = 0; i < 2000; ++i) {
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(alone.values[q][i]),
-                  std::bit_cast<std::uint32_t>(together.values[q][i]));
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(alone.errors[q][i]),
-                  std::bit_cast<std::uint32_t>(together.errors[q][i]));
-      }
     }
   }
 }
