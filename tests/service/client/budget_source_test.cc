@@ -50,31 +50,6 @@ TEST(BudgetSource, GivesTheSameBitsOnAServerAndInThisProcess) {
   }
 }
 
-TEST(BudgetSource, AsksOnlyForTheColumnsThatAreWanted) {
-  const RunningServer server;
-  const auto source = OpenServer(server.address(), "").value();
-  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
-  BudgetMemory all(pulses.size), some(pulses.size);
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), all.columns()).ok());
-  BudgetAnswers wanted;
-  const std::size_t nd = FirstColumn(BudgetQuantity::kCovarianceTotal) + 4;
-  wanted.columns[nd] = some.numbers[nd].data();
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), wanted).ok());
-  EXPECT_EQ(some.numbers[nd], all.numbers[nd]);
-}
-
-TEST(BudgetSource, AnswersPulsesThatAreAllAlike) {
-  const RunningServer server;
-  const auto source = OpenServer(server.address(), "").value();
-  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1);
-  pulses.size = 70000;
-  BudgetMemory answers(pulses.size);
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), answers.columns()).ok());
-  const std::vector<float>& thu = answers.numbers[FirstColumn(BudgetQuantity::kTotalThu)];
-  EXPECT_GT(thu[0], 0);
-  EXPECT_EQ(thu, std::vector<float>(pulses.size, thu[0]));
-}
-
 TEST(BudgetSource, OfASeaTakesTheAxisOfTheSea) {
   const RunningServer server;
   BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
