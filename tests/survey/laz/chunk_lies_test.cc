@@ -135,16 +135,6 @@ TEST_P(ChunkLies, OfTheSizesOfLayersAreNoticed) {
   }
 }
 
-// Whatever the bytes are: an error, or the records that were asked for.
-TEST_P(ChunkLies, OfASingleBitDoNoHarm) {
-  for (std::size_t bit = 0; bit < 8 * chunk_.bytes.size(); ++bit) {
-    SCOPED_TRACE(bit);
-    std::string bytes = chunk_.bytes;
-    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ 1 << bit % 8);
-    Message(bytes);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Formats, ChunkLies, ::testing::Range(0, 11), [](const auto& point_format) {
   return "Format" + std::to_string(point_format.param);
 });
