@@ -8,7 +8,6 @@ import json
 import math
 import os
 import statistics
-import unittest
 
 import programs
 import reported_survey
