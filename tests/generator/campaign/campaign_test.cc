@@ -1,7 +1,6 @@
 #include "generator/campaign/campaign.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>

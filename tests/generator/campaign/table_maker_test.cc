@@ -1,7 +1,6 @@
 #include "generator/campaign/table_maker.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <string>

@@ -1,7 +1,6 @@
 #include "generator/campaign/unit.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>

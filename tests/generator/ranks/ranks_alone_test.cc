@@ -1,6 +1,5 @@
 // Ranks of a build without MPI.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include "generator/ranks/ranks.h"

@@ -1,7 +1,6 @@
 #include "sea/files/sea_csv.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

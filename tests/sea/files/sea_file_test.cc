@@ -1,7 +1,6 @@
 #include "sea/files/sea_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>

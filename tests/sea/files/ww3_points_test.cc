@@ -1,7 +1,6 @@
 #include "sea/files/ww3_points.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

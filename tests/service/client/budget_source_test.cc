@@ -1,6 +1,5 @@
 // The whole budget: the client queries the real server, in the same process.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstring>
 

@@ -1,7 +1,6 @@
 #include "service/client/channel.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/temporary_folder.h"
 

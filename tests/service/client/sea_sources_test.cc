@@ -1,7 +1,6 @@
 #include "service/client/sea_sources.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <thread>

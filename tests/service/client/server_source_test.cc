@@ -2,7 +2,6 @@
 #include "service/client/server_source.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>

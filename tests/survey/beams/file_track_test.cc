@@ -1,7 +1,6 @@
 #include "survey/beams/file_track.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "survey/beams/trajectory_errors.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

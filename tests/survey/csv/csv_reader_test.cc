@@ -1,7 +1,6 @@
 #include "survey/csv/csv_reader.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "survey/files/output_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "tests/temporary_folder.h"

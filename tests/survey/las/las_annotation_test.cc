@@ -1,7 +1,6 @@
 #include "survey/las/las_annotation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>

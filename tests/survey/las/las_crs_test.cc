@@ -1,7 +1,6 @@
 #include "survey/las/las_crs.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/laz/coding/little_endian.h"
 #include "tests/survey/las/las_builder.h"

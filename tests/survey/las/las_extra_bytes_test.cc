@@ -1,7 +1,6 @@
 #include "survey/las/las_extra_bytes.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>

@@ -1,7 +1,6 @@
 #include "survey/las/las_header.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "survey/las/las_place.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/survey/las/las_builder.h"
 #include "tests/temporary_folder.h"

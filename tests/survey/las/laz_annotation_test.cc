@@ -1,6 +1,5 @@
 // Annotation of the same points as LAS and as LAZ: the same numbers, bit for bit.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstring>
 #include <optional>

@@ -1,6 +1,5 @@
 // Chunks that lie: about their points and their layers, or cut anywhere. Each has one clear error.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>

@@ -1,7 +1,6 @@
 #include "survey/laz/chunk_table.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <random>
 

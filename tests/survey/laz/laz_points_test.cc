@@ -1,7 +1,6 @@
 #include "survey/laz/laz_points.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <new>

@@ -1,7 +1,6 @@
 // Files that lie: about the chunk table, their chunks, their points. Each has one clear error, in little memory and
 // time.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>

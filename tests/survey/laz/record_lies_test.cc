@@ -1,6 +1,5 @@
 // LASzip records that lie: each field with each telling value. What is accepted does not change what is decoded.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>

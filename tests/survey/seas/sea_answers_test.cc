@@ -1,7 +1,6 @@
 #include "survey/seas/sea_answers.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>

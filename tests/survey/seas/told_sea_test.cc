@@ -1,7 +1,6 @@
 #include "survey/seas/told_sea.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "survey/trajectories/map_frame.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <cmath>

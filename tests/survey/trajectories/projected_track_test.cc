@@ -1,7 +1,6 @@
 #include "survey/trajectories/projected_track.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "survey/trajectories/trajectory_set.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/trajectories/formats/ascii_trajectory.h"
 #include "survey/trajectories/formats/sbet_file.h"

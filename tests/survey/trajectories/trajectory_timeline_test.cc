@@ -1,7 +1,6 @@
 #include "survey/trajectories/trajectory_timeline.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

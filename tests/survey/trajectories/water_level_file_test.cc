@@ -1,7 +1,6 @@
 #include "survey/trajectories/water_level_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "tables/file/table_folder.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 

@@ -1,7 +1,6 @@
 #include "tables/file/table_io.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <thread>

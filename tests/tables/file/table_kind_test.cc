@@ -1,6 +1,5 @@
 // Files of other kinds of tables than the sea surface.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <string_view>

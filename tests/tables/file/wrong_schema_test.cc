@@ -1,6 +1,5 @@
 // Files with an intact seal that are not valid tables: written by another program, or by ours with an error.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,6 @@
 #include "tables/query/interpolation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>

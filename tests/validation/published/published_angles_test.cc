@@ -1,7 +1,6 @@
 #include "validation/published/published_angles.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 

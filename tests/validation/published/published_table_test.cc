@@ -1,7 +1,6 @@
 #include "validation/published/published_table.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/temporary_folder.h"
 

@@ -1,7 +1,6 @@
 #include "validation/report/report.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 

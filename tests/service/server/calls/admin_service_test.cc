@@ -1,7 +1,6 @@
 #include "service/server/calls/admin_service.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <future>

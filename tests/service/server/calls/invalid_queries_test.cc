@@ -1,6 +1,5 @@
 // Queries that the server refuses, by each of its methods: with the status, the field and the words of one table.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"

@@ -1,6 +1,5 @@
 // The whole budget, through a running server.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>

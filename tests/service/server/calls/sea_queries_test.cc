@@ -1,6 +1,5 @@
 // Queries with a sea, through a running server.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "sea/table/sea_table.h"
 #include "service/client/sea_wire.h"

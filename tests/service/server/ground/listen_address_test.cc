@@ -1,7 +1,6 @@
 #include "service/server/ground/listen_address.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace albtpu::server {
 namespace {

@@ -1,7 +1,6 @@
 #include "service/server/observe/log.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 #include "survey/laz/items/laszip_record.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/laz/coding/little_endian.h"
 #include "tests/survey/laz/laz_bytes.h"

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/laz/coding/little_endian.h"
 #include "survey/laz/items/pointwise_decoder.h"

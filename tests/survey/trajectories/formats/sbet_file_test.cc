@@ -1,7 +1,6 @@
 #include "survey/trajectories/formats/sbet_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

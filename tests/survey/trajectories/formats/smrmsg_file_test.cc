@@ -1,7 +1,6 @@
 #include "survey/trajectories/formats/smrmsg_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <numbers>
