@@ -1,7 +1,6 @@
 #include "command_line/help.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 #include <string>

@@ -97,17 +97,6 @@ class PythonClient(unittest.TestCase):
             np.testing.assert_allclose(to_floats(getattr(answer.sea_surface, name)), theirs, rtol=1e-5,
                                        atol=cancelled, err_msg=name)
 
-    def test_gets_the_same_in_rows_and_in_columns(self):
-        pulses = self.random_pulses()
-        rows = [dict(zip(AXES, map(float, row))) for row in zip(*(pulses[axis] for axis in AXES))]
-        by_row = self.stub.QueryPulses(pb.QueryPulsesRequest(pulses=rows), timeout=PATIENCE)
-        by_column = self.ask_columns(pulses)
-        self.assertEqual(by_row.table, by_column.table)
-        for name in QUANTITIES:
-            in_rows = [getattr(row.sea_surface, name) for row in by_row.uncertainties]
-            in_column = to_floats(getattr(by_column.sea_surface, name))
-            np.testing.assert_array_equal(np.float32(in_rows), in_column, name)
-
     def test_learns_the_axes_of_the_file(self):
         listed = self.stub.ListTables(pb.ListTablesRequest(), timeout=PATIENCE)
         self.assertEqual(listed.default_table, "survey")
@@ -119,18 +108,6 @@ class PythonClient(unittest.TestCase):
         for axis in table.axes:
             np.testing.assert_array_equal(np.float32(axis.nodes), self.file[axis.name][:])
         self.assertEqual(tuple(quantity.name for quantity in table.quantities), QUANTITIES)
-
-    def test_is_told_what_would_be_right(self):
-        pulse = dict(wind_speed=5, incidence=10, footprint=1, depth=5)
-        for code, hint, ask in (
-                (grpc.StatusCode.INVALID_ARGUMENT, "send at least one", lambda: self.ask_columns({})),
-                (grpc.StatusCode.INVALID_ARGUMENT, "column 'wind_speed' has 2 numbers, column 'depth' has 3",
-                 lambda: self.ask_columns({**pulse, "wind_speed": [5, 6], "depth": [1, 2, 3]})),
-                (grpc.StatusCode.NOT_FOUND, "survey", lambda: self.ask_columns(pulse, table="nowhere"))):
-            with self.assertRaises(grpc.RpcError) as failure:
-                ask()
-            self.assertEqual(failure.exception.code(), code)
-            self.assertIn(hint, failure.exception.details())
 
 
 if __name__ == "__main__":

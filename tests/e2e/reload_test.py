@@ -173,38 +173,6 @@ class Reloads(ReloadTest):
             (one,), (two,) = answered.values()
             self.assertAlmostEqual(max(one, two) / min(one, two), 2, places=5)
 
-    def test_by_signal_load_a_new_version(self):
-        self.put(1, "bay/1")
-        self.assertEqual(self.reload(), {"bay/1": "LOADED", "survey": "KEPT"})
-        first, thu = self.ask("bay")
-        self.put(2, "bay/2")
-        self.server.process.send_signal(signal.SIGHUP)
-        self.server.wait_for("tables reloaded", times=2)
-        self.assertAlmostEqual(self.ask("bay")[1] / thu, 2, places=5)
-        self.assertEqual(self.ask("bay/1"), (first, thu))
-
-    def test_with_a_damaged_table_change_nothing(self):
-        before = self.ask()
-        path = os.path.join(self.tables, "survey.h5")
-        with open(self.source_of(2), "rb") as file:
-            whole = file.read()
-        middle = len(whole) // 2
-        flipped = whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1:]
-        for damaged in (whole[:-1], flipped, b"", b"not a table"):
-            with open(path, "wb") as file:
-                file.write(damaged)
-            with self.assertRaises(grpc.RpcError) as failure:
-                self.reload()
-            self.assertEqual(failure.exception.code(), grpc.StatusCode.FAILED_PRECONDITION)
-            self.assertIn("survey.h5", failure.exception.details())
-            self.assertNotIn(self.folder, failure.exception.details())
-            self.assertEqual(self.ask(), before)
-        self.assertIn(path, self.server.wait_for("tables not reloaded"))
-        with open(path, "wb") as file:
-            file.write(whole)
-        self.assertEqual(self.reload(), {"survey": "LOADED"})
-        self.assertNotEqual(self.ask(), before)
-
     def test_by_many_signals_do_no_harm(self):
         for _ in range(50):
             self.server.process.send_signal(signal.SIGHUP)

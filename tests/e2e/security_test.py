@@ -125,11 +125,6 @@ class Asking(SecurityTest):
         self.assert_fails(2, "--tls-cert requires --tls-key", *server, "--tls-cert", self.client["cert"])
         self.assert_fails(2, "--tls-key requires --tls-cert", *server, "--tls-key", self.client["key"])
 
-    def test_requires_usable_files(self):
-        server = "--server", "localhost:1"
-        self.assert_fails(1, "--tls-ca: .*nowhere: No such file", *server, "--tls-ca", self.folder / "nowhere")
-        self.assert_fails(1, "--token-file: .*one token", *server, "--token-file", self.file("none", "\n"))
-
 
 class BothWays(SecurityTest):
     """Mutual TLS: clients show certificates as well."""

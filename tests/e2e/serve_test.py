@@ -5,7 +5,6 @@ Usage: serve_test.py ALBTPU_SERVE ALBTPU_SYNTHETIC_TABLE PROTO_FOLDER
 
 import fcntl
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -34,7 +33,6 @@ import reflection_pb2_grpc  # noqa: E402
 
 SERVICE = "albtpu.v1.UncertaintyService"
 SERVING = health_pb2.HealthCheckResponse.SERVING
-NOT_SERVING = health_pb2.HealthCheckResponse.NOT_SERVING
 
 
 class ServeTest(unittest.TestCase):
@@ -122,29 +120,6 @@ class Tables(ServeTest):
         os.truncate(path, os.path.getsize(path) - 1)
         self.assert_fails(1, "quick.h5", "--tables", self.tables)
 
-    def test_are_found_through_the_environment(self):
-        server = Server(SERVE, environment={"ALBTPU_TABLES": self.tables})
-        self.addCleanup(server.__exit__)
-        self.assertIn("default 'quick'", server.lines[0])
-
-    def test_are_found_beside_the_installed_program(self):
-        prefix = os.path.join(self.folder, "prefix")
-        program = os.path.join(prefix, "bin", "albtpu-serve")
-        os.makedirs(os.path.dirname(program))
-        shutil.copy(SERVE, program)
-        tables = os.path.join(prefix, "share", "albtpu", "tables")
-        self.assert_fails(1, tables, program=program, environment={"ALBTPU_TABLES": ""})
-        shutil.copytree(self.tables, tables)
-        server = Server(program, environment={"ALBTPU_TABLES": ""})
-        self.addCleanup(server.__exit__)
-        self.assertIn("default 'quick'", server.lines[0])
-
-
-class Port(ServeTest):
-    def test_in_use_is_one_clear_error(self):
-        address = self.serve().address
-        self.assert_fails(1, "Address already in use", "--tables", self.tables, "--listen", address)
-
 
 class Signals(ServeTest):
     def test_stop_the_server_with_success(self):
@@ -229,15 +204,6 @@ class Signals(ServeTest):
         with os.fdopen(reader) as log:
             self.assertRegex(log.read(), r"albtpu-serve: \d+ lines were left out \(the reader of the log did not keep up\)\n")
 
-    def test_are_reported_to_watchers_of_its_health(self):
-        server = self.serve()
-        with connect(server.address) as channel:
-            watch = health_pb2_grpc.HealthStub(channel).Watch(health_pb2.HealthCheckRequest(service=SERVICE),
-                                                              timeout=PATIENCE)
-            self.assertEqual(next(watch).status, SERVING)
-            self.assertEqual(server.stop(signal.SIGTERM), 0)
-            self.assertEqual([answer.status for answer in watch], [NOT_SERVING])
-
 
 class BusyClient:
     """Sends large batches, one after the other, until a call fails."""
@@ -277,16 +243,6 @@ class BusyClient:
 def check_health(channel, service):
     request = health_pb2.HealthCheckRequest(service=service)
     return health_pb2_grpc.HealthStub(channel).Check(request, timeout=PATIENCE, wait_for_ready=True).status
-
-
-class Health(ServeTest):
-    def test_covers_the_server_and_the_service(self):
-        with connect(self.serve().address) as channel:
-            self.assertEqual(check_health(channel, ""), SERVING)
-            self.assertEqual(check_health(channel, SERVICE), SERVING)
-            with self.assertRaises(grpc.RpcError) as failure:
-                check_health(channel, "nonsense")
-            self.assertEqual(failure.exception.code(), grpc.StatusCode.NOT_FOUND)
 
 
 class Reflection(ServeTest):

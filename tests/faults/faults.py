@@ -22,8 +22,6 @@ from albtpu.v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 SEED = 20240501
 AXES = ("wind_speed", "incidence", "footprint", "depth")
-# For a simulated flight.
-FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
 
 
 def memory(process, what="VmRSS"):
@@ -44,9 +42,7 @@ def written(process):
 
 def compress(las):
     """The LAZ file of a LAS file."""
-    laz = las.with_suffix(".laz")
-    subprocess.run([programs.PATHS["laz_copy"], las, laz], check=True)
-    return laz
+    return programs.laz_copy(las, las.with_suffix(".laz"))
 
 
 def wait_until(holds, what, patience=serving.PATIENCE):

@@ -61,11 +61,11 @@ class Killed(faults.FaultTest):
 
     def test_killed_server_does_not_change_las_files(self):
         source = many_files.repeat(self.flight, self.folder / "long.las", 150)
-        self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
+        self.assert_survives_kills_of_the_server("las", source, programs.FLAGS)
 
     def test_killed_server_does_not_change_laz_files(self):
         source = faults.compress(many_files.repeat(self.flight, self.folder / "long.las", 100))
-        self.assert_survives_kills_of_the_server("las", source, faults.FLAGS)
+        self.assert_survives_kills_of_the_server("las", source, programs.FLAGS)
 
     def test_killed_server_does_not_change_csv_files(self):
         self.assert_survives_kills_of_the_server("csv", self.make_csv(self.folder / "long.csv", 800_000), ())
@@ -97,14 +97,14 @@ class Killed(faults.FaultTest):
         (self.folder / "survey").mkdir()
         for i in range(6):
             many_files.repeat(self.flight, self.folder / "survey" / f"line{i}.las", 20)
-        self.assert_survives_kills_of_the_client("las", faults.FLAGS)
+        self.assert_survives_kills_of_the_client("las", programs.FLAGS)
 
     def test_client_leaves_only_complete_laz_files(self):
         (self.folder / "survey").mkdir()
         line = faults.compress(many_files.repeat(self.flight, self.folder / "line.las", 20))
         for i in range(6):
             shutil.copy(line, self.folder / "survey" / f"line{i}.laz")
-        self.assert_survives_kills_of_the_client("las", faults.FLAGS)
+        self.assert_survives_kills_of_the_client("las", programs.FLAGS)
 
     def test_client_leaves_only_complete_csv_files(self):
         (self.folder / "survey").mkdir()

@@ -72,7 +72,7 @@ class NetworkCut(faults.FaultTest):
         self.out = self.folder / "out"
         self.out.mkdir()
         self.clients = [
-            self.start_query("las", self.las, self.out / "out.las", "--server", self.address, *faults.FLAGS),
+            self.start_query("las", self.las, self.out / "out.las", "--server", self.address, *programs.FLAGS),
             self.start_query("csv", self.csv, self.out / "out.csv", "--server", self.address)]
         self.python = Python(self.address, self.many)
         self.addCleanup(self.python.end, serving.PATIENCE)
@@ -95,7 +95,7 @@ class NetworkCut(faults.FaultTest):
         expected = self.folder / "expected"
         expected.mkdir()
         table = ("--table", self.tables / "survey.h5")
-        programs.query("las", self.las, expected / "out.las", *table, *faults.FLAGS, check=0)
+        programs.query("las", self.las, expected / "out.las", *table, *programs.FLAGS, check=0)
         programs.query("csv", self.csv, expected / "out.csv", *table, check=0)
         self.assertEqual(*({path.name: path.read_bytes() for path in folder.iterdir()}
                            for folder in (self.out, expected)))

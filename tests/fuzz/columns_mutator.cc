@@ -1,14 +1,10 @@
 // Mutates requests in columns field by field, so that most of them stay valid messages; some byte by byte.
 #include <algorithm>
 #include <cstring>
-#include <limits>
-#include <random>
 #include <string>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "tests/fuzz/fuzz_target.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 namespace {
 
@@ -16,24 +12,6 @@ using namespace albtpu;
 
 // Bytes of a column: usually more than the interpolator processes in one vector, sometimes more than one of its blocks.
 constexpr std::size_t kUsualBytes = 96, kMostBytes = 2048;
-constexpr float kNotableValues[] = {0.0f,
-                                    -0.0f,
-                                    1.0f,
-                                    3.0f,
-                                    10.0f,
-                                    25.0f,
-                                    45.0f,
-                                    90.0f,
-                                    0.25f,
-                                    2.0f,
-                                    1000.f,
-                                    100000.f,
-                                    20.0f,
-                                    -1.0f,
-                                    1e-40f,
-                                    std::numeric_limits<float>::max(),
-                                    std::numeric_limits<float>::infinity(),
-                                    std::numeric_limits<float>::quiet_NaN()};
 
 void MutateBytes(std::mt19937& random, std::string& column) {
   switch (random() % 4) {
@@ -49,26 +27,17 @@ void MutateBytes(std::mt19937& random, std::string& column) {
     default: {  // A notable value.
       if (column.size() < sizeof(float)) column.resize(sizeof(float));
       const std::size_t at = random() % (column.size() / sizeof(float)) * sizeof(float);
-      const float number = kNotableValues[random() % std::size(kNotableValues)];
+      const float number = fuzz::NotableNumber<float>(random);
       std::memcpy(column.data() + at, &number, sizeof number);
     }
   }
 }
 
 std::string* AnyColumn(std::mt19937& random, v1::PulseColumns& pulses) {
-  switch (random() % 6) {
-    case 0:
-      return pulses.mutable_wind_speed();
-    case 1:
-      return pulses.mutable_fetch();
-    case 2:
-      return pulses.mutable_incidence();
-    case 3:
-      return pulses.mutable_azimuth();
-    case 4:
-      return pulses.mutable_footprint();
-  }
-  return pulses.mutable_depth();
+  std::string* const columns[] = {pulses.mutable_wind_speed(), pulses.mutable_fetch(),
+                                  pulses.mutable_incidence(),  pulses.mutable_azimuth(),
+                                  pulses.mutable_footprint(),  pulses.mutable_depth()};
+  return fuzz::AnyOf(columns, random);
 }
 
 void MutateOptions(std::mt19937& random, v1::QueryColumnsRequest& request) {
@@ -76,7 +45,7 @@ void MutateOptions(std::mt19937& random, v1::QueryColumnsRequest& request) {
   v1::QueryOptions& options = *request.mutable_options();
   switch (random() % 6) {
     case 0:
-      return options.set_table(kTables[random() % std::size(kTables)]);
+      return options.set_table(fuzz::AnyOf(kTables, random));
     case 1:
       return options.set_coverage(static_cast<v1::Coverage>(random() % 5));
     case 2:
@@ -104,8 +73,5 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   } else {
     MutateBytes(random, *AnyColumn(random, *request.mutable_pulses()));
   }
-  const std::string bytes = request.SerializeAsString();
-  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, bytes.data(), bytes.size());
-  return bytes.size();
+  return fuzz::Replace(request.SerializeAsString(), data, size, max_size);
 }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "absl/status/status.h"
+
 // Called with arbitrary bytes. The target checks what must hold for all of them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -19,5 +21,11 @@ namespace albtpu::fuzz {
       std::abort();                                                                       \
     }                                                                                     \
   } while (false)
+
+// The status of a file that is refused: of its kind, with some words.
+inline void MustExplain(const absl::Status& status) {
+  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));
+  ALBTPU_MUST(status.message().size() > 20);
+}
 
 }  // namespace albtpu::fuzz

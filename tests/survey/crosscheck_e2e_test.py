@@ -8,39 +8,17 @@ import json
 import math
 import os
 import statistics
-import unittest
 
 import programs
+import reported_survey
 from programs import query
 from simulated_survey import SimulatedSurvey
 
-WIND, WIND_FROM = 5, 250
+WIND, WIND_FROM = 5, 250  # As in reported_survey.SURVEY.
 RIGHT = {"scan": 0.02, "bottom_range": 0.025}
 TRAJECTORY = {"position": [0.02, 0.02, 0.04], "attitude": [0.0025, 0.0025, 0.005]}
-SURVEY = """
-[sensor]
-name = "riegl-vq-880-g"
-lever_arm = [0.3, -0.2, 0.5]
-[trajectory]
-files = ["{flight}/sbet.out"]
-{errors}
-[surface]
-classes = [41]
-located = "pulse"
-[sea]
-wind_speed = {wind}
-wind_from = {wind_from}
-[water]
-column = "none"
-[datum]
-sigma = 0.05
-[sigma]
-{sigma}
-[output]
-classes = [40]
-coverage = "p95"
-details = true
-"""
+SURVEY = (reported_survey.SURVEY.replace('errors = ["{flight}/smrmsg.out"]', "{errors}")
+          .replace("classes = [41]", 'classes = [41]\nlocated = "pulse"') + "[sigma]\n{sigma}\n")
 
 
 def slopes_of_table():
@@ -65,7 +43,7 @@ class CrossCheckOfErrors(programs.Test):
         annotated = self.folder / "annotated"
         annotated.mkdir(exist_ok=True)
         survey = self.folder / "survey.toml"
-        survey.write_text(SURVEY.format(flight=flight, wind=WIND, wind_from=WIND_FROM, errors=errors,
+        survey.write_text(SURVEY.format(flight=flight, datum=0.05, coverage="p95", errors=errors,
                                         sigma="\n".join(f"{name} = {value}" for name, value in sigma.items())))
         query("las", flight, "--output-dir", annotated, "--survey", survey, "--table",
               programs.PATHS["shipped_table"], "--overwrite", check=0)

@@ -13,7 +13,7 @@ import numpy as np
 
 import programs
 from las_file import LasFile
-from programs import make_flight, make_table, query
+from programs import FLAGS, make_flight, query
 
 ALTITUDE, DIVERGENCE = 400.0, 1.5  # m, mrad
 WIND_FROM, FLIGHT = 100.0, 30.0  # degree
@@ -134,42 +134,13 @@ class LasTest(programs.Test):
                 self.check(source, target, 26 if point_format < 6 else 40, 0)
                 self.assertEqual("whole degrees" in result.stderr, point_format < 6)
 
-    def test_laz_gives_the_same_bytes_as_las(self):
-        source = make_flight(self.folder / "in.las", 4, 7)
-        samples = pathlib.Path(programs.PATHS["sample"]).parent / "laz"
-        names = [path.name for path in (samples / "simple.laz", samples / "autzen_trim.laz") if path.exists()]
-        self.annotate(source, self.folder / "out.LAZ", 40, 0)
-        laz = (self.folder / "out.LAZ").read_bytes()
-        self.assertEqual(laz[104], 0x80 | 7)
-        self.assertEqual(json.loads((self.folder / "out.LAZ.json").read_text())["output"]["format"], "LAZ")
-        folder = self.folder / "folder"
-        folder.mkdir()
-        self.annotate(source, f"--output-dir={folder}", 40, 0, "--format", "laz")
-        self.assertEqual((folder / "in.laz").read_bytes(), laz)
-        for arguments in (("out.las", "--format", "laz"), ("out.laz", "--format", "las")):
-            result = query("las", source, self.folder / arguments[0], *arguments[1:], "--scanner", "across-track",
-                           "--water-level", 0, "--wind-speed", 6, "--footprint", 1, "--table", self.table)
-            self.assert_fails(result, 2, "contradict each other")
-        flags = ("--table", self.table, "--incidence", 10, "--water-level", 1000, "--wind-speed", 5, "--footprint", 1,
-                 "--units", "m", "--classes", "0,1,2")
-        for name in names:  # Its points are too deep for the table, so that the exit code is 1.
-            query("las", samples / name, self.folder / "plain.las", *flags, "--overwrite")
-            query("las", samples / name, self.folder / "same.laz", *flags, "--overwrite")
-            plain = LasFile(self.folder / "plain.las")
-            self.assertEqual(plain.point_count, {"simple.laz": 1065, "autzen_trim.laz": 110000}[name])
-            self.assertLess((self.folder / "same.laz").stat().st_size, len(plain.bytes))
-
     def test_server_writes_the_same_bytes(self):
         source = make_flight(self.folder / "in.las")
-        tables = self.folder / "tables"
-        tables.mkdir()
-        make_table(tables / "quick.h5")
-        flags = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
-        with programs.server(tables) as address:
+        with programs.server(self.folder) as address:
             for coverage in ("2sigma", "p95"):
                 local, remote = (self.folder / f"{kind}_{coverage}.las" for kind in ("local", "remote"))
-                query("las", source, local, "--table", self.table, "--coverage", coverage, *flags, check=0)
-                query("las", source, remote, "--server", address, "--coverage", coverage, *flags, check=0)
+                query("las", source, local, "--table", self.table, "--coverage", coverage, *FLAGS, check=0)
+                query("las", source, remote, "--server", address, "--coverage", coverage, *FLAGS, check=0)
                 self.assertEqual(local.read_bytes(), remote.read_bytes())
             self.assertNotEqual(local.read_bytes(), (self.folder / "local_2sigma.las").read_bytes())
 

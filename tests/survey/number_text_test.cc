@@ -1,7 +1,6 @@
 #include "survey/number_text.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>

@@ -5,13 +5,16 @@ Their paths are the arguments of the test script, NAME=PATH.
 
 import contextlib
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "e2e"))
+from serving import Server  # noqa: E402
+
 PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
+FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)  # For a made flight.
 
 
 def query(*arguments, check=None, **keywords):
@@ -33,21 +36,17 @@ def make_flight(path, *options):
     return path
 
 
+def laz_copy(source, target, *flags):
+    """The LAS or LAZ file `source` as the other kind, or of other chunks."""
+    subprocess.run([PATHS["laz_copy"], source, target, *map(str, flags)], check=True)
+    return target
+
+
 @contextlib.contextmanager
 def server(folder):
     """A server for the tables in `folder` on a free port; yields HOST:PORT."""
-    with subprocess.Popen([PATHS["serve"], "--tables", str(folder), "--listen", "127.0.0.1:0"],
-                          stderr=subprocess.PIPE, text=True) as process:
-        try:
-            for line in process.stderr:
-                if ready := re.search(r"ready on (\S+:\d+)", line):
-                    break
-            else:
-                raise AssertionError("albtpu-serve did not start")
-            yield ready.group(1)
-        finally:
-            process.terminate()
-            process.communicate(timeout=60)
+    with Server(PATHS["serve"], "--tables", folder) as running:
+        yield running.address
 
 
 class Test(unittest.TestCase):

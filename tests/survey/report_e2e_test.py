@@ -8,7 +8,6 @@ import unittest
 
 import netCDF4
 import numpy as np
-import xarray
 
 import programs
 from page_probe import probe
@@ -87,16 +86,6 @@ class Grid(Report):
         self.assertAlmostEqual(info["geoTransform"][0] % 1, 0)
         self.assertLess(info["geoTransform"][0], self.points["x"].min())
         self.assertGreater(info["geoTransform"][3], self.points["y"].max())
-
-    def test_is_opened_by_ncdump_and_xarray(self):
-        header = subprocess.run(["ncdump", "-h", self.made / "grid.nc"], check=True, capture_output=True,
-                                text=True).stdout
-        for text in ('Conventions = "CF-1.8"', 'grid_mapping_name = "transverse_mercator"', "tvu:grid_mapping",
-                     "order_met:flag_meanings"):
-            self.assertIn(text, header)
-        with xarray.open_dataset(self.made / "grid.nc") as grid:
-            self.assertEqual(int(grid.points.sum()), len(self.points["x"]))
-            self.assertAlmostEqual(float(grid.tvu.max()), self.points["total_tvu"].max(), delta=0.01)
 
     def test_takes_the_cell_that_is_asked_for(self):
         report = self.folder / "coarse"

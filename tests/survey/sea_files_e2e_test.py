@@ -1,13 +1,12 @@
 """albtpu-query sea: what files of the sea have, their tables, damaged files, and real ones."""
 
 import datetime
-import itertools
 import json
 import math
 
 import programs
 import sea_states
-from programs import make_flight, query
+from programs import query
 from sea_states import FLIGHT_START, SAMPLES, WAVES, numbers, pulse, utc
 
 
@@ -47,22 +46,6 @@ class SeaFilesTest(sea_states.Test):
             self.assert_fails(query("sea", series, *flags, "--output", self.folder / "two.h5"), 2, "--sea-time")
         query("sea", series, "--sea-time", utc(FLIGHT_START), "--output", self.folder / "two.h5", check=0)
         self.assert_fails(query("sea"), 2, "no waves are given")
-
-    def test_cut_and_foreign_files_are_one_clear_message(self):
-        whole = self.sea_csv((FLIGHT_START, 1, 200)).read_bytes()
-        cut = self.folder / "cut.csv"
-        for size in itertools.chain(range(0, 60, 7), range(60, len(whole), 97)):
-            cut.write_bytes(whole[:size])
-            result = query("sea", cut)
-            if result.returncode != 0:
-                self.assert_fails(result, 1, "cut.csv: ")
-        for name, content in (("empty", b""), ("zeros", bytes(4096)), ("table.h5", self.table.read_bytes()),
-                              ("points.las", make_flight(self.folder / "in.las").read_bytes()[:5000]),
-                              ("netcdf.nc", b"CDF\x01" + bytes(100)), ("text", b"Hs 0.4\n"),
-                              ("gzip.gz", b"\x1f\x8b\x08")):
-            (self.folder / name).write_bytes(content)
-            self.assert_fails(query("sea", self.folder / name), 1, f"{name}: ")
-        self.assert_fails(query("sea", self.folder), 1, "is not a regular file")
 
 
 class SampleTest(programs.Test):

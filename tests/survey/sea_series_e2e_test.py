@@ -9,7 +9,7 @@ import programs
 import sea_states
 from las_file import LasFile
 from programs import make_flight, query
-from sea_states import FLIGHT, FLIGHT_START, WAVES, numbers, pulse, uncertainties, utc
+from sea_states import FLIGHT, FLIGHT_START, WAVES, uncertainties, utc
 from simulated_survey import SimulatedSurvey
 
 
@@ -102,20 +102,6 @@ class SeaSeriesTest(sea_states.Test):
         query(*flags, check=0)
         self.assertIn("already complete", query(*flags, check=0).stderr)
         self.assert_fails(query(*flags, "--tail", "wind"), 1, "parameters.sea.tail", "add --overwrite")
-
-    def test_a_server_gives_the_same_bytes(self):
-        tables = self.folder / "tables"
-        tables.mkdir()
-        programs.make_table(tables / "quick.h5")
-        source = make_flight(self.folder / "in.las")
-        series = self.sea_csv((FLIGHT_START - 1, 0.4, 200), (FLIGHT_START + 9, 2.5, 260))
-        flags = (*FLIGHT, "--sea", series, "--wind-speed", 6, "--wind-from", 250)
-        with programs.server(tables) as address:
-            for name, more in (("local.las", ()), ("remote.las", ("--server", address))):
-                query("las", source, self.folder / name, *flags, *more, check=0)
-            remote = pulse(*WAVES, "--beam-azimuth", 100, "--server", address)
-        self.assertEqual((self.folder / "remote.las").read_bytes(), (self.folder / "local.las").read_bytes())
-        self.assertEqual(numbers(remote), numbers(pulse(*WAVES, "--beam-azimuth", 100)))
 
 
 if __name__ == "__main__":

@@ -48,12 +48,6 @@ class SimulatedSurvey:
         records.astype("<f8").tofile(path)
         return path
 
-    def write_ascii(self, name, change):
-        """Another ASCII trajectory: `change` gets and returns an array of 15 columns."""
-        path = self.folder / name
-        np.savetxt(path, change(np.loadtxt(self.ascii)), fmt="%.6f %.12f %.12f" + " %.5f" * 12)
-        return path
-
 
 def degrees_apart(first, second):
     return (first - second + 180) % 360 - 180

@@ -114,26 +114,6 @@ class Trajectory(unittest.TestCase):
         self.assertIn("format         SBET", result.stdout)
         self.assertEqual(len(result.stderr.splitlines()), 3)
 
-    def test_refuses_bad_input_with_one_message(self):
-        backwards = sbet(gap=(99, 99))
-        backwards = backwards[:136 * 10] + backwards[:136 * 10]
-        nan = bytearray(sbet(gap=(99, 99)))
-        nan[136 * 5 + 8:136 * 5 + 16] = struct.pack("<d", math.nan)
-        empty = pathlib.Path(self.folder.name, "empty")
-        empty.mkdir()
-        for path, message in ((self.write("cut.out", smrmsg()[:-3]), "not a multiple of 80"),
-                              (self.write("backwards.out", backwards), "times must increase"),
-                              (self.write("nan.out", bytes(nan)), "record 6"),
-                              (self.write("prose.out", b"Dear reader,\nthis is no SBET.\n"), "no line of numbers"),
-                              (empty, "folder without files"),
-                              (pathlib.Path(self.folder.name, "missing"), "No such file")):
-            with self.subTest(message=message):
-                result = self.run_query(path, code=1)
-                self.assertEqual(result.stdout, "")
-                self.assertEqual(len(result.stderr.splitlines()), 1)
-                self.assertIn(message, result.stderr)
-                self.assertIn(pathlib.Path(path).name, result.stderr)
-
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,7 +1,6 @@
 #include "tables/axis.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

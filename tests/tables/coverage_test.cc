@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -106,21 +105,6 @@ TEST(Coverage, WithoutAzimuthIsTheLargerRadiusNotThatOfTheLargerThu) {
   for (const PulseUncertainty& both : {LargerOf(round, slender), LargerOf(slender, round)}) {
     EXPECT_EQ(both[Quantity::kThu], 2);
     EXPECT_FLOAT_EQ(WithCoverage(both, Coverage::kP95)[Quantity::kThu], radius);
-  }
-}
-
-TEST(Coverage, WithoutAzimuthIsTheLargerOfDownwindAndCrosswind) {
-  const UncertaintyTable table = albtpu::testing::SyntheticTable();
-  Pulse pulse = {.wind_speed = 6, .incidence = 20, .azimuth = {}, .footprint = 0.6f, .depth = 8};
-  const PulseUncertainty absent = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
-  pulse.azimuth = 0.0f;
-  const PulseUncertainty downwind = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
-  pulse.azimuth = 90.0f;
-  const PulseUncertainty crosswind = WithCoverage(Interpolate(table, pulse), Coverage::kP95);
-  for (Quantity quantity : kQuantities) {
-    EXPECT_FLOAT_EQ(std::abs(absent[quantity]),
-                    std::max(std::abs(downwind[quantity]), std::abs(crosswind[quantity])))
-        << Describe(quantity).name;
   }
 }
 

@@ -1,7 +1,6 @@
 #include "tables/provenance.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace albtpu {
 namespace {

@@ -5,29 +5,6 @@
 namespace albtpu {
 namespace {
 
-TEST(Schema, DescribesAxesInTheOrderOfTheFormat) {
-  EXPECT_EQ(Describe(AxisId::kWindSpeed).name, "wind_speed");
-  EXPECT_EQ(Describe(AxisId::kFetch).name, "fetch");
-  EXPECT_EQ(Describe(AxisId::kIncidence).name, "incidence");
-  EXPECT_EQ(Describe(AxisId::kAzimuth).name, "azimuth");
-  EXPECT_EQ(Describe(AxisId::kFootprint).name, "footprint");
-  EXPECT_EQ(Describe(AxisId::kDepth).name, "depth");
-}
-
-TEST(Schema, HasLogarithmicFetchAndFootprint) {
-  for (AxisId axis : kAxes) {
-    const bool is_log = axis == AxisId::kFetch || axis == AxisId::kFootprint;
-    EXPECT_EQ(Describe(axis).scale, is_log ? Scale::kLog : Scale::kLinear) << Describe(axis).name;
-  }
-}
-
-TEST(Schema, HasDepthForAllQuantitiesButRefraction) {
-  for (Quantity quantity : kQuantities) {
-    const bool is_angle = Describe(quantity).units == "degree";
-    EXPECT_EQ(Describe(quantity).over_last_axis, !is_angle) << Describe(quantity).name;
-  }
-}
-
 TEST(Schema, NeedsAllCoordinatesButFetchAndAzimuth) {
   for (AxisId axis : kAxes) {
     EXPECT_EQ(MayBeAbsent(axis), axis == AxisId::kFetch || axis == AxisId::kAzimuth) << Describe(axis).name;

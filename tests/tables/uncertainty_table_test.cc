@@ -1,7 +1,6 @@
 #include "tables/uncertainty_table.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <utility>

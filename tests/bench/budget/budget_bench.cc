@@ -14,6 +14,7 @@
 #include "budget/air/air_sources.h"
 #include "budget/total/budget_columns.h"
 #include "tests/bench/budget/plain_budget.h"
+#include "tests/budget/query/budget_memory.h"
 
 namespace albtpu::bench {
 namespace {
@@ -54,20 +55,9 @@ struct Columns {
 };
 
 BudgetOptions Options(Coverage coverage) {
-  return {.errors = {.position = {0.02, 0.02, 0.06},
-                     .attitude = {0.005, 0.005, 0.008},
-                     .boresight = {0.001, 0.001, 0.004},
-                     .lever_arm = 0.02,
-                     .scan = 0.02,
-                     .time = 1e-5,
-                     .range_offset = 0.01,
-                     .bottom_range = 0.025,
-                     .surface_height = 0.02,
-                     .index = 0.002},
-          .located = SurfaceLocation::kLocal,
-          .lever_arm = {0.3, -0.2, 0.5},
-          .datum = 0.08,
-          .coverage = coverage};
+  BudgetOptions options = testing::UsualOptions();
+  options.coverage = coverage;
+  return options;
 }
 
 void InColumns(benchmark::State& state, Coverage coverage, bool orders, bool details) {

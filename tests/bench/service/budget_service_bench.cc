@@ -21,6 +21,7 @@
 #include "tables/file/table_io.h"
 #include "tests/bench/service/flight_line.h"
 #include "tests/bench/service/raw_socket.h"
+#include "tests/budget/query/budget_memory.h"
 
 namespace albtpu::bench {
 namespace {
@@ -34,19 +35,9 @@ constexpr std::size_t kAnswerBytes = 2 + 2 * sizeof(float);  // Of one pulse.
 constexpr float kWindSpeed = 6.5f;
 
 BudgetOptions Options() {
-  return {.errors = {.position = {0.03, 0.03, 0.05},
-                     .attitude = {0.0025, 0.0025, 0.005},
-                     .boresight = {0.001, 0.001, 0.004},
-                     .lever_arm = 0.02,
-                     .scan = 0.001,
-                     .time = 1e-5,
-                     .range_offset = 0.01,
-                     .bottom_range = 0.025,
-                     .surface_height = 0.05,
-                     .index = 0.001},
-          .located = SurfaceLocation::kLocal,
-          .lever_arm = {0.3, -0.2, 0.5},
-          .datum = 0.08};
+  BudgetOptions options = testing::UsualOptions();
+  options.coverage = Coverage::kTwoSigma;
+  return options;
 }
 
 // The columns of `count` pulses that lie one after the other.

@@ -10,8 +10,7 @@
 #include "tests/fuzz/laz/chunk_decoding.h"
 #include "tests/fuzz/laz/chunk_input.h"
 #include "tests/fuzz/laz/record_mutation.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 namespace {
 
@@ -101,10 +100,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const ChunkInput input = ParseChunkInput({reinterpret_cast<const char*>(data), size});
   if (random() % kRecordsInEvery == 0) {
     const std::string head(reinterpret_cast<const char*>(data), kChunkHeadSize);
-    const std::string changed = OtherRecords(random, input, head);
-    if (changed.empty() || changed.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-    std::memcpy(data, changed.data(), changed.size());
-    return changed.size();
+    return Replace(OtherRecords(random, input, head), data, size, max_size);
   }
   static std::string chunk;  // Memory that is used again.
   ChangeStream(random, input, max_size - kChunkHeadSize, chunk);

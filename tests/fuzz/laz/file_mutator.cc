@@ -12,9 +12,7 @@
 #include "survey/laz/chunk_table.h"
 #include "survey/laz/coding/byte_source.h"
 #include "survey/laz/items/laszip_record.h"
-#include "tests/fuzz/fuzz_target.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 namespace {
 
@@ -205,7 +203,5 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   std::minstd_rand random(seed);
   if (random() % 4 == 0) return LLVMFuzzerMutate(data, size, max_size);
   const std::string file = Editor(std::string(reinterpret_cast<const char*>(data), size), random).Edited();
-  if (file.empty() || file.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, file.data(), file.size());
-  return file.size();
+  return albtpu::fuzz::Replace(file, data, size, max_size);
 }

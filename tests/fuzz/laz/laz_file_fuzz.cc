@@ -26,11 +26,6 @@ constexpr std::uint64_t kPiece = 7;          // Points that are read at a time.
 constexpr std::size_t kThreadedInEvery =
     64;  // Inputs: threads and new decoders take longer than all the rest.
 
-void MustExplain(const absl::Status& status) {
-  ALBTPU_MUST(absl::IsInvalidArgument(status) || absl::IsDataLoss(status) || absl::IsUnimplemented(status));
-  ALBTPU_MUST(status.message().size() > 20);
-}
-
 // The decoders of all inputs: their memory is used again.
 laz::ChunkDecoder& DecoderFor(const laz::LaszipRecord& record) {
   static std::map<std::string, std::unique_ptr<laz::ChunkDecoder>> decoders;
@@ -96,13 +91,13 @@ void CheckPoints(const LasReader& reader, bool threaded) {
   const absl::StatusOr<laz::ChunkTable> table =
       laz::ReadChunkTable(reader.bytes(), extent.record, extent.points_begin, extent.point_count);
   if (table.ok()) CheckTable(*table, extent, reader.file_size());
-  if (!table.ok() && !absl::IsNotFound(table.status())) MustExplain(table.status());
+  if (!table.ok() && !absl::IsNotFound(table.status())) fuzz::MustExplain(table.status());
   if (reader.header().extra_bytes() > kMostExtraBytes) return;
   const std::string by_table = table.ok() ? RecordsByTable(reader.bytes(), extent, *table) : "";
   if (!threaded) return;
   std::string records;
   const absl::Status status = ReadInPieces(reader.bytes(), extent, records);
-  if (!status.ok()) MustExplain(status);
+  if (!status.ok()) fuzz::MustExplain(status);
   if (table.ok()) ALBTPU_MUST(by_table.starts_with(records));
   if (status.ok()) {
     ALBTPU_MUST(table.ok() ? by_table == records : absl::IsNotFound(table.status()));
@@ -120,7 +115,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   input.Write(file);
   const absl::StatusOr<LasReader> reader = LasReader::Open(input.path());
   if (!reader.ok()) {
-    MustExplain(reader.status());
+    fuzz::MustExplain(reader.status());
   } else if (reader->kind() == LasKind::kLaz) {
     const bool threaded = std::hash<std::string_view>()(file) % kThreadedInEvery == 0;
     CheckPoints(*reader, threaded);

@@ -6,8 +6,7 @@
 
 #include "tests/fuzz/laz/chunk_input.h"
 #include "tests/fuzz/laz/record_mutation.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {

@@ -1,43 +1,15 @@
 // Mutates seas field by field, so that most of them stay valid messages; some byte by byte.
-#include <cstring>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <string>
 
 #include "albtpu/v1/sea.pb.h"
-#include "tests/fuzz/fuzz_target.h"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+#include "tests/fuzz/mutation.h"
 
 namespace {
 
 using namespace albtpu;
 using Numbers = google::protobuf::RepeatedField<double>;
 
-constexpr double kNotable[] = {0,
-                               -0.0,
-                               1e-300,
-                               1e-6,
-                               1e-3,
-                               0.1,
-                               0.4,
-                               1,
-                               std::numbers::pi,
-                               7,
-                               12.5,
-                               100,
-                               150,
-                               1e6,
-                               1e12,
-                               -1,
-                               -3.0,
-                               1e300,
-                               std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()};
-
 double AnyNumber(std::mt19937& random) {
-  if (random() % 2 == 0) return kNotable[random() % std::size(kNotable)];
+  if (random() % 2 == 0) return fuzz::NotableNumber<double>(random);
   return static_cast<double>(random()) / 4294967296.0 * (random() % 2 == 0 ? 1 : 20);
 }
 
@@ -138,8 +110,5 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const bool is_state = state.ParseFromArray(data, static_cast<int>(size));
   if (!is_state || random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
   random() % 3 == 0 ? MutateRest(random, state) : MutateWaves(random, state);
-  const std::string bytes = state.SerializeAsString();
-  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
-  std::memcpy(data, bytes.data(), bytes.size());
-  return bytes.size();
+  return fuzz::Replace(state.SerializeAsString(), data, size, max_size);
 }

@@ -1,7 +1,6 @@
 #include "generator/campaign/campaign_keys.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>

@@ -1,10 +1,6 @@
 #include "generator/campaign/work_folder.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
 
 #include "tests/generator/campaign/two_seas.h"
 #include "tests/temporary_folder.h"
@@ -21,7 +17,6 @@ constexpr UnitId kThird = {UnitKind::kSeaCase, 2}, kSixth = {UnitKind::kSeaCase,
 
 WorkFolder Open(const fs::path& folder) {
   const absl::StatusOr<WorkFolder> work = WorkFolder::Open(folder, TwoSeas());
-  EXPECT_TRUE(work.ok()) << work.status();
   return *work;
 }
 
@@ -29,9 +24,7 @@ TEST(WorkFolder, IsCreatedWithItsCampaign) {
   const TemporaryFolder folder;
   Open(folder / "work");
   const absl::StatusOr<WorkFolder> again = WorkFolder::OpenExisting(folder / "work");
-  ASSERT_TRUE(again.ok()) << again.status();
   const absl::StatusOr<Campaign> campaign = again->ReadCampaign();
-  ASSERT_TRUE(campaign.ok()) << campaign.status();
   EXPECT_EQ(campaign->text, TwoSeas().text);
 }
 
@@ -48,7 +41,7 @@ TEST(WorkFolder, HoldsOneCampaign) {
 
 TEST(WorkFolder, CannotBeAFile) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "file") << "precious";
+  folder.Write("file", "precious");
   const absl::Status status = WorkFolder::Open(folder / "file", TwoSeas()).status();
   EXPECT_THAT(std::string(status.message()), HasSubstr("file'"));
 }
@@ -92,16 +85,15 @@ TEST(WorkFolder, DoesNotOverwriteAUnit) {
   ASSERT_TRUE(work.Store(kThird, "three").ok());
   EXPECT_TRUE(work.Store(kThird, "three").ok()) << "two processes may compute the same unit";
   EXPECT_EQ(work.Store(kThird, "another three").code(), absl::StatusCode::kAlreadyExists);
-  std::ifstream file(work.PathOf(kThird));
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "three");
+  EXPECT_EQ(testing::ReadFile(work.PathOf(kThird)), "three");
 }
 
 TEST(WorkFolder, RemovesTemporaryFilesOfKilledWritersAndNothingElse) {
   const TemporaryFolder folder;
   const WorkFolder work = Open(folder.path());
   ASSERT_TRUE(work.Store(kThird, "three").ok());
-  std::ofstream(folder / ".albtpu-4711-3.tmp") << "half a";
-  std::ofstream(folder / "notes.txt") << "precious";
+  folder.Write(".albtpu-4711-3.tmp", "half a");
+  folder.Write("notes.txt", "precious");
   ASSERT_TRUE(work.RemoveTemporaries().ok());
   EXPECT_FALSE(fs::exists(folder / ".albtpu-4711-3.tmp"));
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));

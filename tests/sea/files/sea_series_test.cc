@@ -1,7 +1,6 @@
 #include "sea/files/sea_series.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <memory>
 

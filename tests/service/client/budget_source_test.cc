@@ -1,6 +1,5 @@
 // The whole budget: the client queries the real server, in the same process.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstring>
 
@@ -48,31 +47,6 @@ TEST(BudgetSource, GivesTheSameBitsOnAServerAndInThisProcess) {
     EXPECT_EQ(from_table.outcomes[777], 3);
     EXPECT_EQ(from_table.outcomes[99999], 2);
   }
-}
-
-TEST(BudgetSource, AsksOnlyForTheColumnsThatAreWanted) {
-  const RunningServer server;
-  const auto source = OpenServer(server.address(), "").value();
-  const BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1000);
-  BudgetMemory all(pulses.size), some(pulses.size);
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), all.columns()).ok());
-  BudgetAnswers wanted;
-  const std::size_t nd = FirstColumn(BudgetQuantity::kCovarianceTotal) + 4;
-  wanted.columns[nd] = some.numbers[nd].data();
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), wanted).ok());
-  EXPECT_EQ(some.numbers[nd], all.numbers[nd]);
-}
-
-TEST(BudgetSource, AnswersPulsesThatAreAllAlike) {
-  const RunningServer server;
-  const auto source = OpenServer(server.address(), "").value();
-  BudgetPulseMemory pulses = albtpu::testing::RandomBudgetPulses(1);
-  pulses.size = 70000;
-  BudgetMemory answers(pulses.size);
-  ASSERT_TRUE(source->AnswerBudget(UsualOptions(), pulses.columns(), answers.columns()).ok());
-  const std::vector<float>& thu = answers.numbers[FirstColumn(BudgetQuantity::kTotalThu)];
-  EXPECT_GT(thu[0], 0);
-  EXPECT_EQ(thu, std::vector<float>(pulses.size, thu[0]));
 }
 
 TEST(BudgetSource, OfASeaTakesTheAxisOfTheSea) {

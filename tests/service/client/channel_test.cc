@@ -1,9 +1,6 @@
 #include "service/client/channel.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
 
 #include "tests/temporary_folder.h"
 
@@ -14,10 +11,7 @@ using ::testing::HasSubstr;
 
 class ChannelCredentials : public ::testing::Test {
  protected:
-  std::string File(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
+  std::string File(const std::string& name, const std::string& text) { return folder_.Write(name, text); }
 
   static std::string Problem(const Credentials& credentials) {
     return std::string(MakeCredentials(credentials).status().message());

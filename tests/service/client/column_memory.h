@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <random>
 #include <vector>
 
 #include "tables/query/pulse_columns.h"
@@ -28,6 +29,22 @@ class PulseMemory {
  private:
   std::array<std::vector<float>, kAxisCount> axes_;
 };
+
+// `count` pulses, each coordinate uniform in its range of `ranges`, in the order of kAxes.
+inline PulseMemory RandomPulses(std::size_t count,
+                                const std::array<std::array<float, 2>, kAxisCount>& ranges) {
+  std::mt19937 random(1);
+  PulseMemory pulses;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<float, kAxisCount> pulse;
+    for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+      const auto [from, to] = ranges[axis];
+      pulse[axis] = from + (to - from) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24);
+    }
+    pulses.Add(pulse);
+  }
+  return pulses;
+}
 
 // Memory for every column that can be queried.
 class AnswerMemory {

@@ -1,10 +1,8 @@
 #include "service/client/sea_sources.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <thread>
 
 #include "sea/table/sea_table.h"
@@ -20,22 +18,14 @@ namespace {
 using albtpu::testing::SeasOfAllForms;
 using ::testing::HasSubstr;
 
-PulseMemory RandomPulses(std::size_t count) {
-  std::mt19937 random(1);
-  const auto draw = [&](float from, float to) {
-    return from + (to - from) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24);
-  };
-  PulseMemory pulses;
-  for (std::size_t i = 0; i < count; ++i)
-    pulses.Add({draw(-5, 20), draw(-1, 1e5), draw(-1, 32), draw(-400, 400), draw(0.05f, 7), draw(-1, 65)});
-  return pulses;
-}
+constexpr std::array<std::array<float, 2>, kAxisCount> kRanges = {
+    {{-5, 20}, {-1, 1e5}, {-1, 32}, {-400, 400}, {0.05f, 7}, {-1, 65}}};  // Inside and outside the table.
 
 TEST(SeaSources, GiveTheSameBitsInProcessAndOnAServer) {
   const RunningServer server;
   const auto local = LocalSeas();
   const auto remote = ServerSeas(server.address()).value();
-  PulseMemory pulses = RandomPulses(70000);  // More than one message, inside and outside the table.
+  PulseMemory pulses = RandomPulses(70000, kRanges);  // More than one message.
   const Query query = {.coverage = Coverage::kP95, .s44_order = S44Order::k1b};
   for (const KnownSea& sea : SeasOfAllForms()) {
     const auto here = local->Open(sea).value(), there = remote->Open(sea).value();
@@ -67,7 +57,7 @@ TEST(SeaSources, SayTheSameOfASea) {
 
 TEST(SeaSources, IgnoreWindAndFetchOfPulses) {
   const auto source = LocalSeas()->Open(albtpu::testing::DescribedWaves()).value();
-  PulseMemory pulses = RandomPulses(3000);
+  PulseMemory pulses = RandomPulses(3000, kRanges);
   AnswerMemory with(pulses.size()), without(pulses.size());
   ASSERT_TRUE(source->Answer({}, pulses.columns(), with.columns()).ok());
   pulses.axis(AxisId::kWindSpeed).clear();
@@ -104,7 +94,6 @@ TEST(SeaWire, KeepsEveryBit) {
   const SeaCompiler compiler;
   for (const KnownSea& sea : SeasOfAllForms()) {
     const auto read = server::ReadSea(ToWire(sea));
-    ASSERT_TRUE(read.ok()) << read.status();
     EXPECT_EQ(CompileSea(compiler, *read).value().digest(), CompileSea(compiler, sea).value().digest());
     EXPECT_EQ(ToWire(*read).SerializeAsString(), ToWire(sea).SerializeAsString());
   }

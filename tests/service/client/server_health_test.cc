@@ -1,7 +1,6 @@
 #include "service/client/server_health.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/service/client/running_server.h"
 

@@ -2,12 +2,9 @@
 #include "service/client/server_source.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cstring>
 #include <functional>
 #include <limits>
-#include <random>
 #include <thread>
 
 #include "service/client/local_source.h"
@@ -25,16 +22,10 @@ using ::testing::HasSubstr;
 
 // Pulses inside and outside the table; some depths are not a number.
 PulseMemory MixedPulses(std::size_t count) {
-  std::mt19937 random(1);
-  const auto draw = [&](float from, float to) {
-    return from + (to - from) * static_cast<float>(random() >> 8) / static_cast<float>(1 << 24);
-  };
-  PulseMemory pulses;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float depth = random() % 50 == 0 ? std::numeric_limits<float>::quiet_NaN() : draw(-1, 21);
-    pulses.Add(
-        {draw(2.5f, 10.5f), draw(900, 200000), draw(-1, 27), draw(-400, 400), draw(0.2f, 2.1f), depth});
-  }
+  PulseMemory pulses =
+      RandomPulses(count, {{{2.5f, 10.5f}, {900, 200000}, {-1, 27}, {-400, 400}, {0.2f, 2.1f}, {-1, 21}}});
+  for (std::size_t i = 7; i < count; i += 50)
+    pulses.axis(AxisId::kDepth)[i] = std::numeric_limits<float>::quiet_NaN();
   return pulses;
 }
 
@@ -69,21 +60,6 @@ TEST(ServerSource, AnswersSeveralThreadsAtOnce) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-}
-
-TEST(ServerSource, QueriesOnlyTheRequestedColumns) {
-  const RunningServer server;
-  const auto source = OpenServer(server.address(), "").value();
-  const PulseMemory pulses = MixedPulses(1000);
-  AnswerMemory all(pulses.size()), some(pulses.size());
-  ASSERT_TRUE(source->Answer({}, pulses.columns(), all.columns()).ok());
-  AnswerColumns requested;
-  requested.values[Index(Quantity::kTvu)] = some.columns().values[Index(Quantity::kTvu)];
-  ASSERT_TRUE(source->Answer({}, pulses.columns(), requested).ok());
-  EXPECT_EQ(std::memcmp(all.columns().values[Index(Quantity::kTvu)],
-                        some.columns().values[Index(Quantity::kTvu)], pulses.size() * sizeof(float)),
-            0);
-  EXPECT_TRUE(source->Answer({}, pulses.columns(), AnswerColumns()).ok());
 }
 
 TEST(ServerSource, AnswersPulsesThatAreAllTheSame) {
@@ -153,23 +129,6 @@ TEST(ServerSource, ReportsTheProblemWithTheServer) {
   EXPECT_THAT(std::string(gone.message()), HasSubstr("start albtpu-serve"));
 }
 
-TEST(ServerSource, ContinuesWhenItsServerReturns) {
-  auto server = std::make_unique<RunningServer>();
-  const std::string address = server->address();
-  const auto source = OpenServer(address, "").value();
-  server->Stop();
-  server.reset();
-  const PulseMemory pulses = MixedPulses(1000);
-  AnswerMemory answers(pulses.size()), expected(pulses.size());
-  absl::Status status;
-  std::thread querier([&] { status = source->Answer({}, pulses.columns(), answers.columns()); });
-  server = std::make_unique<RunningServer>(SyntheticOptions(), address);
-  querier.join();
-  EXPECT_TRUE(status.ok()) << status;
-  ASSERT_TRUE(LocalSource("", SyntheticTable()).Answer({}, pulses.columns(), expected.columns()).ok());
-  EXPECT_TRUE(answers == expected);
-}
-
 // A channel that nobody waits on looks for its server only every five seconds, which is longer than this source waits.
 TEST(ServerSource, NoticesWhileWaitingThatItsServerIsBack) {
   auto server = std::make_unique<RunningServer>();
@@ -212,16 +171,6 @@ TEST(ServerSource, AlternatesBetweenTheServersOfAnAddress) {
   EXPECT_EQ(second.answers() - others_before, 5);
 }
 
-TEST(ServerSource, UsesTheOtherServersWhenOneStops) {
-  RunningServer first, second;
-  const auto source = OpenServer(AllOf({first.address(), second.address()}), "").value();
-  QueryUntil(*source, [&](int) { return first.answers() > 0 && second.answers() > 0; });
-  first.Stop();
-  const int before = second.answers();
-  QueryUntil(*source, [](int answered) { return answered == 10; });
-  EXPECT_EQ(second.answers() - before, 10);
-}
-
 TEST(ServerSource, UsesAServerAgainWhenItIsBack) {
   auto first = std::make_unique<RunningServer>();
   const RunningServer second;
@@ -246,19 +195,6 @@ TEST(ServerSource, NoticesThatItsTableChanged) {
   const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
   EXPECT_EQ(status.code(), absl::StatusCode::kAborted) << status;
   EXPECT_THAT(std::string(status.message()), HasSubstr("table quick changed from digest"));
-}
-
-TEST(ServerSource, GivesUpWhenItsServerDoesNotReturn) {
-  RunningServer server;
-  const auto source =
-      OpenServer(server.address(), "", {.retries = 2, .first_pause = std::chrono::milliseconds(1)}).value();
-  server.Stop();
-  const PulseMemory pulses = MixedPulses(10);
-  AnswerMemory answers(pulses.size());
-  const absl::Status status = source->Answer({}, pulses.columns(), answers.columns());
-  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable) << status;
-  EXPECT_THAT(std::string(status.message()), HasSubstr("retried 2 times after 0 of 10 pulses"));
-  EXPECT_THAT(std::string(status.message()), HasSubstr("start albtpu-serve"));
 }
 
 }  // namespace

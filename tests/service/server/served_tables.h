@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
 #include "service/server/observe/metrics.h"
 #include "service/server/server.h"
 #include "service/server/tables/table_catalog.h"
@@ -127,6 +129,15 @@ inline std::vector<float> Floats(const std::string& column) {
   std::vector<float> values(column.size() / sizeof(float));
   if (!values.empty()) std::memcpy(values.data(), column.data(), column.size());
   return values;
+}
+
+// The first field that the details of an error name; "" if there is none.
+inline std::string FieldOf(const grpc::Status& status) {
+  google::rpc::Status details;
+  google::rpc::BadRequest bad;
+  const bool has_field = details.ParseFromString(status.error_details()) && details.details_size() == 1 &&
+                         details.details(0).UnpackTo(&bad) && bad.field_violations_size() > 0;
+  return has_field ? bad.field_violations(0).field() : "";
 }
 
 // The same pulse as WirePulse(), `count` times.

@@ -1,7 +1,6 @@
 #include "service/server/server.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 

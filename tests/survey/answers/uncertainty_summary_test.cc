@@ -1,7 +1,6 @@
 #include "survey/answers/uncertainty_summary.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

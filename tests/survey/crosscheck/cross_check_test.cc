@@ -1,7 +1,6 @@
 #include "survey/crosscheck/cross_check.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 #include "survey/csv/csv_annotation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "absl/strings/str_cat.h"
 #include "service/client/local_source.h"

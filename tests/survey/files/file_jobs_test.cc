@@ -1,7 +1,6 @@
 #include "survey/files/file_jobs.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/exit_status.h"
 #include "tests/temporary_folder.h"

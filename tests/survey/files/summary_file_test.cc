@@ -1,7 +1,6 @@
 #include "survey/files/summary_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 

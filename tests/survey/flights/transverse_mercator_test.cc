@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <stdio.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
@@ -55,37 +54,6 @@ TEST(TransverseMercator, AgreesWithProj) {
       EXPECT_NEAR(point.easting, easting, 2e-9) << name;
       EXPECT_NEAR(point.northing, northing, 4e-9) << name;
     }
-  }
-}
-
-// On the central meridian the northing is the length of the meridian, the integral of its radius of curvature; by
-// Simpson's rule with 2000 steps, whose error is below 1e-12 of it.
-TEST(TransverseMercator, MeasuresTheCentralMeridian) {
-  const TransverseMercator projection({.ellipsoid = kGrs80, .scale_factor = 0.9996});
-  constexpr int kSteps = 2000;
-  const double latitude = 0.6, step = latitude / kSteps;
-  double sum = kGrs80.MeridianRadius(0) + kGrs80.MeridianRadius(latitude);
-  for (int i = 1; i < kSteps; ++i) sum += (i % 2 == 1 ? 4 : 2) * kGrs80.MeridianRadius(i * step);
-  const MapPoint point = projection.Project(latitude, 0);
-  EXPECT_NEAR(point.northing, 0.9996 * sum * step / 3, 4e-9);
-  EXPECT_EQ(point.easting, 0);
-  EXPECT_EQ(point.convergence, 0);
-  EXPECT_NEAR(point.scale, 0.9996, 1e-12);
-}
-
-// Central differences over 1e-4 rad (600 m): rounding 1e-9 m / 600 m, and the third derivative (1e-4)^2 / 6.
-TEST(TransverseMercator, ConvergenceAndScaleAreThoseOfItsDerivatives) {
-  const TransverseMercator projection = *FindMapGrid("utm17n")->projection;
-  constexpr double kStep = 1e-4;  // rad
-  for (const Geodetic& place : Places()) {
-    const MapPoint here = projection.Project(place.latitude, place.longitude);
-    const MapPoint north = projection.Project(place.latitude + kStep, place.longitude);
-    const MapPoint south = projection.Project(place.latitude - kStep, place.longitude);
-    const double east_of_north = north.easting - south.easting, up = north.northing - south.northing;
-    // True north lies -convergence clockwise from grid north.
-    EXPECT_NEAR(here.convergence, -std::atan2(east_of_north, up), 1e-8);
-    const double metres = 2 * kStep * kWgs84.MeridianRadius(place.latitude);
-    EXPECT_NEAR(here.scale, std::hypot(east_of_north, up) / metres, 1e-8);
   }
 }
 

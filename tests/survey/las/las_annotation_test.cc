@@ -1,19 +1,16 @@
 #include "survey/las/las_annotation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <random>
 #include <vector>
 
 #include "service/client/local_source.h"
 #include "survey/laz/coding/little_endian.h"
 #include "tests/survey/answers/test_sources.h"
 #include "tests/survey/las/las_builder.h"
-#include "tests/survey/las/simulated_flight.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
 
@@ -25,12 +22,10 @@ using albtpu::testing::ExtraBytesEntry;
 using albtpu::testing::LasSpec;
 using albtpu::testing::PointSize;
 using albtpu::testing::ReadFile;
-using albtpu::testing::SimulatedFlight;
 using albtpu::testing::SyntheticTable;
 using albtpu::testing::TemporaryFolder;
 using laz::Load;
 using laz::Store;
-using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 // Points of each kind: bathymetric, above the water, deeper than the table, on land. Every point format can represent
@@ -205,19 +200,6 @@ TEST_F(LasAnnotationTest, IgnoresTheFlagsBesideALegacyClass) {
   EXPECT_EQ(summary_.outcomes().total(), 4u);
 }
 
-TEST_F(LasAnnotationTest, KeepsThePointsOfAFlightInOrder) {
-  LasSpec spec = albtpu::testing::SimulateFlight(4, 8);
-  annotation_.classes = {SimulatedFlight::kBottomClass};
-  const std::string output = Annotate(spec);
-  EXPECT_EQ(summary_.outcomes().interpolated(), summary_.outcomes().total());
-  const std::size_t begin = Load<std::uint32_t>(output, 96), length = PointSize(8) + 8;
-  for (std::size_t i = 0; i < spec.points.size(); ++i) {
-    ASSERT_EQ(Load<std::int32_t>(output, begin + i * length), spec.points[i].x);
-    ASSERT_EQ(Load<float>(output, begin + i * length + PointSize(8)) == -1,
-              spec.points[i].classification != SimulatedFlight::kBottomClass);
-  }
-}
-
 TEST_F(LasAnnotationTest, RequiresAUnitWhenTheFileIsInFeet) {
   LasSpec spec = Spec(4, 6);
   spec.vlrs = {{"LASF_Projection", 2112, "VERT_CS[\"x\",UNIT[\"US survey foot\",0.304800609601219]]"}};
@@ -266,30 +248,6 @@ TEST_F(LasAnnotationTest, RejectsRecordsThatCannotGrow) {
   LasSpec spec = Spec(2, 0);
   spec.extra_bytes = 65535 - 20 - 7;
   EXPECT_THAT(Annotate(spec), HasSubstr("no room for 8 more bytes"));
-}
-
-// Whatever the damage to a file, the result is an output of the right size or an error that names the file.
-TEST_F(LasAnnotationTest, SurvivesRandomDamage) {
-  LasSpec spec = Spec(4, 9);
-  spec.extra_bytes = 5;
-  spec.vlrs.push_back({"LASF_Spec", 4, ExtraBytesEntry(4, 0, "echo width")});
-  spec.evlrs = {{"someone", 7, "behind"}};
-  spec.waveform_packet = "samples";
-  const std::string file = BuildLas(spec);
-  const std::size_t head = Load<std::uint32_t>(file, 96);
-  std::mt19937 random(1);
-  for (int i = 0; i < 2000; ++i) {
-    std::string damaged = file;
-    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
-      damaged[random() % head] = static_cast<char>(random());
-    }
-    if (random() % 8 == 0) damaged.resize(random() % file.size());
-    const std::filesystem::path input = folder_.Write("in.las", damaged);
-    const auto annotated =
-        AnnotateLas(input, folder_ / "out.las", Existing::kKeep, annotation_, source_, progress_);
-    EXPECT_THAT(std::string(annotated.status().message()), AnyOf("", HasSubstr("in.las: ")));
-  }
-  EXPECT_EQ(folder_.file_count(), 1u);
 }
 
 TEST_F(LasAnnotationTest, RejectsAnInputThatIsModifiedWhileItIsRead) {

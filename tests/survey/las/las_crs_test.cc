@@ -1,7 +1,6 @@
 #include "survey/las/las_crs.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/laz/coding/little_endian.h"
 #include "tests/survey/las/las_builder.h"
@@ -116,19 +115,6 @@ constexpr char kFaultyWkt[] =
     R"wkt(ER["false_easting",500000.000],PARAMETER["false_northing",0.000],UNIT["Meter",1.0000)wkt"
     R"wkt(0000000000000000,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORT)wkt"
     R"wkt(H],AXIS["Height",UP],AUTHORITY["EPSG","26917"]])wkt";
-
-TEST(LasCrs, FindsTheProjectionOfAFaultyText) {
-  const auto frame = MapFrame::Create("sample", {.wkt = kFaultyWkt});
-  ASSERT_TRUE(frame.ok()) << frame.status();
-  EXPECT_EQ((*frame)->crs_name(), "NAD83 / UTM zone 17N");
-  EXPECT_THAT((*frame)->remark(), ::testing::HasSubstr("its code, EPSG:26917, is used"));
-  EXPECT_EQ((*frame)->unit(), 1);
-  // In the middle of the file, off Marco Island: longitude -81.77, latitude 25.96 degrees.
-  constexpr double kDegree = 0.017453292519943295;
-  const MapPosition position = (*frame)->Project({25.955 * kDegree, -81.766 * kDegree});
-  EXPECT_NEAR(position.x, 423346, 500);
-  EXPECT_NEAR(position.y, 2871090, 500);
-}
 
 }  // namespace
 }  // namespace albtpu::client

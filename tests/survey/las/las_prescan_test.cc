@@ -21,7 +21,6 @@ constexpr int kBottom = 40, kSurface = 41;
 LasPrescan PrescanOf(const LasSpec& spec, const LasPrescanOptions& options) {
   const TemporaryFolder folder;
   const absl::StatusOr<LasReader> reader = LasReader::Open(folder.Write("in.las", BuildLas(spec)));
-  EXPECT_TRUE(reader.ok()) << reader.status();
   absl::StatusOr<LasPrescan> prescan = Prescan(*reader, LocalFrame(), options);
   EXPECT_TRUE(prescan.ok());
   return *std::move(prescan);

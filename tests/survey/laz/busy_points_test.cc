@@ -18,21 +18,6 @@ Number At(const std::string& records, std::size_t offset) {
   return number;
 }
 
-TEST(BusyPoints, HaveTheLengthOfTheirFormat) {
-  for (int format = 0; format <= 10; ++format) {
-    const RecordLayout layout{format, 3};
-    EXPECT_EQ(BusyRecords(layout, 7).size(), 7 * RecordLength(layout)) << format;
-    EXPECT_EQ(CalmRecords(layout, 7).size(), 7 * RecordLength(layout)) << format;
-  }
-}
-
-TEST(BusyPoints, BeginTheSameHoweverManyFollow) {
-  const RecordLayout layout{10, 4};
-  const std::string many = BusyRecords(layout, 2000);
-  EXPECT_EQ(BusyRecords(layout, 500), many.substr(0, 500 * RecordLength(layout)));
-  EXPECT_NE(BusyRecords(layout, 500, 2), many.substr(0, 500 * RecordLength(layout)));
-}
-
 TEST(BusyPoints, UseEachChannelReturnFlagAndManyClasses) {
   const RecordLayout layout{6, 0};
   const std::string records = BusyRecords(layout, 20000);

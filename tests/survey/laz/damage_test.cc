@@ -97,7 +97,6 @@ TEST_P(LazDamage, OfOneBitIsMostlyNoticedInLongChunks) {
 // A flipped bit of the table is refused, or the chunks that it states cannot be decoded, or it changes nothing.
 TEST_P(LazDamage, OfTheChunkTableChangesNoPoint) {
   const auto truth = TakeApart(file_);
-  ASSERT_TRUE(truth.ok());
   int refused = 0, harmless = 0;
   for (std::uint64_t bit = 8 * table_.begin; bit < 8 * table_.end; ++bit) {
     std::string damaged = file_;

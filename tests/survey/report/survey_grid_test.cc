@@ -1,7 +1,6 @@
 #include "survey/report/survey_grid.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,6 @@
 #include "survey/seas/sea_answers.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
@@ -187,40 +186,6 @@ TEST_F(SeaAnswersTest, AtAnInstantThatIsToldAreThoseOfTheSeries) {
   const AnswerBatch fixed = Ask(*Open(instant), pulses);
   pulses.times.assign(pulses.size, kStart + 1.25 * kHour);
   EXPECT_EQ(Ask(*Open(timeline), pulses).values, fixed.values);
-}
-
-TEST_F(SeaAnswersTest, CountAzimuthsFromTheWindOrFromNorth) {
-  ToldSea told;
-  told.waves.push_back({.significant_wave_height = 0.5, .peak_period = 4, .travels_towards = 1});
-  told.wind_speed = 5;
-  told.wind_from = 250;
-  const std::unique_ptr<SeaAnswers> seas =
-      Open(std::make_shared<const SeaTimeline>(SeaTimeline::Open(told).value()));
-  PulseBatch north{.size = 1, .axis = {}, .azimuths_from_north = true};
-  north[AxisId::kIncidence] = {15};
-  north[AxisId::kFootprint] = {1};
-  north[AxisId::kDepth] = {10};
-  PulseBatch downwind = north;
-  north[AxisId::kAzimuth] = {100};  // 30 degrees clockwise from downwind, which is 70
-  downwind[AxisId::kAzimuth] = {30};
-  downwind.azimuths_from_north = false;
-  const float thu = Ask(*seas, north)[Quantity::kThu][0];
-  EXPECT_NEAR(Ask(*seas, downwind)[Quantity::kThu][0], thu, 1e-6 * thu);
-  downwind[AxisId::kAzimuth] = {-30};  // The swell crosses, so that the two sides differ.
-  EXPECT_GT(std::abs(Ask(*seas, downwind)[Quantity::kThu][0] / thu - 1), 1e-3);
-}
-
-TEST_F(SeaAnswersTest, OverACalmAreExactlyZero) {
-  ToldSea told;
-  told.waves.push_back({.significant_wave_height = 0, .peak_period = 5});
-  told.wind_speed = 0;
-  const std::unique_ptr<SeaAnswers> seas =
-      Open(std::make_shared<const SeaTimeline>(SeaTimeline::Open(told).value()));
-  const AnswerBatch answers = Ask(*seas, RandomPulses(50, 1));
-  for (std::size_t i = 0; i < 50; ++i) {
-    ASSERT_TRUE(answers.interpolated(i));
-    for (const Quantity quantity : kQuantities) EXPECT_EQ(answers[quantity][i], 0);
-  }
 }
 
 TEST_F(SeaAnswersTest, OpenEachSeaOnceAndKeepTheLast) {

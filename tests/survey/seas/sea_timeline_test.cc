@@ -1,7 +1,6 @@
 #include "survey/seas/sea_timeline.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,6 @@
 #include "survey/seas/told_sea.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -47,13 +46,6 @@ TEST(ToldSea, IsItsOwnDescription) {
   EXPECT_EQ(sea.description().tail_from, 0.5);
 }
 
-TEST(ToldSea, RefusesTwoWaysToTellTheWaves) {
-  ToldSea sea = OneWave();
-  EXPECT_TRUE(CheckSea(sea).ok());
-  sea.file = "41010.spec";
-  ExpectUsageError(CheckSea(sea), "both say which waves there are");
-}
-
 TEST(ToldSea, RefusesWhatHasNoEffect) {
   const auto refuse = [](const auto& each, auto value, ToldSea sea) {
     sea.*each.field = value;
@@ -93,25 +85,6 @@ TEST(ToldSea, RefusesWavesThatBreak) {
   EXPECT_TRUE(CheckSea(sea).ok());
   sea.waves[0].significant_wave_height = 0.38;
   ExpectUsageError(CheckSea(sea), "in water of 0.5 m");
-}
-
-TEST(ToldSea, RefusesATimeThatIsNone) {
-  ToldSea sea;
-  sea.file = "41010.spec";
-  sea.time = "2020-06-08";
-  ExpectUsageError(CheckSea(sea), "'2020-06-08' is no time");
-}
-
-TEST(FlagsAndSurveyFile, CompleteEachOther) {
-  ToldSea of_file = OneWave(), flags;
-  of_file.water_depth = 12;
-  flags.wind_speed = 6;
-  flags.tail = "wind";
-  const ToldSea sea = Together(flags, of_file);
-  EXPECT_EQ(sea.wind_speed, 6);
-  EXPECT_EQ(sea.water_depth, 12);
-  EXPECT_EQ(sea.tail, "wind");
-  EXPECT_EQ(sea.waves.size(), 1u);
 }
 
 TEST(FlagsAndSurveyFile, SayDifferentThingsAndTheFlagsCount) {

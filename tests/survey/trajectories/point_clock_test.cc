@@ -1,7 +1,6 @@
 #include "survey/trajectories/point_clock.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -1,7 +1,6 @@
 #include "survey/trajectories/trajectory_checks.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <utility>
 

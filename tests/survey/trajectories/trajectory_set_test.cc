@@ -1,7 +1,6 @@
 #include "survey/trajectories/trajectory_set.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "survey/trajectories/formats/ascii_trajectory.h"
 #include "survey/trajectories/formats/sbet_file.h"
@@ -26,7 +25,6 @@ TEST(TrajectorySet, LoadsTheTrajectoriesOfAFolderByName) {
     folder.Write(name, Sbet());
   }
   const auto files = Load(folder.path());
-  ASSERT_TRUE(files.ok()) << files.status();
   std::vector<std::string> names;
   for (const auto& file : *files) names.push_back(std::filesystem::path(file->name()).filename().string());
   EXPECT_THAT(names, ::testing::ElementsAre("a.sbet", "b.OUT", "c.Sbt", "sbet_mission_2.out"));
@@ -58,10 +56,8 @@ TEST(TrajectorySet, TellsTextFromBytesByContent) {
             " 0 0 400 0 0 0 0.02 0.02 0.03 0.01 0.01 0.02\n";
   }
   const auto files = Load(folder.Write("flight.sbet", text));
-  ASSERT_TRUE(files.ok()) << files.status();
   EXPECT_NE(dynamic_cast<const AsciiTrajectory*>(files->front().get()), nullptr);
   const auto sbet = Load(folder.Write("flight.txt", Sbet()));
-  ASSERT_TRUE(sbet.ok()) << sbet.status();
   EXPECT_NE(dynamic_cast<const SbetFile*>(sbet->front().get()), nullptr);
 }
 

@@ -1,7 +1,6 @@
 #include "survey/trajectories/trajectory_time.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace albtpu::client {
 namespace {

@@ -1,14 +1,12 @@
 #include "tables/file/atomic_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,24 +17,15 @@ namespace albtpu {
 namespace {
 
 namespace fs = std::filesystem;
+using ::albtpu::testing::ReadFile;
 using ::albtpu::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-std::string Contents(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::size_t FileCount(const TemporaryFolder& folder) {
-  const fs::directory_iterator begin(folder.path());
-  return static_cast<std::size_t>(std::distance(begin, fs::directory_iterator()));
-}
 
 TEST(AtomicFile, WritesANewFile) {
   const TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "new", "bytes", Existing::kKeep).ok());
-  EXPECT_EQ(Contents(folder / "new"), "bytes");
-  EXPECT_EQ(FileCount(folder), 1u);
+  EXPECT_EQ(ReadFile(folder / "new"), "bytes");
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(AtomicFile, LetsExactlyOneOfManyWritersCreateAFile) {
@@ -49,8 +38,8 @@ TEST(AtomicFile, LetsExactlyOneOfManyWritersCreateAFile) {
   }
   for (std::thread& writer : writers) writer.join();
   ASSERT_EQ(std::count(won.begin(), won.end(), 1), 1);
-  EXPECT_EQ(won[std::stoul(Contents(folder / "new"))], 1);
-  EXPECT_EQ(FileCount(folder), 1u);
+  EXPECT_EQ(won[std::stoul(ReadFile(folder / "new"))], 1);
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(AtomicFile, ReportsAMissingFolder) {
@@ -90,8 +79,8 @@ TEST(AtomicFile, LeavesNothingBehindAfterAFailedWrite) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   signal(SIGXFSZ, handler);
   EXPECT_THAT(std::string(status.message()), HasSubstr("old: File too large"));
-  EXPECT_EQ(Contents(folder / "old"), "precious");
-  EXPECT_EQ(FileCount(folder), 1u);
+  EXPECT_EQ(ReadFile(folder / "old"), "precious");
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 }  // namespace

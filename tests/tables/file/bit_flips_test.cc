@@ -2,7 +2,6 @@
 // flip is made before the file is sealed, it tries every 31st bit, or all of them, which takes minutes:
 // ALBTPU_EVERY_BIT=1 bit_flips_test
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include <cstdlib>

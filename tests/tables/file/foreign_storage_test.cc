@@ -1,6 +1,5 @@
 // Sealed files that would make a reader open other files, load plug-ins, or use unlimited memory.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <cstdint>

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 
 #include "tables/file/hdf5.h"
@@ -19,16 +17,14 @@ namespace albtpu::testing {
 // A valid table, sealed again after `change` has edited its HDF5 part.
 inline std::string Forge(const std::function<void(hid_t file)>& change) {
   const TemporaryFolder folder;
-  const std::string path = (folder / "t.h5").string();
-  std::ofstream(path, std::ios::binary) << *EncodeTable(TinyTable());
+  const std::string path = folder.Write("t.h5", *EncodeTable(TinyTable())).string();
   {
     const hdf5::Session session;
     const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
     EXPECT_TRUE(file);
     change(file);
   }
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  std::string bytes = ReadFile(path);
   seal::Apply(bytes);
   return bytes;
 }

@@ -1,7 +1,6 @@
 #include "tables/file/seal.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -1,6 +1,5 @@
 // Files with an intact seal that are not valid tables: written by another program, or by ours with an error.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
@@ -213,7 +212,6 @@ TEST(WrongSchema, IsNotFoundInOtherTypesOfTextAndNumber) {
     H5Awrite(number, H5T_NATIVE_INT, &seven);
   });
   const absl::StatusOr<UncertaintyTable> table = DecodeTable(file);
-  ASSERT_TRUE(table.ok()) << table.status();
   EXPECT_EQ(table->provenance().attributes.at("source"), AttributeValue(std::string("elsewhere")));
   EXPECT_EQ(table->provenance().attributes.at("short"), AttributeValue(std::int64_t{7}));
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -100,8 +98,6 @@ class Asked {
   std::mt19937 random_;
 };
 
-bool SameBits(const Numbers& a, const Numbers& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
 class EveryAnswer : public testing::OnInstructionSet {};
 ALBTPU_ON_EACH_INSTRUCTION_SET(EveryAnswer);
 
@@ -162,26 +158,6 @@ TEST_P(EveryAnswer, IsContinuousAcrossCells) {
   }
 }
 
-// Azimuths are multiples of an eighth of a degree, so that turning and mirroring do not round.
-TEST_P(EveryAnswer, IsSymmetricInAzimuthBitByBit) {
-  for (const UncertaintyTable& table : RoughTables()) {
-    if (table.axis(AxisId::kAzimuth).size() == 1) continue;
-    Asked asked(table);
-    for (int i = 0; i < kPulses / 4; ++i) {
-      Coordinates at = asked.AnyPulse();
-      float& azimuth = at[Index(AxisId::kAzimuth)];
-      const float folded = static_cast<float>(asked.random()() % 721) / 8;
-      azimuth = folded;
-      const Numbers expected = asked.Answer(at);
-      for (const float same :
-           {-folded, 180 - folded, 180 + folded, 360 - folded, folded + 3600, folded - 1080}) {
-        azimuth = same;
-        ASSERT_TRUE(SameBits(asked.Answer(at), expected)) << folded << " and " << same;
-      }
-    }
-  }
-}
-
 // If all nodes around two depths grow with depth, so do the answers. THU and TVU of the smooth table grow everywhere.
 void ExpectMonotone(const UncertaintyTable& table, bool everywhere) {
   Asked asked(table);
@@ -217,25 +193,6 @@ void ExpectMonotone(const UncertaintyTable& table, bool everywhere) {
 TEST_P(EveryAnswer, GrowsWithDepthWhereTheNodesDo) {
   ExpectMonotone(SyntheticTable(), true);
   for (const UncertaintyTable& table : RoughTables()) ExpectMonotone(table, false);
-}
-
-TEST_P(EveryAnswer, DependsOnThePulseAloneWhateverTheBatch) {
-  for (const UncertaintyTable& table : RoughTables()) {
-    Asked asked(table);
-    std::vector<Coordinates> pulses;
-    for (int i = 0; i < kPulses; ++i) pulses.push_back(asked.AnyPulse());
-    const std::vector<Numbers> expected = asked.Answer(pulses);
-    std::vector<std::size_t> order(pulses.size());
-    std::iota(order.begin(), order.end(), 0);
-    for (int batch = 0; batch < 20; ++batch) {
-      std::shuffle(order.begin(), order.end(), asked.random());
-      const std::size_t size = 1 + asked.random()() % order.size();
-      std::vector<Coordinates> some;
-      for (std::size_t i = 0; i < size; ++i) some.push_back(pulses[order[i]]);
-      const std::vector<Numbers> answers = asked.Answer(some);
-      for (std::size_t i = 0; i < size; ++i) ASSERT_TRUE(SameBits(answers[i], expected[order[i]])) << i;
-    }
-  }
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "tables/query/interpolation.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
@@ -191,37 +190,6 @@ TEST(Interpolation, ReportsInvalidBeforeOutOfDomainAndThenTheFirstAxis) {
   EXPECT_EQ(Interpolate(table, pulse).axis, AxisId::kDepth);
   pulse.wind_speed = kNaN;
   EXPECT_EQ(Interpolate(table, pulse).axis, AxisId::kWindSpeed);
-}
-
-TEST(Interpolation, TakesAFetchBeyondTheLastNodeAsFullyDeveloped) {
-  const UncertaintyTable table = SyntheticTable();
-  Pulse last = Typical(), beyond = Typical(), infinite = Typical();
-  last.fetch = 1e5f;
-  beyond.fetch = 3e7f;
-  infinite.fetch = Pulse{}.fetch;
-  EXPECT_EQ(Interpolate(table, beyond).values, Interpolate(table, last).values);
-  EXPECT_EQ(Interpolate(table, infinite).values, Interpolate(table, last).values);
-}
-
-TEST(Interpolation, AnswersAtAnyFetchFromOneNode) {
-  const UncertaintyTable table = TinyTable();
-  Pulse pulse = {.wind_speed = 3, .incidence = 5, .azimuth = 10.0f, .footprint = 1, .depth = 1};
-  const PulseUncertainty infinite = Interpolate(table, pulse);
-  pulse.fetch = 1;
-  EXPECT_EQ(Interpolate(table, pulse).values, infinite.values);
-  pulse.fetch = 0;
-  EXPECT_EQ(OutcomeText(Interpolate(table, pulse)), "OUT_OF_DOMAIN:fetch:below");
-}
-
-TEST(Interpolation, FoldsAzimuth) {
-  const UncertaintyTable table = SyntheticTable();
-  const PulseUncertainty at_40 = Interpolate(table, Typical());
-  for (float same : {-40.0f, 140.0f, 220.0f, 320.0f, 400.0f, -3640.0f}) {
-    Pulse pulse = Typical();
-    pulse.azimuth = same;
-    EXPECT_EQ(Interpolate(table, pulse).values, at_40.values) << same;
-    EXPECT_FALSE(Interpolate(table, pulse).azimuth_absent);
-  }
 }
 
 TEST(Interpolation, WithoutAzimuthGivesTheLargerOfDownwindAndCrosswind) {

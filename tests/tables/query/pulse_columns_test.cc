@@ -1,7 +1,6 @@
 #include "tables/query/pulse_columns.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <string>

@@ -1,7 +1,6 @@
 #include "tables/water/water_column_table.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>

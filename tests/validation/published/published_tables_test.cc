@@ -1,7 +1,6 @@
 #include "validation/published/published_tables.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

@@ -1,10 +1,8 @@
 #include "validation/report/report.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "tests/temporary_folder.h"
 #include "validation/report/study.h"
@@ -16,12 +14,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::string Contents(const std::filesystem::path& file) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(file).rdbuf();
-  return bytes.str();
-}
 
 Study Example() {
   Study study;
@@ -49,10 +41,10 @@ class ReportTest : public ::testing::Test {
  protected:
   // A folder with this text as its draw.py.
   ReportOptions Options(const std::string& drawing) {
-    std::ofstream(folder_ / "draw.py") << drawing;
+    folder_.Write("draw.py", drawing);
     return {folder_ / "report", folder_.path(), "Made by a test.", false};
   }
-  std::string Page() { return Contents(folder_ / "report" / "report.html"); }
+  std::string Page() { return testing::ReadFile(folder_ / "report" / "report.html"); }
 
   testing::TemporaryFolder folder_;
 };
@@ -65,14 +57,13 @@ TEST_F(ReportTest, WritesPageTablesAndFigures) {
   const ReportOptions options = Options(kDraws);
   ASSERT_TRUE(PrepareReport(options).ok());
   const auto missing = WriteReport({Example()}, options);
-  ASSERT_TRUE(missing.ok()) << missing.status();
   EXPECT_THAT(*missing, IsEmpty());
   EXPECT_THAT(Page(), AllOf(HasSubstr("Table 9: &lt;slopes&gt; &amp; angles"), HasSubstr("1 &lt; 2"),
                             HasSubstr("data:image/svg+xml;base64,PHN2Zy8+"), HasSubstr("1 differ"),
                             HasSubstr("Made by a test."), Not(HasSubstr("http"))));
-  EXPECT_EQ(Contents(options.folder / "table_9.csv"), CsvOf(Example().tables[0]));
-  EXPECT_EQ(Contents(options.folder / "summary.csv"), CsvOf(SummaryOf({Example()})));
-  EXPECT_EQ(Contents(options.folder / "figure_9.svg"), "<svg/>");
+  EXPECT_EQ(testing::ReadFile(options.folder / "table_9.csv"), CsvOf(Example().tables[0]));
+  EXPECT_EQ(testing::ReadFile(options.folder / "summary.csv"), CsvOf(SummaryOf({Example()})));
+  EXPECT_EQ(testing::ReadFile(options.folder / "figure_9.svg"), "<svg/>");
   for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
     EXPECT_NE(entry.path().filename().string()[0], '.') << "temporary file left behind: " << entry.path();
   }
@@ -82,7 +73,6 @@ TEST_F(ReportTest, KeepsItsTablesIfNoFigureCanBeDrawn) {
   const ReportOptions options = Options(kDrawsNothing);
   ASSERT_TRUE(PrepareReport(options).ok());
   const auto missing = WriteReport({Example()}, options);
-  ASSERT_TRUE(missing.ok()) << missing.status();
   EXPECT_EQ(*missing, "no matplotlib");
   EXPECT_THAT(Page(), AllOf(HasSubstr("Figures are missing:</strong> no matplotlib"),
                             HasSubstr("figure_9 is missing"), HasSubstr("a &quot;clean&quot;, one")));
@@ -93,14 +83,14 @@ TEST_F(ReportTest, ReplacesFilesOnlyIfTold) {
   std::filesystem::create_directory(options.folder);
   std::ofstream(options.folder / "table_9.csv") << "mine";
   EXPECT_TRUE(absl::IsAlreadyExists(PrepareReport(options)));
-  EXPECT_EQ(Contents(options.folder / "table_9.csv"), "mine");
+  EXPECT_EQ(testing::ReadFile(options.folder / "table_9.csv"), "mine");
   options.overwrite = true;
   ASSERT_TRUE(PrepareReport(options).ok());
   ASSERT_TRUE(WriteReport({Example()}, options).ok());
   EXPECT_THAT(Page(), HasSubstr("Table 9"));
   EXPECT_TRUE(std::filesystem::exists(options.folder / "figure_9.svg"));
 
-  std::ofstream(folder_ / "draw.py") << kDrawsNothing;
+  folder_.Write("draw.py", kDrawsNothing);
   ASSERT_TRUE(WriteReport({Example()}, options).ok());
   EXPECT_FALSE(std::filesystem::exists(options.folder / "figure_9.svg")) << "drawn from other numbers";
 }

@@ -1,7 +1,6 @@
 #include "service/server/access/tokens.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace albtpu::server {
 namespace {

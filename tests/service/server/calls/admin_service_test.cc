@@ -1,7 +1,6 @@
 #include "service/server/calls/admin_service.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 
@@ -51,29 +50,6 @@ TEST_F(Admin, NamesADamagedTableButNotItsFolder) {
   v1::GetTableResponse table;
   ASSERT_TRUE(GetTable("survey", table).ok());
   EXPECT_EQ(table.table().reference().digest(), survey_.digest());
-}
-
-TEST_F(Admin, LetsAStreamKeepItsTable) {
-  grpc::ClientContext context;
-  const auto stream = stub_->StreamColumns(&context);
-  v1::StreamColumnsRequest request;
-  *request.mutable_query()->mutable_pulses() = WireColumns(3);
-  v1::StreamColumnsResponse answer;
-  ASSERT_TRUE(stream->Write(request) && stream->Read(&answer));
-  const std::string digest = answer.answer().table().digest();
-
-  ASSERT_TRUE(
-      WriteTable(testing::SyntheticTable({.factor = 7}), folder_ / "survey.h5", Existing::kReplace).ok());
-  v1::ReloadTablesResponse response;
-  ASSERT_TRUE(Reload(response).ok());
-  ASSERT_TRUE(stream->Write(request) && stream->Read(&answer));
-  EXPECT_EQ(answer.answer().table().digest(), digest);
-  stream->WritesDone();
-  EXPECT_TRUE(stream->Finish().ok());
-
-  v1::QueryColumnsResponse later;
-  ASSERT_TRUE(QueryColumns(request.query(), later).ok());
-  EXPECT_NE(later.table().digest(), digest);
 }
 
 TEST(AdminCallers, AreLocalByTheirAddress) {

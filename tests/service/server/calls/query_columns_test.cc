@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
@@ -12,9 +11,7 @@
 namespace albtpu::server {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::Each;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -36,15 +33,6 @@ class QueryColumns : public ServedTables {
     *request.mutable_options() = options;
     *request.mutable_pulses() = pulses;
     return Ask(request);
-  }
-
-  void ExpectRejected(const v1::PulseColumns& pulses, const std::string& message) {
-    v1::QueryColumnsRequest request;
-    *request.mutable_pulses() = pulses;
-    v1::QueryColumnsResponse response;
-    const grpc::Status status = ServedTables::QueryColumns(request, response);
-    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-    EXPECT_THAT(status.error_message(), HasSubstr(message));
   }
 };
 
@@ -191,58 +179,6 @@ TEST_F(QueryColumns, TreatsAnEmptyFetchAsAFullyDevelopedSea) {
   const std::string expected = Ask(columns).SerializeAsString();
   columns.clear_fetch();
   EXPECT_EQ(Ask(columns).SerializeAsString(), expected);
-}
-
-TEST_F(QueryColumns, ReportsAnAbsentAzimuth) {
-  v1::PulseColumns columns = WireColumns(2);
-  EXPECT_FALSE(Ask(columns).azimuth_absent());
-  columns.clear_azimuth();
-  EXPECT_TRUE(Ask(columns).azimuth_absent());
-}
-
-TEST_F(QueryColumns, GivesEachPulseItsOutcome) {
-  v1::PulseColumns columns = WireColumns(4);
-  columns.set_depth(Column({3, -1, kNaN, kInfinity}));
-  columns.set_footprint(Column({1, 1, 1, 100}));
-  const v1::QueryColumnsResponse answer = Ask(columns);
-  EXPECT_THAT(Bytes(answer.outcomes()), ElementsAre(v1::OUTCOME_INTERPOLATED, v1::OUTCOME_OUT_OF_DOMAIN,
-                                                    v1::OUTCOME_INVALID, v1::OUTCOME_INVALID));
-  EXPECT_THAT(Bytes(answer.outcome_axes()),
-              ElementsAre(v1::AXIS_UNSPECIFIED, v1::AXIS_DEPTH, v1::AXIS_DEPTH, v1::AXIS_DEPTH));
-  const std::vector<float> thu = Floats(answer.sea_surface().thu());
-  EXPECT_TRUE(std::isfinite(thu[0]));
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(thu[i])) << i;
-}
-
-TEST_F(QueryColumns, RejectsAnEmptyBatch) {
-  ExpectRejected({}, "send at least one");
-  v1::QueryColumnsResponse response;
-  EXPECT_THAT(ServedTables::QueryColumns({}, response).error_message(), HasSubstr("send at least one"));
-}
-
-TEST_F(QueryColumns, RejectsColumnsOfDifferentLengths) {
-  v1::PulseColumns columns = WireColumns(5);
-  columns.set_incidence(Column({1, 2, 3}));
-  ExpectRejected(columns, "column 'incidence' has 3 numbers, column 'wind_speed' has 5");
-}
-
-TEST_F(QueryColumns, RejectsColumnsWithAPartOfANumber) {
-  v1::PulseColumns columns = WireColumns(2);
-  columns.mutable_azimuth()->append("x");
-  ExpectRejected(columns, "column 'azimuth' has 9 bytes");
-  columns = WireColumns(2);
-  columns.set_depth("xyz");
-  ExpectRejected(columns, "column 'depth' has 3 bytes");
-}
-
-TEST_F(QueryColumns, RejectsAMissingColumn) {
-  v1::PulseColumns columns = WireColumns(2);
-  columns.clear_depth();
-  ExpectRejected(columns, "column 'depth' is empty");
-}
-
-TEST_F(QueryColumns, RejectsTooManyPulses) {
-  ExpectRejected(WireColumns(kMaxPulses + 1), "column 'wind_speed' has 65537 numbers: a message takes 65536");
 }
 
 TEST_F(QueryColumns, RejectsInvalidNumbersOfQuantities) {

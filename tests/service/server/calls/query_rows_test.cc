@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -12,9 +11,7 @@
 namespace albtpu::server {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -78,22 +75,6 @@ TEST_F(QueryPulses, NamesTheTableAndTheCoverage) {
   EXPECT_EQ(response.coverage(), v1::COVERAGE_TWO_SIGMA);
 }
 
-TEST_F(QueryPulses, AnswersInTheOrderOfTheRequest) {
-  v1::QueryPulsesRequest request;
-  for (int depth = 20; depth >= 0; --depth) {
-    v1::Pulse* pulse = request.add_pulses();
-    *pulse = WirePulse();
-    pulse->set_depth(static_cast<float>(depth));
-  }
-  const v1::QueryPulsesResponse response = Ask(request);
-  ASSERT_EQ(response.uncertainties_size(), 21);
-  for (int i = 0; i < 21; ++i) {
-    Pulse pulse = TablesPulse();
-    pulse.depth = static_cast<float>(20 - i);
-    ExpectNear(response.uncertainties(i).sea_surface(), Interpolate(survey_, pulse).values);
-  }
-}
-
 TEST_F(QueryPulses, UsesTheNamedTable) {
   v1::QueryOptions options;
   const std::pair<const char*, float> factors[] = {
@@ -104,13 +85,6 @@ TEST_F(QueryPulses, UsesTheNamedTable) {
     // Each node and the answer are rounded to single precision.
     EXPECT_NEAR(AskOne(WirePulse(), options).sea_surface().thu(), factor * thu, 3e-7 * factor * thu) << name;
   }
-}
-
-TEST_F(QueryPulses, AddsStandardErrorsOnRequest) {
-  v1::QueryOptions options;
-  options.set_standard_errors(true);
-  ExpectNear(AskOne(WirePulse(), options).sea_surface_standard_error(),
-             Interpolate(survey_, TablesPulse()).standard_errors);
 }
 
 TEST_F(QueryPulses, OmitsQuantitiesThatTheTableDoesNotHold) {
@@ -236,28 +210,6 @@ TEST_F(QueryPulses, MarksOnlyThePulseWithAMissingCoordinateInvalid) {
   }
 }
 
-TEST_F(QueryPulses, RejectsAnEmptyBatch) {
-  const grpc::Status status = Fail({});
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), HasSubstr("send at least one"));
-}
-
-TEST_F(QueryPulses, RejectsAnUnknownTableAndListsTheExistingOnes) {
-  v1::QueryPulsesRequest request = OnePulse();
-  request.mutable_options()->set_table("slow");
-  const grpc::Status status = Fail(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_THAT(status.error_message(),
-              AllOf(HasSubstr("'slow'"), HasSubstr("published, survey, twice/2, twice/1"),
-                    Not(HasSubstr(folder_.path().string()))));
-}
-
-TEST_F(QueryPulses, HandlesATableNameOfAnyLength) {
-  v1::QueryPulsesRequest request = OnePulse();
-  request.mutable_options()->set_table(std::string(1 << 20, 'x'));
-  EXPECT_EQ(Fail(request).error_code(), grpc::StatusCode::NOT_FOUND);
-}
-
 TEST_F(QueryPulses, RejectsInvalidEnumNumbers) {
   v1::QueryPulsesRequest coverage = OnePulse();
   coverage.mutable_options()->set_coverage(static_cast<v1::Coverage>(7));
@@ -286,14 +238,6 @@ TEST_F(QueryPulses, AcceptsAsManyPulsesAsAnAnswerHolds) {
   const v1::QueryPulsesResponse with = Ask(request);
   EXPECT_EQ(with.uncertainties_size(), static_cast<int>(kMaxPulsesWithStandardErrors));
   EXPECT_LT(with.ByteSizeLong(), kMaxMessageBytes);
-}
-
-TEST_F(QueryPulses, RejectsTooManyPulses) {
-  v1::QueryPulsesRequest request;
-  for (std::size_t i = 0; i < kMaxPulses + 1; ++i) *request.add_pulses() = WirePulse();
-  const grpc::Status status = Fail(request);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(status.error_message(), AllOf(HasSubstr("65537"), HasSubstr("65536")));
 }
 
 }  // namespace

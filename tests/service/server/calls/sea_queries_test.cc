@@ -1,8 +1,5 @@
 // Queries with a sea, through a running server.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <future>
 
 #include "sea/table/sea_table.h"
 #include "service/client/sea_wire.h"
@@ -30,23 +27,6 @@ class SeaQueries : public ServedTables {
   SeaCompiler compiler_;
 };
 
-TEST_F(SeaQueries, AreAnsweredFromTheTableOfTheSea) {
-  for (const KnownSea& sea : testing::SeasOfAllForms()) {
-    v1::QueryColumnsResponse response;
-    const grpc::Status status = QueryColumns(Request(sea), response);
-    ASSERT_TRUE(status.ok()) << status.error_message();
-    const UncertaintyTable table = Compiled(sea);
-    EXPECT_EQ(response.table().digest(), table.digest());
-    EXPECT_EQ(response.table().name(), "");
-    const PulseUncertainty expected = Interpolate(table, TablesPulse());
-    for (const float thu : Floats(response.sea_surface().thu()))
-      EXPECT_NEAR(thu, expected[Quantity::kThu], 1e-5 * expected[Quantity::kThu]);
-    const SeaSummary summary = SummaryOfSea(table).value();
-    EXPECT_EQ(response.sea().share_measured(), summary.share_measured);
-    EXPECT_EQ(response.sea().x_azimuth(), summary.x_azimuth);
-  }
-}
-
 TEST_F(SeaQueries, GiveTheSameBitsInRowsAndInColumns) {
   v1::QueryPulsesRequest rows;
   *rows.mutable_sea() = client::ToWire(testing::DescribedWaves());
@@ -66,16 +46,6 @@ TEST_F(SeaQueries, GiveTheSameBitsInRowsAndInColumns) {
   EXPECT_EQ(in_rows.uncertainties(1).sea_surface().thu(), thu);
   EXPECT_GE(in_rows.uncertainties(2).sea_surface().thu(), thu);
   EXPECT_EQ(in_rows.sea().SerializeAsString(), in_columns.sea().SerializeAsString());
-}
-
-TEST_F(SeaQueries, NeedNoWindAndNoFetch) {
-  v1::QueryColumnsRequest request = Request(testing::DescribedWaves());
-  v1::QueryColumnsResponse with, without;
-  ASSERT_TRUE(QueryColumns(request, with).ok());
-  request.mutable_pulses()->clear_wind_speed();
-  request.mutable_pulses()->clear_fetch();
-  ASSERT_TRUE(QueryColumns(request, without).ok());
-  EXPECT_EQ(with.SerializeAsString(), without.SerializeAsString());
 }
 
 TEST_F(SeaQueries, AreRefusedWithATableBesideTheSea) {
@@ -101,31 +71,6 @@ TEST_F(SeaQueries, NameTheFieldOfTheSeaThatIsWrong) {
   v1::StreamColumnsResponse answer;
   EXPECT_FALSE(stream->Read(&answer));
   EXPECT_THAT(stream->Finish().error_details(), HasSubstr("query.sea.wind_speed"));
-}
-
-TEST_F(SeaQueries, OfOneStreamMayHaveDifferentSeasOrNone) {
-  std::vector<v1::StreamColumnsRequest> requests;
-  for (int i = 0; i < 12; ++i) {  // Short and long requests are handled on different threads.
-    v1::QueryColumnsRequest& query = *requests.emplace_back().mutable_query();
-    query = Request(testing::WindSea(4 + i % 3), i % 2 == 0 ? 5 : 20000);
-    if (i % 4 == 3) query.clear_sea();
-  }
-  grpc::ClientContext context;
-  const auto stream = stub_->StreamColumns(&context);
-  auto written = std::async(std::launch::async, [&] {
-    for (const v1::StreamColumnsRequest& request : requests) stream->Write(request);
-    stream->WritesDone();
-  });
-  v1::StreamColumnsResponse response;
-  for (const v1::StreamColumnsRequest& request : requests) {
-    ASSERT_TRUE(stream->Read(&response));
-    EXPECT_EQ(response.answer().has_sea(), request.query().has_sea());
-    v1::QueryColumnsResponse alone;
-    ASSERT_TRUE(QueryColumns(request.query(), alone).ok());
-    EXPECT_EQ(response.answer().SerializeAsString(), alone.SerializeAsString());
-  }
-  EXPECT_FALSE(stream->Read(&response));
-  EXPECT_TRUE(stream->Finish().ok());
 }
 
 TEST_F(SeaQueries, GetTheTableAsAFile) {

@@ -1,7 +1,6 @@
 #include "service/server/ground/errors.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "absl/strings/cord.h"
 #include "google/rpc/status.pb.h"

@@ -25,10 +25,7 @@ class FileValueTest : public ::testing::Test {
   }
 
   // Replaces the file atomically.
-  void Write(const std::string& text) {
-    std::ofstream(folder_ / "new") << text;
-    std::filesystem::rename(folder_ / "new", path_);
-  }
+  void Write(const std::string& text) { std::filesystem::rename(folder_.Write("new", text), path_); }
 
   testing::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "file";

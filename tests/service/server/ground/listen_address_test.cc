@@ -1,14 +1,12 @@
 #include "service/server/ground/listen_address.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace albtpu::server {
 namespace {
 
 ListenAddress Parsed(std::string_view text) {
   const absl::StatusOr<ListenAddress> address = ListenAddress::Parse(text);
-  EXPECT_TRUE(address.ok()) << text;
   return *address;
 }
 

@@ -1,7 +1,6 @@
 #include "service/server/observe/log.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 
 #include <nlohmann/json.hpp>
@@ -81,49 +80,6 @@ TEST(Log, WritesJson) {
   EXPECT_EQ(json[0].at("level"), "warning");
   EXPECT_EQ(json[0].at("message"), "a \"quoted\"\nword, and \xef\xbf\xbd");
   EXPECT_EQ(json[0].at("seconds"), 0.5);
-}
-
-TEST(Log, NamesTheCurrentRequest) {
-  const grpc::CallbackServerContext context;
-  const RequestId id(context);
-  const LogLines lines(LogStyle::kJson);
-  spdlog::info("before");
-  {
-    const RequestScope scope(id);
-    spdlog::info("within");
-  }
-  spdlog::info("after");
-  const std::vector<nlohmann::json> json = lines.json();
-  EXPECT_FALSE(json[0].contains("request_id"));
-  EXPECT_EQ(json[1].at("request_id"), id.text());
-  EXPECT_FALSE(json[2].contains("request_id"));
-}
-
-TEST(CallLog, LimitsTheLinesPerSecond) {
-  const LogLines lines(LogStyle::kJson);
-  CallLog log;
-  for (int i = 0; i < 50 * kMaxCallLinesPerSecond; ++i) log.Write(spdlog::level::info, "call failed", {});
-  // A second may end during the loop.
-  EXPECT_GE(lines.json().size(), static_cast<std::size_t>(kMaxCallLinesPerSecond));
-  EXPECT_LE(lines.json().size(), static_cast<std::size_t>(10 * kMaxCallLinesPerSecond));
-}
-
-TEST(RequestId, IsRandomAndConstantIfTheCallerSendsNone) {
-  const grpc::CallbackServerContext context;
-  const RequestId a(context), b(context);
-  EXPECT_THAT(a.text(), MatchesRegex("[0-9a-f]{16}"));
-  EXPECT_EQ(a.text(), a.text());
-  EXPECT_NE(a.text(), b.text());
-}
-
-TEST(RequestId, OfACallerIsCheckedBeforeUse) {
-  for (const char* valid : {"1", "b7ad6b71-6920-4e5b-8e2a-3c1d7f0a9d11", "line_12.las"}) {
-    EXPECT_TRUE(RequestId::IsValid(valid)) << valid;
-  }
-  for (const std::string& invalid : {std::string(), std::string("a b"), std::string("a\nb"),
-                                     std::string("\xc3\xa9"), std::string(65, 'a')}) {
-    EXPECT_FALSE(RequestId::IsValid(invalid)) << invalid;
-  }
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "service/server/seas/sea_request.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>

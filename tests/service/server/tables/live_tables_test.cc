@@ -1,7 +1,6 @@
 #include "service/server/tables/live_tables.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <future>

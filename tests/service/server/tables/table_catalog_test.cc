@@ -1,7 +1,6 @@
 #include "service/server/tables/table_catalog.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 

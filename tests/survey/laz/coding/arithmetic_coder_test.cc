@@ -104,29 +104,6 @@ TEST(ArithmeticDecoder, CountsTheBytesThatAreMissing) {
   EXPECT_EQ(decoder.position(), 8u);
 }
 
-TEST(ArithmeticDecoder, GivesSymbolsOfTheModelWhateverTheBytesAre) {
-  std::mt19937 random(1);
-  for (int run = 0; run < 200; ++run) {
-    std::string bytes(300, run % 3 == 0 ? '\xFF' : '\0');
-    if (run >= 3) {
-      for (char& byte : bytes) byte = static_cast<char>(random() % 4 == 0 ? 0xFF : random());
-    }
-    const MemorySource source(bytes);
-    ByteWindow window;
-    ArithmeticDecoder decoder;
-    decoder.Begin(window, source, 0, bytes.size());
-    ArithmeticDecoder::Model<256> five(5);
-    ArithmeticDecoder::Model<516> many;
-    BitModel bits;
-    for (int i = 0; i < 300; ++i) {
-      ASSERT_LT(decoder.Symbol(five), 5u);
-      ASSERT_LT(decoder.Symbol(many), 516u);
-      decoder.Bit(bits);
-      decoder.Bits(1 + i % 32);
-    }
-  }
-}
-
 class FailingSource : public ByteSource {
  public:
   std::uint64_t size() const override { return 1000; }

@@ -1,7 +1,6 @@
 #include "survey/trajectories/formats/ascii_trajectory.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>

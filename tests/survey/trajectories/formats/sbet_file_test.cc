@@ -1,7 +1,6 @@
 #include "survey/trajectories/formats/sbet_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +40,6 @@ class SbetFileTest : public ::testing::Test {
 
 TEST_F(SbetFileTest, GivesPositionVelocityAndTrueHeading) {
   const auto file = Open(Fly({.course = 90, .weave = 0, .climb = 0}));
-  ASSERT_TRUE(file.ok()) << file.status();
   EXPECT_EQ((*file)->size(), 12001);
   const TrajectoryRecord record = (*file)->Record(0);
   EXPECT_EQ(record.time, 300000);
@@ -69,9 +67,7 @@ TEST_F(SbetFileTest, AcceptsTheEndOfTheWeek) {
   const std::vector<SbetRow> beyond = Fly({.start = 604770});
   const auto restarted =
       Open(Changed(beyond, [](SbetRow& row) { row[kTime] -= row[kTime] >= 604800 ? 604800 : 0; }));
-  ASSERT_TRUE(restarted.ok()) << restarted.status();
   const auto continued = Open(beyond);
-  ASSERT_TRUE(continued.ok()) << continued.status();
   for (const std::size_t i : {0, 5999, 6000, 6001, 12000}) {
     EXPECT_DOUBLE_EQ((*restarted)->TimeAt(i), (*continued)->TimeAt(i)) << i;
     EXPECT_DOUBLE_EQ((*restarted)->Record(i).time, (*continued)->Record(i).time) << i;
