@@ -20,15 +20,14 @@ from .schema import AIRCRAFT, AXES, BUDGET_QUANTITIES, COVARIANCES, COVERAGES, L
 from .sea import Sea
 from .tables import SeaSummary, TableReference
 from .v1 import uncertainty_service_pb2 as wire
+from .v1.budget_pb2 import AirErrors
 from .v1.uncertainty_service_pb2_grpc import UncertaintyServiceStub
 
 _AT_A_TIME = 4  # Calls that are not yet answered.
 
 # The sources of error of the air side: three numbers of these names, or a single one.
-_ERRORS: dict[str, tuple[str, ...]] = {
-    "position": ("north", "east", "down"), "attitude": ("roll", "pitch", "heading"),
-    "boresight": ("forward", "right", "down"), "lever_arm": (), "scan": (), "time": (), "range_offset": (),
-    "bottom_range": (), "surface_range": (), "surface_height": (), "index": ()}
+_ERRORS = {source.name: tuple(part.name for part in source.message_type.fields) if source.message_type else ()
+           for source in AirErrors.DESCRIPTOR.fields}
 
 
 @dataclass(frozen=True)
