@@ -15,18 +15,16 @@ AirConstants::AirConstants(const AirErrors& errors, SurfaceLocation located, dou
   forward = single(lever[0]);
   right = single(lever[1]);
   down = single(lever[2]);
-  for (int i = 0; i < 3; ++i) boresight[i] = single(kDegree * errors.boresight[i]);
-  lever_arm = single(errors.lever_arm);
-  scan = single(kDegree * errors.scan);
-  time = single(errors.time);
-  range_offset = single(errors.range_offset);
-  bottom_range = single(errors.bottom_range);
-  surface_range = located == SurfaceLocation::kPulse ? single(errors.surface_range) : 0;
+  auto sigma = sigmas.begin();
+  for (const ErrorSource& source : kErrorSources) {
+    const double scale = source.unit == "degree" ? kDegree : 1;
+    for (const double number : source.In(errors)) *sigma++ = single(scale * number);
+  }
+  if (located != SurfaceLocation::kPulse) sigmas[FirstNumber(&AirErrors::surface_range)] = 0;
   for (std::size_t group = 0; group < kErrorGroups; ++group) {
-    const bool here = static_cast<std::size_t>(SurfaceHeightGroup(located)) == group;
+    const bool here = static_cast<std::size_t>(located) == group;
     surface_height[group] = here ? single(errors.surface_height) : 0;
   }
-  refractive = single(errors.index);
 }
 
 }  // namespace albtpu

@@ -170,25 +170,27 @@ HWY_INLINE AirShare AirShareOf(const AirNumbers& pulse, const AirConstants& is) 
            (point.ByDirection(Cross(vertical, u), given) + point.ByPosition(Cross(vertical, lever), given)));
 
   NedCovariance& survey = share.survey = NoCovariance();
-  survey.nn = survey.ee = Constant(is.lever_arm * is.lever_arm);
-  survey.Add(Constant(is.lever_arm) * by_down);
-  survey.Add(Constant(is.boresight[0]) * point.ByDirection(Cross(forward, u), given));
-  survey.Add(Constant(is.boresight[1]) * point.ByDirection(Cross(right, u), given));
-  survey.Add(Constant(is.boresight[2]) * point.ByDirection(Cross(below, u), given));
-  survey.Add(Constant(is.time) * (point.ByPosition(pulse.velocity + Cross(rates, lever), given) +
-                                  point.ByDirection(Cross(rates, u), given)));
-  survey.Add(Constant(is.range_offset) * (given * w_over_n + (one - given) * u));
-  survey.Add((Constant(is.refractive) * water_path) *
+  const float lever_arm = is.Sigma<&AirErrors::lever_arm>();
+  survey.nn = survey.ee = Constant(lever_arm * lever_arm);
+  survey.Add(Constant(lever_arm) * by_down);
+  survey.Add(Constant(is.Sigma<&AirErrors::boresight>(0)) * point.ByDirection(Cross(forward, u), given));
+  survey.Add(Constant(is.Sigma<&AirErrors::boresight>(1)) * point.ByDirection(Cross(right, u), given));
+  survey.Add(Constant(is.Sigma<&AirErrors::boresight>(2)) * point.ByDirection(Cross(below, u), given));
+  survey.Add(Constant(is.Sigma<&AirErrors::time>()) *
+             (point.ByPosition(pulse.velocity + Cross(rates, lever), given) +
+              point.ByDirection(Cross(rates, u), given)));
+  survey.Add(Constant(is.Sigma<&AirErrors::range_offset>()) * (given * w_over_n + (one - given) * u));
+  survey.Add((Constant(is.Sigma<&AirErrors::index>()) * water_path) *
              Ned{Constant(-2) * w_over_n.n, Constant(-2) * w_over_n.e,
                  sine_refracted * sine_refracted * inverse_index * inverse_down - w_over_n.d});
 
   NedCovariance& own = share.pulse = NoCovariance();
-  own.Add(Constant(is.scan) *
-          point.ByDirection({c * north, c * east, hn::Neg(incidence.sine)}, Constant(is.scan_given)));
-  own.Add((Constant(is.scan) * point.by_north_east) * Ned{hn::Neg(east), north, zero});
-  own.Add(Constant(is.bottom_range) * w_over_n);
+  const F scan = Constant(is.Sigma<&AirErrors::scan>());
+  own.Add(scan * point.ByDirection({c * north, c * east, hn::Neg(incidence.sine)}, Constant(is.scan_given)));
+  own.Add((scan * point.by_north_east) * Ned{hn::Neg(east), north, zero});
+  own.Add(Constant(is.Sigma<&AirErrors::bottom_range>()) * w_over_n);
   const Ned surface = Constant(-1) * k_over_c;
-  own.Add((Constant(is.surface_range) * c) * k_over_c);
+  own.Add((Constant(is.Sigma<&AirErrors::surface_range>()) * c) * k_over_c);
   own.Add(Constant(is.surface_height[0]) * surface);
   line.Add(Constant(is.surface_height[1]) * surface);
   survey.Add(Constant(is.surface_height[2]) * surface);

@@ -73,29 +73,27 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
   const Vector3d rates = attitude * (pulse.rates * kDegree);
 
   std::vector<AirSource> sources;
-  const auto add = [&](std::string_view name, ErrorGroup group, const Matrix3Xd& columns) {
-    sources.push_back({name, group, columns});
+  const auto add = [&](auto member, const Matrix3Xd& columns) {
+    const ErrorSource& source = kErrorSources[Index(member)];
+    sources.push_back({source.name, GroupOf(source, located), columns});
   };
-  add("position", ErrorGroup::kLine, by_position * Vector3d(errors.position.data()).asDiagonal());
+  add(&AirErrors::position, by_position * Vector3d(errors.position.data()).asDiagonal());
   const Vector3d axes[] = {attitude.col(0), heading * Vector3d::UnitY(), Vector3d::UnitZ()};
   Matrix3d turns;
   for (int i = 0; i < 3; ++i)
     turns.col(i) = by_direction * axes[i].cross(rays.u) + by_position * axes[i].cross(lever_arm);
-  add("attitude", ErrorGroup::kLine, turns * (kDegree * Vector3d(errors.attitude.data())).asDiagonal());
+  add(&AirErrors::attitude, turns * (kDegree * Vector3d(errors.attitude.data())).asDiagonal());
   for (int i = 0; i < 3; ++i) turns.col(i) = by_direction * attitude.col(i).cross(rays.u);
-  add("boresight", ErrorGroup::kSurvey, turns * (kDegree * Vector3d(errors.boresight.data())).asDiagonal());
-  add("lever_arm", ErrorGroup::kSurvey, errors.lever_arm * by_position * attitude);
-  add("scan", ErrorGroup::kPulse, errors.scan * kDegree * scan_by_direction * rays.across);
-  add("time", ErrorGroup::kSurvey,
-      errors.time *
-          (by_position * (pulse.velocity + rates.cross(lever_arm)) + by_direction * rates.cross(rays.u)));
-  add("range_offset", ErrorGroup::kSurvey,
-      errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
-  add("bottom_range", ErrorGroup::kPulse, errors.bottom_range / rays.n * rays.w);
-  if (located == SurfaceLocation::kPulse)
-    add("surface_range", ErrorGroup::kPulse, errors.surface_range * rays.k);
-  add("surface_height", SurfaceHeightGroup(located), errors.surface_height * -rays.k / rays.u.z());
-  add("index", ErrorGroup::kSurvey, errors.index * rays.water_path * (rays.w_by_n - rays.w / rays.n));
+  add(&AirErrors::boresight, turns * (kDegree * Vector3d(errors.boresight.data())).asDiagonal());
+  add(&AirErrors::lever_arm, errors.lever_arm * by_position * attitude);
+  add(&AirErrors::scan, errors.scan * kDegree * scan_by_direction * rays.across);
+  add(&AirErrors::time, errors.time * (by_position * (pulse.velocity + rates.cross(lever_arm)) +
+                                       by_direction * rates.cross(rays.u)));
+  add(&AirErrors::range_offset, errors.range_offset * (given ? Vector3d(rays.w / rays.n) : rays.u));
+  add(&AirErrors::bottom_range, errors.bottom_range / rays.n * rays.w);
+  if (located == SurfaceLocation::kPulse) add(&AirErrors::surface_range, errors.surface_range * rays.k);
+  add(&AirErrors::surface_height, errors.surface_height * -rays.k / rays.u.z());
+  add(&AirErrors::index, errors.index * rays.water_path * (rays.w_by_n - rays.w / rays.n));
   return sources;
 }
 

@@ -124,24 +124,10 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
     axes[i] = 0;
   }
 
-  BudgetInputs& inputs = piece.aircraft;
-  const auto sea_axis = static_cast<float>(all.sea_axis.value_or(0));
-  if (all.sea_axis.has_value()) inputs[BudgetInput::kSeaAxis] = {&sea_axis, 1};
-  inputs[BudgetInput::kIncidence] = piece.pulses[AxisId::kIncidence];
-  inputs[BudgetInput::kDepth] = piece.pulses[AxisId::kDepth];
-  inputs[BudgetInput::kSeaThu] = {scratch.sea_thu, count};
-  inputs[BudgetInput::kSeaTvu] = {scratch.sea_tvu, count};
-  inputs[BudgetInput::kRefractionAlong] = {scratch.along, count};
-  inputs[BudgetInput::kRefractionCross] = {scratch.cross, count};
-  if (asks_order) {
-    for (float* const bias : {scratch.bias_along_beam, scratch.bias_vertical}) {
-      std::replace_if(
-          bias, bias + count, [](float b) { return std::isnan(b); }, 0.0f);
-    }
-    inputs[BudgetInput::kBiasAlongBeam] = {scratch.bias_along_beam, count};
-    inputs[BudgetInput::kBiasVertical] = {scratch.bias_vertical, count};
-  }
-  ComputeBudget(inputs, options, OutputsAt(answers, begin, count));
+  SeaShare share;
+  for (std::size_t i = 0; i < kQuantityCount; ++i)
+    if (sea.values[i] != nullptr) share[i] = {sea.values[i], count};
+  ComputePulseBudget(piece, share, options, OutputsAt(answers, begin, count));
 
   for (std::size_t i = 0; i < count; ++i) {
     if (outcomes[i] == kInterpolated) continue;
@@ -153,6 +139,24 @@ void AnswerPiece(const ColumnInterpolator& interpolator, const BudgetPulses& all
 }
 
 }  // namespace
+
+void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const BudgetOptions& options,
+                        const BudgetOutputs& outputs) {
+  BudgetInputs inputs = pulses.aircraft;
+  const auto sea_axis = static_cast<float>(pulses.sea_axis.value_or(0));
+  if (pulses.sea_axis.has_value()) inputs[BudgetInput::kSeaAxis] = {&sea_axis, 1};
+  inputs[BudgetInput::kIncidence] = pulses.pulses[AxisId::kIncidence];
+  inputs[BudgetInput::kDepth] = pulses.pulses[AxisId::kDepth];
+  inputs[BudgetInput::kSeaThu] = sea[Index(Quantity::kThu)];
+  inputs[BudgetInput::kSeaTvu] = sea[Index(Quantity::kTvu)];
+  inputs[BudgetInput::kRefractionAlong] = sea[Index(Quantity::kRefractionAlongWind)];
+  inputs[BudgetInput::kRefractionCross] = sea[Index(Quantity::kRefractionCrossWind)];
+  inputs[BudgetInput::kBiasAlongBeam] = sea[Index(Quantity::kBiasAlongBeam)];
+  inputs[BudgetInput::kBiasVertical] = sea[Index(Quantity::kBiasVertical)];
+  // Where no direction is known, the sea errs alike in all directions.
+  if (inputs[BudgetInput::kBeamAzimuth].empty()) inputs[BudgetInput::kSeaAxis] = {};
+  ComputeBudget(inputs, options, outputs);
+}
 
 BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count) {
   BudgetPulses slice{Slice(pulses.pulses, begin, count), pulses.aircraft, pulses.sea_axis};

@@ -1,11 +1,12 @@
-// The whole budget of many pulses: the share of the sea surface from a table, added to those of the air side and the
-// datum.
+// The whole budget of many pulses: the share of the sea surface from a table, added to those of the air side, the water
+// column and the datum.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "budget/total/budget_columns.h"
 #include "tables/query/column_query.h"
@@ -71,7 +72,7 @@ struct BudgetAnswers {
 // Pulses whose budget is asked.
 struct BudgetPulses {
   PulseColumns pulses;  // As asked of the table.
-  // The columns kAircraftInputs at the same pulses; others are not used.
+  // The columns kAircraftInputs at the same pulses, and kSeaAxis where it differs from pulse to pulse.
   BudgetInputs aircraft = {};
   // degree, clockwise from true north: the downwind direction, or the x axis of the table's sea. Absent: not known.
   std::optional<double> sea_axis = {};
@@ -105,6 +106,14 @@ inline constexpr std::array<BudgetInput, 24> kAircraftInputs = {BudgetInput::kAl
 constexpr bool IsRequired(BudgetInput input) {
   return input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth;
 }
+
+// The share of the sea at each pulse, as a table answers it at 2 sigma: a column for each Quantity, or none where it is
+// not known. A bias of NaN is not known.
+using SeaShare = std::array<std::span<const float>, kQuantityCount>;
+
+// Adds all shares. Every total of files, servers and libraries is computed here.
+void ComputePulseBudget(const BudgetPulses& pulses, const SeaShare& sea, const BudgetOptions& options,
+                        const BudgetOutputs& outputs);
 
 // The pulses from `begin` on.
 BudgetPulses Slice(const BudgetPulses& pulses, std::size_t begin, std::size_t count);

@@ -15,30 +15,19 @@ void CheckSigma(const std::string& field, double sigma, std::vector<OptionError>
       {field, absl::StrCat(field, " is ", sigma, ": a standard deviation is 0 to ", kGreatestBudgetNumber)});
 }
 
-void CheckSigmas(const std::string& field, const std::array<double, 3>& sigmas,
-                 const std::array<std::string_view, 3>& axes, std::vector<OptionError>& errors) {
-  for (std::size_t i = 0; i < 3; ++i)
-    CheckSigma(absl::StrCat(field, ".", std::string(axes[i])), sigmas[i], errors);
-}
-
 constexpr std::array<std::string_view, 3> kForwardRightDown = {"forward", "right", "down"};
 
 }  // namespace
 
 std::vector<OptionError> FindErrors(const BudgetOptions& options) {
   std::vector<OptionError> found;
-  const AirErrors& errors = options.errors;
-  CheckSigmas("errors.position", errors.position, {"north", "east", "down"}, found);
-  CheckSigmas("errors.attitude", errors.attitude, {"roll", "pitch", "heading"}, found);
-  CheckSigmas("errors.boresight", errors.boresight, kForwardRightDown, found);
-  CheckSigma("errors.lever_arm", errors.lever_arm, found);
-  CheckSigma("errors.scan", errors.scan, found);
-  CheckSigma("errors.time", errors.time, found);
-  CheckSigma("errors.range_offset", errors.range_offset, found);
-  CheckSigma("errors.bottom_range", errors.bottom_range, found);
-  CheckSigma("errors.surface_range", errors.surface_range, found);
-  CheckSigma("errors.surface_height", errors.surface_height, found);
-  CheckSigma("errors.index", errors.index, found);
+  for (const ErrorSource& source : kErrorSources) {
+    const std::span<const double> numbers = source.In(options.errors);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::string part = numbers.size() > 1 ? absl::StrCat(".", std::string(source.parts[i])) : "";
+      CheckSigma(absl::StrCat("errors.", std::string(source.name), part), numbers[i], found);
+    }
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     if (std::abs(options.lever_arm[i]) <= kGreatestBudgetNumber) continue;
     const std::string field = absl::StrCat("lever_arm.", std::string(kForwardRightDown[i]));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "budget/air/air_errors.h"
 #include "tables/coverage.h"
@@ -17,10 +18,10 @@ namespace albtpu {
 // The inputs of a pulse. A column has one number for each pulse, one for all, or none where the comment says what none
 // means.
 enum class BudgetInput : std::uint8_t {
-  kIncidence,    // degree from the vertical, in air: 0 or more, below 90.
-  kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to.
-  kAltitude,     // m, of the sensor above the water: above 0.
-  kDepth,        // m, below the water: 0 or more.
+  kIncidence,  // degree from the vertical, in air: 0 or more, below 90.
+  kBeamAzimuth,  // degree, clockwise from true north: where the beam travels to. None: not known, lengths are right.
+  kAltitude,  // m, of the sensor above the water: above 0.
+  kDepth,     // m, below the water: 0 or more.
   // The aircraft. None: 0. The heading matters where lever arm, boresight, roll and pitch differ from each other.
   kRoll,           // degree
   kPitch,          // degree
@@ -43,8 +44,8 @@ enum class BudgetInput : std::uint8_t {
   kSeaTvu,           // m
   kRefractionAlong,  // degree, along the axis of the sea.
   kRefractionCross,  // degree, across it.
-  kBiasAlongBeam,    // m. None: not known, taken as 0.
-  kBiasVertical,     // m. None: not known, taken as 0.
+  kBiasAlongBeam,    // m. None or NaN: not known, taken as 0.
+  kBiasVertical,     // m. None or NaN: not known, taken as 0.
   kSeaAxis,  // degree, clockwise from true north. None or NaN: not known; then errors are alike in all directions.
   kWaveHeight,  // m, standard deviation of the waves that the located surface does not follow. None: 0.
   // The contribution of the water column at 1 sigma (budget/water). None: 0, it is left out. NaN: no answer.
@@ -74,6 +75,22 @@ struct BudgetInputs {
     return columns[static_cast<std::size_t>(input)];
   }
 };
+
+constexpr BudgetInput operator+(BudgetInput first, std::size_t places) {
+  return static_cast<BudgetInput>(static_cast<std::size_t>(first) + places);
+}
+
+// Inputs in memory of their own. From kRoll on come kMotionInputs columns of the motion of the aircraft and its sigmas.
+struct AircraftColumns {
+  std::array<std::vector<float>, kBudgetInputCount> columns;
+
+  std::vector<float>& operator[](BudgetInput input) { return columns[static_cast<std::size_t>(input)]; }
+  const std::vector<float>& operator[](BudgetInput input) const {
+    return columns[static_cast<std::size_t>(input)];
+  }
+};
+inline constexpr std::size_t kMotionInputs = 15;
+static_assert(BudgetInput::kRoll + (kMotionInputs - 1) == BudgetInput::kHeadingSigma);
 
 // Constants of all pulses.
 struct BudgetOptions {

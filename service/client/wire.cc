@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "service/client/sea_wire.h"
+#include "service/error_message.h"
 #include "tables/coverage.h"
 
 namespace albtpu::client {
@@ -40,43 +41,11 @@ std::string Text(const v1::AttributeValue& value) {
   return "";
 }
 
-v1::NorthEastDown NorthEastDown(const std::array<double, 3>& numbers) {
-  v1::NorthEastDown message;
-  message.set_north(numbers[0]);
-  message.set_east(numbers[1]);
-  message.set_down(numbers[2]);
-  return message;
-}
-
-v1::RollPitchHeading RollPitchHeading(const std::array<double, 3>& numbers) {
-  v1::RollPitchHeading message;
-  message.set_roll(numbers[0]);
-  message.set_pitch(numbers[1]);
-  message.set_heading(numbers[2]);
-  return message;
-}
-
 v1::ForwardRightDown ForwardRightDown(const std::array<double, 3>& numbers) {
   v1::ForwardRightDown message;
   message.set_forward(numbers[0]);
   message.set_right(numbers[1]);
   message.set_down(numbers[2]);
-  return message;
-}
-
-v1::AirErrors ToWire(const AirErrors& errors) {
-  v1::AirErrors message;
-  *message.mutable_position() = NorthEastDown(errors.position);
-  *message.mutable_attitude() = RollPitchHeading(errors.attitude);
-  *message.mutable_boresight() = ForwardRightDown(errors.boresight);
-  message.set_lever_arm(errors.lever_arm);
-  message.set_scan(errors.scan);
-  message.set_time(errors.time);
-  message.set_range_offset(errors.range_offset);
-  message.set_bottom_range(errors.bottom_range);
-  message.set_surface_range(errors.surface_range);
-  message.set_surface_height(errors.surface_height);
-  message.set_index(errors.index);
   return message;
 }
 
@@ -139,7 +108,7 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
             v1::QueryBudgetRequest& request) {
   v1::BudgetOptions& message = *request.mutable_options();
   message.set_coverage(ToWire(options.coverage));
-  *message.mutable_errors() = ToWire(options.errors);
+  *message.mutable_errors() = ToMessage(options.errors);
   message.set_located(static_cast<v1::SurfaceLocation>(static_cast<int>(options.located) + 1));
   *message.mutable_lever_arm() = ForwardRightDown(options.lever_arm);
   message.set_refractive_index(options.index);

@@ -50,39 +50,45 @@ void BeamGeometry::Compute(const SurveyPoints& points, BeamScratch& scratch, Poi
   } else {
     FromAngles(points, beams);
   }
-  if (plan_.any_aircraft) FindAircraft(points, scratch, beams.aircraft);
+  if (plan_.any_aircraft) FindAircraft(points, scratch, beams);
 }
 
 void BeamGeometry::FindAircraft(const SurveyPoints& points, const BeamScratch& scratch,
-                                PointAircraft& aircraft) const {
+                                PointBeams& beams) const {
   const std::size_t count = points.size();
-  aircraft.altitude.resize(count);
-  aircraft.convergence.assign(count, 0);
-  for (std::vector<float>& column : aircraft.motion) column.resize(motions_ != nullptr ? count : 0);
+  AircraftColumns& aircraft = beams.aircraft;
+  std::vector<float>& altitudes = aircraft[BudgetInput::kAltitude];
+  altitudes.resize(count);
+  beams.convergence.assign(count, 0);
+  for (std::size_t i = 0; i < kMotionInputs; ++i)
+    aircraft[BudgetInput::kRoll + i].resize(motions_ != nullptr ? count : 0);
   if (plan_.has_track()) {
     for (std::size_t i = 0; i < count; ++i) {
-      aircraft.altitude[i] = static_cast<float>(scratch.height[i]);
-      aircraft.convergence[i] = static_cast<float>(scratch.convergence[i]);
+      altitudes[i] = static_cast<float>(scratch.height[i]);
+      beams.convergence[i] = static_cast<float>(scratch.convergence[i]);
     }
   } else {
     const auto* scan = std::get_if<AcrossTrackScan>(&plan_.source);
     const std::optional<double> altitude =
         scan != nullptr ? scan->altitude : std::get<ConstantIncidence>(plan_.source).altitude;
-    aircraft.altitude.assign(count, static_cast<float>(altitude.value_or(kNan)));
-    if (scan != nullptr && scan->flight_direction.has_value())  // The heading, third of the motions.
-      aircraft.motion[2].assign(count, static_cast<float>(*scan->flight_direction));
+    altitudes.assign(count, static_cast<float>(altitude.value_or(kNan)));
+    if (scan != nullptr && scan->flight_direction.has_value())
+      aircraft[BudgetInput::kHeading].assign(count, static_cast<float>(*scan->flight_direction));
   }
   if (motions_ == nullptr) return;
   ForEachMotion(*motions_, points.times, [&](std::size_t i, const SensorMotion& motion) {
-    std::size_t next = 0;
-    const auto put = [&](double number) { aircraft.motion[next++][i] = static_cast<float>(number); };
-    put(motion.roll);
-    put(motion.pitch);
-    put(motion.heading);
-    for (const double velocity : motion.velocity) put(velocity);
-    for (const double rate : motion.rates) put(rate);
-    for (const double sigma : motion.position_sigma) put(sigma);
-    for (const double sigma : motion.attitude_sigma) put(sigma);
+    const auto put = [&](BudgetInput input, double number) {
+      aircraft[input][i] = static_cast<float>(number);
+    };
+    put(BudgetInput::kRoll, motion.roll);
+    put(BudgetInput::kPitch, motion.pitch);
+    put(BudgetInput::kHeading, motion.heading);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      put(BudgetInput::kVelocityNorth + axis, motion.velocity[axis]);
+      put(BudgetInput::kRollRate + axis, motion.rates[axis]);
+      put(BudgetInput::kPositionSigmaNorth + axis, motion.position_sigma[axis]);
+      put(BudgetInput::kRollSigma + axis, motion.attitude_sigma[axis]);
+    }
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/sensor_track.h"
+#include "budget/total/budget_columns.h"
 #include "survey/answers/batch.h"
 #include "survey/answers/outcome_counts.h"
 #include "survey/beams/beam_plan.h"
@@ -17,16 +18,6 @@
 #include "survey/beams/water_heights.h"
 
 namespace albtpu::client {
-
-// The motion of the aircraft at each point, which a total needs beside the beam. NaN where there is no number.
-struct PointAircraft {
-  std::vector<float> altitude;     // m above the water
-  std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
-  // Roll, pitch, heading [degree], velocity north, east, down [m/s], rates [degree/s], sigmas of the position [m] and
-  // of the attitude [degree].
-  static constexpr std::size_t kMotions = 15;
-  std::array<std::vector<float>, kMotions> motion;
-};
 
 // One element for each point; NaN where there is no number.
 struct PointBeams {
@@ -37,7 +28,9 @@ struct PointBeams {
   std::vector<float> footprint;                 // m
   std::vector<float> depth;                     // m below the surface; negative above it
   std::vector<float> slant_range;               // m, in air
-  PointAircraft aircraft;                       // Empty unless it is wanted.
+  // What a total needs beside the beam; empty unless it is wanted.
+  std::vector<float> convergence;  // rad; true azimuth = grid azimuth + convergence
+  AircraftColumns aircraft;        // Altitude and motion.
   SurfaceCounts surface;
 };
 
@@ -69,7 +62,7 @@ class BeamGeometry {
   void Locate(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
   void FromTrack(const SurveyPoints& points, BeamScratch& scratch, PointBeams& beams) const;
   void FromAngles(const SurveyPoints& points, PointBeams& beams) const;
-  void FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointAircraft& aircraft) const;
+  void FindAircraft(const SurveyPoints& points, const BeamScratch& scratch, PointBeams& beams) const;
 
   const BeamPlan& plan_;
   LocalFrame frame_;

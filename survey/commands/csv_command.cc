@@ -18,7 +18,6 @@
 #include "survey/files/annotation_run.h"
 #include "survey/files/file_jobs.h"
 #include "survey/number_text.h"
-#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::client {
 namespace {
@@ -62,24 +61,13 @@ absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options, const
     if (options.details) return UsageError("csv: --details has no effect without --sensor; leave it out");
     return std::nullopt;
   }
-  const ToldSurface surface = survey.surface.value_or(ToldSurface());
-  absl::StatusOr<TotalPlan> plan =
-      PlanTotal(survey, {.coverage = options.style.coverage,
-                         .index = {},
-                         .lever_arm = {},
-                         .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
-                         .has_level = surface.level.has_value() || surface.level_file.has_value()});
+  absl::StatusOr<TotalPlan> plan = PlanTotal(survey, ContextOf(survey, options.style.coverage));
   if (!plan.ok()) return plan.status();
   if (const std::optional<float>& wind_from = fixed[PulseInput::kWindFrom]; wind_from.has_value())
     plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
-  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
-  if (!sensor.ok()) return sensor.status();
-  std::optional<float> divergence;
-  if (sensor->divergence.has_value()) divergence = static_cast<float>(sensor->divergence->value);
   const bool details =
       options.details || (survey.output.has_value() && survey.output->details.value_or(false));
-  return CsvTotal{
-      .plan = *std::move(plan), .details = details, .divergence = divergence, .wind_spectrum = {}};
+  return CsvTotal{.plan = *std::move(plan), .details = details, .wind_spectrum = {}};
 }
 
 absl::Status RunCsv(const CsvOptions& flags) {
@@ -125,10 +113,7 @@ absl::Status RunCsv(const CsvOptions& flags) {
                            absl::StrCat(" ", outcomes, notes)};
     }
     TotalPlan plan = (*total)->plan;
-    if (csv->took_divergence) {
-      plan.numbers.push_back({"divergence", absl::StrCat(*(*total)->divergence, " mrad"),
-                              "assumed: the default of the sensor", true});
-    }
+    if (csv->took_divergence) plan.numbers.push_back(AssumedDivergence(*plan.divergence));
     std::string text = absl::StrCat(
         " ", outcomes,
         csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));

@@ -30,8 +30,7 @@ absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOpt
   absl::StatusOr<TotalPlan> total = PlanTotal(survey, context);
   if (!total.ok()) return total.status();
   if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint); beam != nullptr && !told_divergence)
-    total->numbers.push_back(
-        {"divergence", absl::StrCat(beam->divergence, " mrad"), "assumed: the default of the sensor", true});
+    total->numbers.push_back(AssumedDivergence(beam->divergence));
   if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
 }

@@ -22,7 +22,6 @@
 #include "survey/planning/survey_plan.h"
 #include "survey/report/report_folder.h"
 #include "survey/report/report_page.h"
-#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::client {
 namespace {
@@ -47,13 +46,7 @@ struct PlanOptions {
 absl::StatusOr<TotalPlan> PlanOf(const SurveyDescription& survey) {
   const ToldSurface surface = survey.surface.value_or(ToldSurface());
   const bool level = surface.level.has_value() || surface.level_file.has_value();
-  return PlanTotal(survey, {.coverage = Coverage::kP95,
-                            .index = {},
-                            .lever_arm = {},
-                            .has_surface_returns = !level,
-                            .has_level = level,
-                            .trajectory_errors = "",
-                            .decided = true});
+  return PlanTotal(survey, {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
 }
 
 // In ascending order, each once. Values too small for float32, the precision of table queries, become 0.
@@ -124,19 +117,16 @@ class Planner {
       return UsageError(
           "plan: --kds has no effect without the contribution of the water column; describe the water in "
           "--survey");
-    const absl::StatusOr<Sensor> sensor = FindSensor(*survey_.sensor->name);
-    if (!sensor.ok()) return sensor.status();
     absl::StatusOr<TotalPlan> total = PlanOf(survey_);
     if (!total.ok()) return total.status();
     planned_ = *std::move(total);
     if (options_.divergence.has_value()) {
       divergence_ = *options_.divergence;
-    } else if (sensor->divergence.has_value()) {
-      divergence_ = sensor->divergence->value;
-      planned_.numbers.push_back(
-          {"divergence", absl::StrCat(divergence_, " mrad"), "assumed: the default of the sensor", true});
+    } else if (planned_.divergence.has_value()) {
+      divergence_ = *planned_.divergence;
+      planned_.numbers.push_back(AssumedDivergence(divergence_));
     } else {
-      return UsageError(absl::StrCat("plan: the divergence of ", sensor->name,
+      return UsageError(absl::StrCat("plan: the divergence of ", planned_.numbers.front().source,
                                      " is not known; give it by --divergence in mrad"));
     }
     plan_.order = *FindS44Order(options_.order);

@@ -13,7 +13,6 @@
 #include "survey/commands/sea_options.h"
 #include "survey/commands/total_options.h"
 #include "survey/exit_status.h"
-#include "survey/sensors/installed_sensors.h"
 #include "survey/totals/pulse_report.h"
 
 namespace albtpu::client {
@@ -30,21 +29,17 @@ struct PulseOptions {
 };
 
 // Adds the inputs that only a total takes, and a footprint from the divergence of the sensor.
-absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, PulseTotal& total) {
+absl::Status TakeForTotal(FixedInputs& inputs, PulseTotal& total) {
   if (!inputs[PulseInput::kAltitude].has_value())
     return UsageError("pulse: --altitude is missing; a total needs the height of the sensor above the water");
   total.altitude = *inputs[PulseInput::kAltitude];
   total.beam_azimuth = inputs[PulseInput::kBeamAzimuth];
   if (inputs[PulseInput::kFootprint].has_value()) {
     if (!inputs[PulseInput::kDivergence].has_value()) inputs[PulseInput::kAltitude].reset();
-  } else if (!inputs[PulseInput::kDivergence].has_value()) {
-    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
-    if (!sensor.ok()) return sensor.status();
-    if (sensor->divergence.has_value()) {
-      inputs[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
-      total.plan.numbers.push_back({"divergence", absl::StrCat(sensor->divergence->value, " mrad"),
-                                    "assumed: the default of the sensor", true});
-    }
+  } else if (const std::optional<double>& divergence = total.plan.divergence;
+             divergence.has_value() && !inputs[PulseInput::kDivergence].has_value()) {
+    inputs[PulseInput::kDivergence] = static_cast<float>(*divergence);
+    total.plan.numbers.push_back(AssumedDivergence(*divergence));
   }
   // Over a table of winds a direction from north counts with that of the wind alone.
   if (inputs.any_sea) return absl::OkStatus();
@@ -60,18 +55,10 @@ absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& surv
   TakeStyle(survey, style);
   PulseTotal total;
   total.motion = options.motion;
-  const ToldSurface surface = survey.surface.value_or(ToldSurface());
-  absl::StatusOr<TotalPlan> plan =
-      PlanTotal(survey, {.coverage = style.coverage,
-                         .index = {},
-                         .lever_arm = {},
-                         .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
-                         .has_level = surface.level.has_value() || surface.level_file.has_value(),
-                         .trajectory_errors = "",
-                         .decided = false});
+  absl::StatusOr<TotalPlan> plan = PlanTotal(survey, ContextOf(survey, style.coverage));
   if (!plan.ok()) return plan.status();
   total.plan = *std::move(plan);
-  if (absl::Status status = TakeForTotal(survey, inputs, total); !status.ok()) return status;
+  if (absl::Status status = TakeForTotal(inputs, total); !status.ok()) return status;
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
   absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);

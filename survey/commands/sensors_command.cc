@@ -35,11 +35,11 @@ std::string DivergenceText(const SourcedDivergence& divergence) {
 }
 
 std::string Row(const Sensor& sensor) {
-  const auto number = [](const std::optional<SourcedNumber>& known) {
-    return known.has_value() ? absl::StrCat(known->value) : "-";
+  const auto number = [&](double AirErrors::*source) {
+    return sensor.errors.Has(source) ? absl::StrCat(sensor.errors.values.*source) : "-";
   };
   return absl::StrFormat("%-26s%-42s%10s%14s%16s\n", PrintableText(sensor.name), PrintableText(sensor.title),
-                         number(sensor.scan), number(sensor.bottom_range),
+                         number(&AirErrors::scan), number(&AirErrors::bottom_range),
                          sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
 }
 
@@ -56,17 +56,17 @@ std::string Text(const Sensor& sensor) {
                             const std::string& source) {
     absl::StrAppendFormat(&text, "  %-14s %s %s, %s\n", key, value, unit, PrintableText(source));
   };
-  for (const auto& [range, field] : kSensorNumbers)
-    if (const auto& known = sensor.*field)
-      line(range.key, absl::StrCat(known->value), range.unit, known->source);
-  for (const auto& [range, field] : kSensorTriples)
-    if (const auto& known = sensor.*field)
-      line(range.key, absl::StrCat("[", absl::StrJoin(known->value, ", "), "]"), range.unit, known->source);
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    if (!sensor.errors.stated[i]) continue;
+    const ErrorSource& source = kErrorSources[i];
+    const std::string numbers = absl::StrJoin(source.In(sensor.errors.values), ", ");
+    line(source.name, source.size() > 1 ? absl::StrCat("[", numbers, "]") : numbers, source.unit,
+         sensor.origins[i]);
+  }
   if (const auto& known = sensor.divergence)
     line("divergence", DivergenceText(*known), "mrad", known->source);
   std::vector<std::string> unknown = UnknownOf(sensor);
   const bool no_divergence = std::erase(unknown, "divergence") > 0;
-  if (std::erase(unknown, "surface_range") > 0) unknown.emplace_back("surface_height");
   if (!unknown.empty()) {
     absl::StrAppend(
         &text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "), "\n");
@@ -77,14 +77,15 @@ std::string Text(const Sensor& sensor) {
 
 ordered_json Json(const Sensor& sensor) {
   ordered_json json = {{"name", sensor.name}, {"title", sensor.title}};
-  const auto add = [&json](const auto& keys, const auto& of) {
-    for (const auto& [range, field] : keys)
-      if (const auto& known = of.*field)
-        json[std::string(range.key)] = {
-            {"value", known->value}, {"unit", std::string(range.unit)}, {"source", known->source}};
-  };
-  add(kSensorNumbers, sensor);
-  add(kSensorTriples, sensor);
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    if (!sensor.errors.stated[i]) continue;
+    const ErrorSource& source = kErrorSources[i];
+    const std::span<const double> numbers = source.In(sensor.errors.values);
+    ordered_json value = numbers[0];
+    if (numbers.size() > 1) value = numbers;
+    json[std::string(source.name)] = {
+        {"value", value}, {"unit", std::string(source.unit)}, {"source", sensor.origins[i]}};
+  }
   if (const auto& known = sensor.divergence) {
     ordered_json& divergence = json["divergence"] = {{"value", known->value}};
     if (known->least.has_value())

@@ -31,12 +31,6 @@ std::string_view UnitsOf(BudgetInput input) {
   return "degree";
 }
 
-std::vector<float>& ColumnOf(BudgetInput input, AircraftColumns& columns) {
-  if (input == BudgetInput::kAltitude) return columns.altitude;
-  if (input == BudgetInput::kBeamAzimuth) return columns.beam_azimuth;
-  return columns[input];
-}
-
 }  // namespace
 
 absl::StatusOr<CsvAircraft> CsvAircraft::Bind(const std::string& name, const CsvRecord& header,
@@ -65,8 +59,8 @@ absl::StatusOr<CsvAircraft> CsvAircraft::Bind(const std::string& name, const Csv
 
 void CsvAircraft::Clear(CsvAircraftBatch& batch) const {
   batch.columns = {};
-  if (altitude_.has_value()) batch.columns.altitude = {*altitude_};
-  if (beam_azimuth_.has_value()) batch.columns.beam_azimuth = {*beam_azimuth_};
+  if (altitude_.has_value()) batch.columns[BudgetInput::kAltitude] = {*altitude_};
+  if (beam_azimuth_.has_value()) batch.columns[BudgetInput::kBeamAzimuth] = {*beam_azimuth_};
   batch.sea_axes.clear();
   batch.undirected.clear();
 }
@@ -79,7 +73,7 @@ absl::Status CsvAircraft::Append(const CsvRecord& record, CsvAircraftBatch& batc
         NumberOf(name_, record, column.index, NameOf(column.input), UnitsOf(column.input), may_be_empty);
     if (!number.ok()) return number.status();
     undirected |= !number->has_value();
-    ColumnOf(column.input, batch.columns).push_back(number->value_or(0));
+    batch.columns[column.input].push_back(number->value_or(0));
   }
   batch.undirected.push_back(undirected);
   if (!wind_from_.has_value()) return absl::OkStatus();

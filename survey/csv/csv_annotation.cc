@@ -212,9 +212,9 @@ FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const CsvRecord& h
     }
     return false;
   };
-  took_divergence =
-      total.divergence.has_value() && !is_known(PulseInput::kDivergence) && !is_known(PulseInput::kFootprint);
-  if (took_divergence) fixed[PulseInput::kDivergence] = total.divergence;
+  took_divergence = total.plan.divergence.has_value() && !is_known(PulseInput::kDivergence) &&
+                    !is_known(PulseInput::kFootprint);
+  if (took_divergence) fixed[PulseInput::kDivergence] = static_cast<float>(*total.plan.divergence);
   if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint))
     fixed[PulseInput::kAltitude].reset();
   if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();

@@ -24,12 +24,12 @@ struct AnnotatedCsv {
   OutputFile file;               // Complete; Commit() gives it its name.
 };
 
-// The settings of totals for the pulses of a file.
+// The settings of totals for the pulses of a file. The divergence of the sensor is that of a file that has neither
+// footprints nor divergences.
 struct CsvTotal {
   TotalPlan plan;
-  bool details = false;             // Append contributions and covariance, too.
-  std::optional<float> divergence;  // mrad: of a file that has neither footprints nor divergences
-  std::string wind_spectrum;        // Of the table of winds, for the height of the waves; empty over any sea.
+  bool details = false;       // Append contributions and covariance, too.
+  std::string wind_spectrum;  // Of the table of winds, for the height of the waves; empty over any sea.
 };
 
 // Columns are found by name, in any order: a column with the name of a PulseInput has its numbers; all other columns

@@ -26,7 +26,7 @@ absl::StatusOr<SurveyDescription> ParseSurvey(std::string_view text, const fs::p
   for (TomlKeys& section : keys.Table("sea")) survey.sea = ReadSea(section, folder);
   for (TomlKeys& section : keys.Table("water")) survey.water = ReadWater(section);
   for (TomlKeys& section : keys.Table("datum")) survey.datum = ReadDatum(section);
-  for (TomlKeys& section : keys.Table("sigma")) survey.sigma = ReadToldSigma(section);
+  for (TomlKeys& section : keys.Table("sigma")) survey.sigma = ReadSigma(section);
   for (TomlKeys& section : keys.Table("output")) survey.output = ReadOutput(section);
   keys.Finish();
   if (!problem.status().ok()) return problem.status();

@@ -40,15 +40,9 @@
 //     [datum]
 //     sigma = 0.08                        # m
 //     geoid_separation = -25.1            # m
-//     [sigma]                             # 1 sigma, in place of the sensor's and of the error files'
-//     position = [0.02, 0.02, 0.06]       # m: north, east, down
-//     attitude = [0.005, 0.005, 0.008]    # degree: roll, pitch, heading
-//     boresight = [0.001, 0.001, 0.004]   # degree: x, y, z
-//     lever_arm = 0.02                    # m, each axis
-//     scan = 0.02                         # degree, each of two angles
-//     time = 1e-5                         # s
-//     range_offset = 0.01                 # m; also bottom_range (optical), surface_height
-//     index = 0.001
+//     [sigma]                             # 1 sigma, in place of the sensor's and of the error files'; 0 is none:
+//     position = [0.02, 0.02, 0.06]       # m; the keys are all sources of error in budget/air/air_errors.h
+//     scan = 0.02                         # degree
 //     [output]
 //     classes = [40]
 //     coverage = "p95"                    # "2sigma", "1sigma"
@@ -75,7 +69,7 @@ struct SurveyDescription {
   std::optional<ToldSea> sea;
   std::optional<ToldWater> water;
   std::optional<ToldDatum> datum;
-  std::optional<ToldSigma> sigma;
+  std::optional<StatedErrors> sigma;
   std::optional<ToldOutput> output;
 };
 

@@ -123,10 +123,9 @@ ToldDatum ReadDatum(TomlKeys& keys) {
   return datum;
 }
 
-ToldSigma ReadToldSigma(TomlKeys& keys) {
-  ToldSigma sigma;
-  for (const auto& each : kSigmaNumbers) sigma.*each.field = ReadSigma(keys, each.range.key, each.range);
-  for (const auto& each : kSigmaTriples) sigma.*each.field = ReadSigmas(keys, each.range.key, each.range);
+StatedErrors ReadSigma(TomlKeys& keys) {
+  StatedErrors sigma;
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) ReadErrors(keys, kErrorSources[i].name, i, sigma);
   keys.Finish();
   return sigma;
 }

@@ -15,7 +15,7 @@ ToldTrajectory ReadTrajectory(TomlKeys& keys, const std::filesystem::path& folde
 ToldSurface ReadSurface(TomlKeys& keys, const std::filesystem::path& folder);
 ToldWater ReadWater(TomlKeys& keys);
 ToldDatum ReadDatum(TomlKeys& keys);
-ToldSigma ReadToldSigma(TomlKeys& keys);
+StatedErrors ReadSigma(TomlKeys& keys);
 ToldOutput ReadOutput(TomlKeys& keys);
 
 }  // namespace albtpu::client

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "survey/seas/told_sea.h"
-#include "survey/sensors/sigma_range.h"
+#include "survey/sensors/stated_errors.h"
 
 namespace albtpu::client {
 
@@ -33,7 +33,7 @@ struct ToldSurface {                   // [surface]
 };
 
 // A bias of the water column that was measured against what is known of the bottom.
-struct ToldCalibration {                          // [water.calibration], or calibration = {...}
+struct ToldCalibration {                       // [water.calibration], or calibration = {...}
   std::optional<double> depth, offset, sigma;  // m; the offset is positive if the points were too shallow
 };
 
@@ -54,13 +54,6 @@ struct ToldWater {                                         // [water]
 
 struct ToldDatum {                                // [datum]
   std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
-};
-
-struct ToldSigma {                                      // [sigma], 1 sigma; 0 is none.
-  std::optional<Triple> position, attitude, boresight;  // m, degree, degree
-  std::optional<double> lever_arm, scan, time;          // m, degree, s
-  std::optional<double> range_offset, bottom_range;     // m
-  std::optional<double> surface_height, index;          // m, 1
 };
 
 struct ToldOutput {                      // [output]
@@ -112,26 +105,6 @@ inline constexpr std::array<ToldNumber<ToldCalibration>, 3> kCalibrationNumbers 
     {"depth", "", "m", 0.1, 100, &ToldCalibration::depth, ""},
     {"offset", "", "m", -10, 10, &ToldCalibration::offset, ""},
     {"sigma", "", "m", 0, 10, &ToldCalibration::sigma, ""},
-}};
-
-template <typename Value>
-struct ToldSigmaKey {
-  SigmaRange range;
-  std::optional<Value> ToldSigma::*field;
-};
-inline constexpr std::array<ToldSigmaKey<double>, 7> kSigmaNumbers = {{
-    {sigma::kLeverArm, &ToldSigma::lever_arm},
-    {sigma::kScan, &ToldSigma::scan},
-    {sigma::kTime, &ToldSigma::time},
-    {sigma::kRangeOffset, &ToldSigma::range_offset},
-    {sigma::kBottomRange, &ToldSigma::bottom_range},
-    {sigma::kSurfaceHeight, &ToldSigma::surface_height},
-    {sigma::kIndex, &ToldSigma::index},
-}};
-inline constexpr std::array<ToldSigmaKey<Triple>, 3> kSigmaTriples = {{
-    {sigma::kPosition, &ToldSigma::position},
-    {sigma::kAttitude, &ToldSigma::attitude},
-    {sigma::kBoresight, &ToldSigma::boresight},
 }};
 
 }  // namespace albtpu::client

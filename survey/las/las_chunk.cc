@@ -136,11 +136,11 @@ void LasChunkWork::FindTotals(Chunk& chunk) const {
     for (std::size_t i = 0; i < chunk.rows.size(); ++i) of_pulses[i] = of_points[chunk.rows[i]];
   };
   const PointBeams& beams = chunk.beams;
-  column(beams.aircraft.altitude, chunk.aircraft.altitude);
-  chunk.aircraft.beam_azimuth.clear();
-  if (plan_.has_direction()) column(beams.beam_azimuth, chunk.aircraft.beam_azimuth);
-  for (std::size_t i = 0; i < AircraftColumns::kMotions; ++i)
-    column(beams.aircraft.motion[i], chunk.aircraft.motion[i]);
+  column(beams.aircraft[BudgetInput::kAltitude], chunk.aircraft[BudgetInput::kAltitude]);
+  chunk.aircraft[BudgetInput::kBeamAzimuth].clear();
+  if (plan_.has_direction()) column(beams.beam_azimuth, chunk.aircraft[BudgetInput::kBeamAzimuth]);
+  for (std::size_t i = 0; i < kMotionInputs; ++i)
+    column(beams.aircraft[BudgetInput::kRoll + i], chunk.aircraft[BudgetInput::kRoll + i]);
   ComputeTotals(*total_, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
   chunk.sigmas_assumed = chunk.total.sigmas_assumed;
   chunk.totals = {};
@@ -253,10 +253,10 @@ void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const
     put(total_->water.share != nullptr ? (*column)[i] : kNoNumber);
   const double factor = VerticalFactor(total_->options.coverage);
   for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
-    put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)].down[i])));
+    put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
   put(chunk.answers[Quantity::kBiasAlongBeam][i]);
   put(chunk.answers[Quantity::kBiasVertical][i]);
-  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.aircraft.convergence[chunk.rows[i]]))
+  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[chunk.rows[i]]))
     put(entry);
 }
 

@@ -39,7 +39,7 @@ absl::StatusOr<Reaches> ReachOf(const TotalPlan& plan, const AnswerSource& sourc
   TotalBatch totals;
   AddWater(plan.water, pulses, sea, totals.water);
   AircraftColumns aircraft;
-  aircraft.altitude = {static_cast<float>(beam.altitude)};
+  aircraft[BudgetInput::kAltitude] = {static_cast<float>(beam.altitude)};
   ComputeTotals(plan, pulses, sea, aircraft, totals);
   Reaches reaches;
   for (std::size_t order = 0; order < reaches.size(); ++order) {

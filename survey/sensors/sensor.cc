@@ -31,32 +31,15 @@ std::string ReadSource(TomlKeys& keys) {
   return source;
 }
 
-// 0 is no standard deviation of an instrument.
-void CheckAboveZero(TomlKeys& keys, double value) {
-  if (!(value > 0))
-    keys.Fail(kValue, "is 0 (no instrument is exact); leave out a number that no source gives");
-}
-
-std::optional<SourcedNumber> ReadNumber(TomlKeys& root, const SigmaRange& range) {
-  for (TomlKeys& keys : root.Table(range.key)) {
-    const std::optional<double> value = ReadSigma(keys, kValue, range);
-    if (value.has_value()) CheckAboveZero(keys, *value);
-    SourcedNumber number{.value = value.value_or(0), .source = ReadSource(keys)};
-    FinishNumber(keys, std::string(range.unit));
-    return number;
+void ReadNumbers(TomlKeys& root, std::size_t i, Sensor& sensor) {
+  const ErrorSource& source = kErrorSources[i];
+  for (TomlKeys& keys : root.Table(source.name)) {
+    ReadErrors(keys, kValue, i, sensor.errors);
+    if (sensor.errors.stated[i] && std::ranges::min(source.In(sensor.errors.values)) == 0)
+      keys.Fail(kValue, "is 0 (no instrument is exact); leave out a number that no source gives");
+    sensor.origins[i] = ReadSource(keys);
+    FinishNumber(keys, std::string(source.unit));
   }
-  return std::nullopt;
-}
-
-std::optional<SourcedTriple> ReadTriple(TomlKeys& root, const SigmaRange& range) {
-  for (TomlKeys& keys : root.Table(range.key)) {
-    const std::optional<std::array<double, 3>> value = ReadSigmas(keys, kValue, range);
-    if (value.has_value()) CheckAboveZero(keys, std::ranges::min(*value));
-    SourcedTriple triple{.value = value.value_or(std::array<double, 3>{}), .source = ReadSource(keys)};
-    FinishNumber(keys, std::string(range.unit));
-    return triple;
-  }
-  return std::nullopt;
 }
 
 std::optional<SourcedDivergence> ReadDivergence(TomlKeys& root) {
@@ -91,8 +74,8 @@ absl::StatusOr<Sensor> ParseSensor(std::string_view text) {
   TomlKeys keys(*root, "", problem);
   Sensor sensor;
   sensor.title = keys.Text("title", "what people call the sensor").value_or("");
-  for (const auto& each : kSensorNumbers) sensor.*each.field = ReadNumber(keys, each.range);
-  for (const auto& each : kSensorTriples) sensor.*each.field = ReadTriple(keys, each.range);
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i)
+    if (kErrorSources[i].of_sensor) ReadNumbers(keys, i, sensor);
   sensor.divergence = ReadDivergence(keys);
   keys.Finish();
   if (!problem.status().ok()) return problem.status();
@@ -113,12 +96,9 @@ absl::StatusOr<Sensor> ReadSensor(const std::filesystem::path& path) {
 
 std::vector<std::string> UnknownOf(const Sensor& sensor) {
   std::vector<std::string> unknown;
-  const auto add = [&](std::string_view key, bool known) {
-    if (!known) unknown.emplace_back(key);
-  };
-  for (const auto& each : kSensorNumbers) add(each.range.key, (sensor.*each.field).has_value());
-  for (const auto& each : kSensorTriples) add(each.range.key, (sensor.*each.field).has_value());
-  add("divergence", sensor.divergence.has_value());
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i)
+    if (kErrorSources[i].of_sensor && !sensor.errors.stated[i]) unknown.emplace_back(kErrorSources[i].name);
+  if (!sensor.divergence.has_value()) unknown.emplace_back("divergence");
   return unknown;
 }
 

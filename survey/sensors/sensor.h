@@ -12,8 +12,8 @@
 //     unit = "mrad"
 //     source = "..."
 //
-// Numbers are standard deviations, but for the divergence; three are [position], [attitude] and [boresight], whose
-// value is a list. What no source gives is absent.
+// The tables are the sources of error that a sensor may state (budget/air/air_errors.h): standard deviations, of which
+// some are a list of three; and the divergence. What nobody publishes is absent.
 #pragma once
 
 #include <array>
@@ -24,52 +24,25 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "survey/sensors/sigma_range.h"
+#include "survey/sensors/stated_errors.h"
 
 namespace albtpu::client {
 
-struct SourcedNumber {
-  double value = 0;
-  std::string source;
-};
-struct SourcedTriple {
-  std::array<double, 3> value{};
-  std::string source;
-};
 struct SourcedDivergence {
   double value = 0;                       // mrad, full angle
   std::optional<double> least, greatest;  // where it is variable
   std::string source;
 };
 
-// Units and meanings as in survey/sensors/sigma_range.h.
 struct Sensor {
   std::string name;   // The file's, without .toml; empty for a text that is no file.
   std::string title;  // As people call it.
   std::string path;
-  std::optional<SourcedNumber> scan, bottom_range, surface_range, range_offset, lever_arm, time;
-  std::optional<SourcedTriple> position, attitude, boresight;
+  StatedErrors errors;
+  std::array<std::string, kErrorSourceCount>
+      origins;  // Where each stated number is from; empty for the others.
   std::optional<SourcedDivergence> divergence;
 };
-
-template <typename Sourced>
-struct SensorKey {
-  SigmaRange range;
-  std::optional<Sourced> Sensor::*field;
-};
-inline constexpr std::array<SensorKey<SourcedNumber>, 6> kSensorNumbers = {{
-    {sigma::kScan, &Sensor::scan},
-    {sigma::kBottomRange, &Sensor::bottom_range},
-    {sigma::kSurfaceRange, &Sensor::surface_range},
-    {sigma::kRangeOffset, &Sensor::range_offset},
-    {sigma::kLeverArm, &Sensor::lever_arm},
-    {sigma::kTime, &Sensor::time},
-}};
-inline constexpr std::array<SensorKey<SourcedTriple>, 3> kSensorTriples = {{
-    {sigma::kPosition, &Sensor::position},
-    {sigma::kAttitude, &Sensor::attitude},
-    {sigma::kBoresight, &Sensor::boresight},
-}};
 
 // mrad, full angle. A green beam of less would leave the aircraft with a diameter of 3.4 cm or more (4 lambda/(pi D));
 // it was meant in radians.

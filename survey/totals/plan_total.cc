@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -15,66 +17,97 @@
 namespace albtpu::client {
 namespace {
 
-// What is assumed where nothing else is known, 1 sigma: a well calibrated system with a good trajectory, as
-// post-processed GNSS and inertial navigation of airborne surveys state it (data sheets of Applanix AP and POS AV,
-// PPK).
-constexpr Triple kPosition = {0.02, 0.02, 0.06};      // m
-constexpr Triple kAttitude = {0.005, 0.005, 0.008};   // degree
-constexpr Triple kBoresight = {0.001, 0.001, 0.004};  // degree
-constexpr double kLeverArm = 0.02;                    // m
-constexpr double kTime = 1e-5;                        // s
-constexpr double kLevel = 0.05;  // m; of a water level of a gauge or a tide model near by.
-// Sea water of 5 to 30 degrees C and salinities of 25 to 38 has 1.337 to 1.344 at 532 nm (Quan and Fry 1995).
-constexpr double kIndex = 0.002;
-// By refractive_index.h: 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.
+// Of the index: by refractive_index.h 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.
 constexpr double kIndexOfState = 0.0002;
 
-std::string Text(double value) { return absl::StrCat(value); }
-std::string Text(const Triple& value) { return absl::StrJoin(value, ", "); }
+std::string Text(std::span<const double> numbers, std::string_view unit) {
+  return absl::StrCat(absl::StrJoin(numbers, ", "), unit == "1" ? "" : " ",
+                      unit == "1" ? "" : std::string(unit));
+}
 
-// Collects the numbers of the plan with their sources.
-class Numbers {
+// Takes each standard deviation from the user, else from the trajectory pulse by pulse, else from the sensor, else what
+// is assumed; and states which.
+class ErrorPlan {
  public:
-  Numbers(const Sensor& sensor, TotalPlan& plan) : sensor_(sensor), plan_(plan) {}
+  ErrorPlan(const SurveyDescription& survey, const TotalContext& context, const Sensor& sensor,
+            bool index_of_state, TotalPlan& plan)
+      : told_(survey.sigma.value_or(StatedErrors())),
+        trajectory_errors_(context.trajectory_errors),
+        sensor_(sensor),
+        index_of_state_(index_of_state),
+        plan_(plan) {}
 
-  // The user's number, else the sensor's, else what is assumed, which says why; else a problem.
-  template <typename Value, typename Sourced>
-  Value Choose(const char* key, const char* unit, const std::optional<Value>& told,
-               const std::optional<Sourced>& sourced, const std::optional<Value>& assumed,
-               const std::string& why) {
-    const auto take = [&](const Value& value, const std::string& source, bool is_assumed) {
-      plan_.numbers.push_back(
-          {key, absl::StrCat(Text(value), *unit == '\0' ? "" : " ", unit), source, is_assumed});
-      return value;
-    };
-    if (told.has_value()) return take(*told, "[sigma]", false);
-    if (sourced.has_value())
-      return take(sourced->value, absl::StrCat(sensor_.name, ": ", sourced->source), false);
-    if (assumed.has_value()) return take(*assumed, why, true);
-    missing_.push_back(absl::StrCat(key, " (", unit, ")"));
-    return {};
-  }
-  template <typename Value>
-  Value Choose(const char* key, const char* unit, const std::optional<Value>& told, const Value& assumed,
-               const std::string& why) {
-    return Choose(key, unit, told, std::optional<SourcedNumberOr<Value>>(), std::optional<Value>(assumed),
-                  why);
-  }
-
-  absl::Status status() const {
+  absl::Status Make() {
+    const SurfaceLocation located = plan_.options.located;
+    const bool range_told = told_.Has(&AirErrors::surface_range),
+               height_told = told_.Has(&AirErrors::surface_height);
+    if (range_told && (height_told || located == SurfaceLocation::kLevel)) {
+      return UsageError(
+          absl::StrCat("[sigma] surface_range has no effect ",
+                       height_told ? "beside surface_height" : "where a level locates the surface",
+                       " (one of them is how well the surface was located); leave it out"));
+    }
+    const bool own_return = located == SurfaceLocation::kPulse && !height_told;
+    for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+      const ErrorSource& source = kErrorSources[i];
+      if (source.Is(&AirErrors::surface_range) ? own_return
+                                               : !own_return || !source.Is(&AirErrors::surface_height))
+        Take(i);
+    }
     if (missing_.empty()) return absl::OkStatus();
     return UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ",
                                    sensor_.title, "; state it under [sigma] in the survey file"));
   }
 
  private:
-  template <typename Value>
-  struct SourcedNumberOr {
-    Value value;
-    std::string source;
-  };
+  void Take(std::size_t i) {
+    const ErrorSource& source = kErrorSources[i];
+    const auto take = [&](const AirErrors& from, const std::string& origin, bool assumed) {
+      std::ranges::copy(source.In(from), source.In(plan_.options.errors).begin());
+      plan_.numbers.push_back(
+          {std::string(source.name), Text(source.In(from), source.unit), origin, assumed});
+    };
+    const auto [assumed, why] = Assumed(source);
+    bool* const by_pulse = source.Is(&AirErrors::position)   ? &plan_.position_by_pulse
+                           : source.Is(&AirErrors::attitude) ? &plan_.attitude_by_pulse
+                                                             : nullptr;
+    if (told_.stated[i]) return take(told_.values, "[sigma]", false);
+    if (by_pulse != nullptr && !trajectory_errors_.empty()) {
+      *by_pulse = true;
+      std::ranges::copy(source.In(assumed), source.In(plan_.options.errors).begin());
+      plan_.numbers.push_back({std::string(source.name), "pulse by pulse", trajectory_errors_, false});
+      return;
+    }
+    if (sensor_.errors.stated[i])
+      return take(sensor_.errors.values, absl::StrCat(sensor_.name, ": ", sensor_.origins[i]), false);
+    if (!why.empty()) return take(assumed, absl::StrCat("assumed: ", why), true);
+    missing_.push_back(absl::StrCat(std::string(source.name), " (", std::string(source.unit), ")"));
+  }
 
+  // The numbers of a source that nothing states, and why they stand for it.
+  std::pair<AirErrors, std::string> Assumed(const ErrorSource& source) const {
+    AirErrors assumed;
+    std::copy_n(source.assumed.begin(), source.size(), source.In(assumed).begin());
+    const double one_return = told_.Has(&AirErrors::surface_range) ? told_.values.surface_range
+                              : sensor_.errors.Has(&AirErrors::surface_range)
+                                  ? sensor_.errors.values.surface_range
+                                  : plan_.options.errors.bottom_range;
+    if (source.Is(&AirErrors::surface_range)) assumed.surface_range = one_return;
+    if (source.Is(&AirErrors::surface_height) && plan_.options.located != SurfaceLocation::kLevel) {
+      assumed.surface_height = one_return;
+      return {assumed, "no better than one return"};
+    }
+    if (source.Is(&AirErrors::index) && index_of_state_) {
+      assumed.index = kIndexOfState;
+      return {assumed, "temperature and salinity within 1 degree and 1"};
+    }
+    return {assumed, std::string(source.assumption)};
+  }
+
+  const StatedErrors told_;
+  const std::string& trajectory_errors_;
   const Sensor& sensor_;
+  bool index_of_state_;
   TotalPlan& plan_;
   std::vector<std::string> missing_;
 };
@@ -118,9 +151,15 @@ absl::Status CheckDecided(const SurveyDescription& survey) {
 
 }  // namespace
 
+TotalContext ContextOf(const SurveyDescription& survey, Coverage coverage) {
+  const ToldSurface surface = survey.surface.value_or(ToldSurface());
+  return {.coverage = coverage,
+          .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
+          .has_level = surface.level.has_value() || surface.level_file.has_value()};
+}
+
 absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context) {
-  if (context.decided)
-    if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
+  if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
   const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
   if (!sensor.ok()) return sensor.status();
   const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface.value_or(ToldSurface()), context);
@@ -134,59 +173,17 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
     plan.numbers.push_back({name, value, source, assumed});
   };
   state("sensor", sensor->title, sensor->name, false);
+  if (sensor->divergence.has_value()) plan.divergence = sensor->divergence->value;
 
-  const ToldSigma told = survey.sigma.value_or(ToldSigma());
-  AirErrors& errors = options.errors;
-  Numbers numbers(*sensor, plan);
-  const std::string good = "assumed: a good post-processed trajectory";
-  plan.position_by_pulse = !context.trajectory_errors.empty() && !told.position.has_value();
-  plan.attitude_by_pulse = !context.trajectory_errors.empty() && !told.attitude.has_value();
-  if (plan.position_by_pulse) {
-    errors.position = kPosition;
-    state("position", "pulse by pulse", context.trajectory_errors, false);
-  } else {
-    errors.position = numbers.Choose("position", "m", told.position, sensor->position, {kPosition}, good);
-  }
-  if (plan.attitude_by_pulse) {
-    errors.attitude = kAttitude;
-    state("attitude", "pulse by pulse", context.trajectory_errors, false);
-  } else {
-    errors.attitude =
-        numbers.Choose("attitude", "degree", told.attitude, sensor->attitude, {kAttitude}, good);
-  }
-  errors.boresight = numbers.Choose("boresight", "degree", told.boresight, sensor->boresight, {kBoresight},
-                                    "assumed: a good calibration");
-  errors.lever_arm = numbers.Choose("lever_arm", "m", told.lever_arm, sensor->lever_arm, {kLeverArm},
-                                    "assumed: a good survey of it");
-  errors.scan = numbers.Choose("scan", "degree", told.scan, sensor->scan, {}, "");
-  errors.time =
-      numbers.Choose("time", "s", told.time, sensor->time, {kTime}, "assumed: hardware time stamps");
-  errors.range_offset = numbers.Choose("range_offset", "m", told.range_offset, sensor->range_offset, {0.0},
-                                       "assumed: calibrated");
-  errors.bottom_range = numbers.Choose("bottom_range", "m", told.bottom_range, sensor->bottom_range, {}, "");
-  if (absl::Status status = numbers.status(); !status.ok()) return status;
-  const double return_range =
-      sensor->surface_range.has_value() ? sensor->surface_range->value : errors.bottom_range;
-  if (*located == SurfaceLocation::kPulse && !told.surface_height.has_value()) {
-    errors.surface_range =
-        numbers.Choose("surface_range", "m", std::optional<double>(), sensor->surface_range, {return_range},
-                       "assumed: as good as the range to the bottom");
-  } else {
-    const bool level = *located == SurfaceLocation::kLevel;
-    errors.surface_height = numbers.Choose(
-        "surface_height", "m", told.surface_height, level ? kLevel : return_range,
-        level ? "assumed: a gauge or tide model near by" : "assumed: no better than one return");
-  }
   const ToldWater water = survey.water.value_or(ToldWater());
   const std::optional<double> of_water = IndexOf(water);
   const bool by_state =
       of_water.has_value() && !water.index.has_value() && context.index.value_or(*of_water) == *of_water;
-  errors.index = numbers.Choose("index", "", told.index, by_state ? kIndexOfState : kIndex,
-                                by_state ? "assumed: temperature and salinity within 1 degree and 1"
-                                         : "assumed: sea water of unknown temperature and salinity");
+  if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok())
+    return status;
   const std::optional<double> index = context.index.has_value() ? context.index : of_water;
   options.index = index.value_or(options.index);
-  state("refractive_index", Text(options.index),
+  state("refractive_index", absl::StrCat(options.index),
         !index.has_value() ? "assumed: sea water at 532 nm"
         : by_state         ? "temperature and salinity of [water], 532 nm"
                            : "the user",
@@ -194,12 +191,10 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
   const std::optional<Triple> arm =
       context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
   options.lever_arm = arm.value_or(Triple{});
-  state("lever_arm_vector", absl::StrCat(Text(options.lever_arm), " m"),
-        arm.has_value() ? "the user" : "assumed: none", !arm.has_value());
-  const bool datum_told = survey.datum.has_value() && survey.datum->sigma.has_value();
-  options.datum = datum_told ? *survey.datum->sigma : 0;
-  state("datum", absl::StrCat(options.datum, " m"),
-        datum_told ? "[datum]" : "assumed: none, ellipsoidal heights", !datum_told);
+  state("lever_arm_vector", Text(options.lever_arm, "m"), arm.has_value() ? "the user" : "assumed: none",
+        !arm.has_value());
+  options.datum = *survey.datum->sigma;
+  state("datum", absl::StrCat(options.datum, " m"), "[datum]", false);
   absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
   if (!planned.ok()) return planned.status();
   plan.water = *std::move(planned);

@@ -19,13 +19,14 @@ struct TotalContext {
   bool has_level = false;                               // A water level is told.
   std::string trajectory_errors =
       {};  // What states the errors of the trajectory pulse by pulse; empty: nothing does.
-  // All parts of a total must be decided, so that its name is true: the datum, and the water column or that it is left
-  // out.
-  bool decided = true;
 };
 
+// That of a command without a surface of its own: what the survey file says.
+TotalContext ContextOf(const SurveyDescription& survey, Coverage coverage);
+
 // UsageError where a number is missing that nothing gives, where what is told contradicts itself, and where a part of
-// the total is not decided. `survey.sensor` must have a name.
+// the total is not decided, so that its name is true: the datum, and the water column or that it is left out.
+// `survey.sensor` must have a name.
 absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context);
 
 // The wind sea by which a table of winds was made, for the height of waves that the location of the surface does not

@@ -17,13 +17,13 @@ namespace albtpu::client {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Numbers = std::array<float, 6>;
 
-Json CovarianceJson(const Numbers& numbers, bool known) {
+// Of the one pulse; what needs its direction only where that is known.
+Json CovarianceJson(const TotalBatch::Covariance& covariance, bool directed) {
   Json json;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
     const bool vertical = kCovarianceNames[i] == "DD";
-    json[std::string(kCovarianceNames[i])] = known || vertical ? JsonNumber(numbers[i]) : Json();
+    json[std::string(kCovarianceNames[i])] = directed || vertical ? JsonNumber(covariance[i][0]) : Json();
   }
   return json;
 }
@@ -33,8 +33,7 @@ Json NumberOrNull(float number) { return std::isfinite(number) ? JsonNumber(numb
 void SetMotion(const PulseMotion& motion, AircraftColumns& aircraft) {
   const auto set = [&](BudgetInput first, const std::optional<std::array<double, 3>>& told) {
     for (std::size_t i = 0; told.has_value() && i < 3; ++i)
-      aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(first) + i)] = {
-          static_cast<float>((*told)[i])};
+      aircraft[first + i] = {static_cast<float>((*told)[i])};
   };
   set(BudgetInput::kRoll, motion.attitude);
   set(BudgetInput::kVelocityNorth, motion.velocity);
@@ -96,65 +95,45 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
   AnswerBatch sea;
   absl::Status status = AnswerPulses(source, {}, total.pulse, selection, sea);
   if (!status.ok()) return status;
-  WaterBatch water;
-  AddWater(total.plan.water, total.pulse, sea, water);
+  TotalBatch totals;
+  totals.whole = true;
+  const WaterBatch& water = totals.water;
+  AddWater(total.plan.water, total.pulse, sea, totals.water);
   AircraftColumns aircraft;
-  aircraft.altitude = {total.altitude};
-  if (total.beam_azimuth.has_value()) aircraft.beam_azimuth = {*total.beam_azimuth};
+  aircraft[BudgetInput::kAltitude] = {total.altitude};
+  if (total.beam_azimuth.has_value()) aircraft[BudgetInput::kBeamAzimuth] = {*total.beam_azimuth};
   SetMotion(total.motion, aircraft);
-  const TotalInputs inputs(total.plan, total.pulse, sea, water, aircraft);
-  float thu = 0, tvu = 0, thu_air = 0, tvu_air = 0, thu_sea = 0, tvu_sea = 0, thu_water = 0, tvu_water = 0;
-  std::uint8_t best = 0;
-  std::array<Numbers, 3 + kErrorGroups> numbers;  // Air, sea, total, groups.
-  Numbers of_water = {};
-  const auto one = [](float& number) { return std::span<float>(&number, 1); };
-  BudgetOutputs outputs{.thu = one(thu),
-                        .tvu = one(tvu),
-                        .thu_air = one(thu_air),
-                        .tvu_air = one(tvu_air),
-                        .thu_sea = one(thu_sea),
-                        .tvu_sea = one(tvu_sea),
-                        .thu_water = one(thu_water),
-                        .tvu_water = one(tvu_water),
-                        .best_orders = std::span<std::uint8_t>(&best, 1)};
-  const auto entries = [&](Numbers& of, CovarianceColumns& columns) {
-    for (std::size_t i = 0; i < of.size(); ++i) columns[i] = one(of[i]);
-  };
-  entries(numbers[0], outputs.air);
-  entries(numbers[1], outputs.sea);
-  entries(of_water, outputs.water);
-  entries(numbers[2], outputs.total);
-  for (std::size_t g = 0; g < kErrorGroups; ++g) entries(numbers[3 + g], outputs.groups[g]);
-  ComputeBudget(inputs.columns(), total.plan.options, outputs);
+  ComputeTotals(total.plan, total.pulse, sea, aircraft, totals);
 
   const bool directed = total.beam_azimuth.has_value(), with_water = total.plan.water.share != nullptr;
-  Json json = {{"thu", NumberOrNull(thu)},
-               {"tvu", NumberOrNull(tvu)},
+  Json json = {{"thu", NumberOrNull(totals.thu[0])},
+               {"tvu", NumberOrNull(totals.tvu[0])},
                {"coverage", CoverageName(total.plan.options.coverage)},
                {"outcome", std::string(OutcomeName(sea, 0))},
-               {"covariance_air", CovarianceJson(numbers[0], directed)},
-               {"covariance_sea", CovarianceJson(numbers[1], directed)},
-               {"covariance_water", with_water ? CovarianceJson(of_water, directed) : Json()},
-               {"covariance_total", CovarianceJson(numbers[2], directed)},
-               {"thu_air", NumberOrNull(thu_air)},
-               {"tvu_air", NumberOrNull(tvu_air)},
-               {"thu_sea", NumberOrNull(thu_sea)},
-               {"tvu_sea", NumberOrNull(tvu_sea)},
-               {"thu_water", with_water ? NumberOrNull(thu_water) : Json()},
-               {"tvu_water", with_water ? NumberOrNull(tvu_water) : Json()}};
-  const Numbers& all = numbers[2];
-  const HorizontalEllipse ellipse = EllipseOf(all[0], all[1], all[3]);
+               {"covariance_air", CovarianceJson(totals.air, directed)},
+               {"covariance_sea", CovarianceJson(totals.sea, directed)},
+               {"covariance_water", with_water ? CovarianceJson(totals.of_water, directed) : Json()},
+               {"covariance_total", CovarianceJson(totals.covariance, directed)},
+               {"thu_air", NumberOrNull(totals.thu_air[0])},
+               {"tvu_air", NumberOrNull(totals.tvu_air[0])},
+               {"thu_sea", NumberOrNull(totals.thu_sea[0])},
+               {"tvu_sea", NumberOrNull(totals.tvu_sea[0])},
+               {"thu_water", with_water ? NumberOrNull(totals.thu_water[0]) : Json()},
+               {"tvu_water", with_water ? NumberOrNull(totals.tvu_water[0]) : Json()}};
+  const TotalBatch::Covariance& all = totals.covariance;
+  const HorizontalEllipse ellipse = EllipseOf(all[0][0], all[1][0], all[3][0]);
   json["semi_major"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_major)) : Json();
   json["semi_minor"] = directed ? NumberOrNull(static_cast<float>(ellipse.semi_minor)) : Json();
   json["major_azimuth"] = directed ? NumberOrNull(static_cast<float>(ellipse.major_azimuth)) : Json();
   json["bias_along_beam"] = NumberOrNull(sea[Quantity::kBiasAlongBeam][0]);
   json["bias_vertical"] = NumberOrNull(sea[Quantity::kBiasVertical][0]);
+  const std::uint8_t best = totals.best_orders[0];
   json["s44_order_met"] = best > 0 ? Json(std::string(Name(kS44Orders[best - 1]))) : Json();
   json["sources"] = SourcesJson(total);
   json["sources"]["datum"] = {
       {"horizontal", 0}, {"vertical", std::pow(total.plan.options.datum, 2)}, {"group", "survey"}};
-  json["sources"]["sea"] = {{"horizontal", NumberOrNull(numbers[1][0] + numbers[1][1])},
-                            {"vertical", NumberOrNull(numbers[1][2])},
+  json["sources"]["sea"] = {{"horizontal", NumberOrNull(totals.sea[0][0] + totals.sea[1][0])},
+                            {"vertical", NumberOrNull(totals.sea[2][0])},
                             {"group", "pulse"}};
   if (with_water) {
     const double noise = std::pow(water.noise[0], 2);
@@ -162,14 +141,14 @@ absl::StatusOr<Json> TotalJson(const PulseTotal& total, const AnswerSource& sour
                                 {"vertical", NumberOrNull(water.sigma_vertical[0] * water.sigma_vertical[0])},
                                 {"group", "survey"}};
     if (total.plan.water.photons.has_value())
-      json["sources"]["photons"] = {
-          {"horizontal", of_water[0] + of_water[1] - water.sigma_along[0] * water.sigma_along[0]},
-          {"vertical", noise},
-          {"group", "pulse"}};
+      json["sources"]["photons"] = {{"horizontal", totals.of_water[0][0] + totals.of_water[1][0] -
+                                                       water.sigma_along[0] * water.sigma_along[0]},
+                                    {"vertical", noise},
+                                    {"group", "pulse"}};
     json["water"] = WaterJson(total.plan.water, total.pulse);
   }
   for (std::size_t g = 0; g < kErrorGroups; ++g)
-    json["groups"][std::string(kErrorGroupNames[g])] = CovarianceJson(numbers[3 + g], directed);
+    json["groups"][std::string(kErrorGroupNames[g])] = CovarianceJson(totals.groups[g], directed);
   json["plan"] = Parameters(total.plan);
   json["assumed"] = Assumptions(total.plan);
   if (!total.motion.attitude.has_value()) json["assumed"].push_back("attitude of level flight to the north");

@@ -30,7 +30,7 @@ struct PulseTotal {
 // `covariance_water`, `covariance_total` (m^2, 1 sigma: NN EE DD NE ND ED; null where not known or left out); `sources`
 // (the variances of each, horizontal and vertical, m^2, and its group); `groups`; `semi_major`, `semi_minor` (m, 1
 // sigma), `major_azimuth` (degree from north); `bias_along_beam`, `bias_vertical` (m); `s44_order_met`; `outcome`;
-// `numbers` of the plan with their sources; `assumed`, `undecided`. Fails where the source does.
+// `plan` with its numbers and their sources; `assumed`. Fails where the source does.
 absl::StatusOr<nlohmann::ordered_json> TotalJson(const PulseTotal& total, const AnswerSource& source);
 
 // The same for people.

@@ -6,6 +6,10 @@
 
 namespace albtpu::client {
 
+StatedNumber AssumedDivergence(double milliradians) {
+  return {"divergence", absl::StrCat(milliradians, " mrad"), "assumed: the default of the sensor", true};
+}
+
 nlohmann::ordered_json Parameters(const TotalPlan& plan) {
   nlohmann::ordered_json json;
   json["located"] = std::string(kSurfaceLocationNames[static_cast<std::size_t>(plan.options.located)]);

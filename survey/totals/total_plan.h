@@ -17,6 +17,7 @@ struct TotalPlan {
   BudgetOptions options;
   std::vector<StatedNumber> numbers;
   WaterPlan water;
+  std::optional<double> divergence;  // mrad, of the sensor; absent: no source gives it.
   // The standard deviations of position and attitude are those of each pulse, where its trajectory states them.
   bool position_by_pulse = false, attitude_by_pulse = false;
   // The axis of a sea that is known by its wind, degree clockwise from true north; absent: not known, or another sea.
@@ -26,6 +27,9 @@ struct TotalPlan {
   // The height of the waves is not part of how the surface was located.
   bool waves_unseen() const { return options.located != SurfaceLocation::kPulse; }
 };
+
+// The divergence of the sensor as one of the numbers, for a plan that takes it because nothing else is given.
+StatedNumber AssumedDivergence(double milliradians);
 
 // As a summary states it: "sensor", "located", every number with its source.
 nlohmann::ordered_json Parameters(const TotalPlan& plan);

@@ -68,7 +68,7 @@ void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const T
   band.tvu.Add(totals.tvu[i]);
   band.air.Add(totals.air, i);
   band.sea.Add(totals.sea, i);
-  if (!totals.of_water.down.empty()) band.water.Add(totals.of_water, i);
+  if (!totals.of_water[2].empty()) band.water.Add(totals.of_water, i);
   for (std::size_t g = 0; g < kErrorGroups; ++g) {
     band.groups[g].Add(totals.groups[g], i);
     band.total.Add(totals.groups[g], i);

@@ -56,9 +56,9 @@ class TotalSummary {
   struct Sums {
     double horizontal = 0, vertical = 0;
 
-    void Add(const TotalBatch::Variances& variances, std::size_t i) {
-      horizontal += static_cast<double>(variances.north[i]) + variances.east[i];
-      vertical += variances.down[i];
+    void Add(const TotalBatch::Covariance& covariance, std::size_t i) {
+      horizontal += static_cast<double>(covariance[0][i]) + covariance[1][i];
+      vertical += covariance[2][i];
     }
     void Merge(const Sums& other) {
       horizontal += other.horizontal;

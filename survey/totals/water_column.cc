@@ -166,14 +166,13 @@ absl::StatusOr<WaterPlan> PlanWater(const ToldWater& told, double index, std::ve
     plan.processed_with = *told.processed_with;
     numbers.push_back({"processed_with", absl::StrCat(*told.processed_with), "[water]", false});
   }
-  if (told.without_column || !told.bias.has_value()) {
-    if (told.without_column && told.bias.has_value())
+  if (told.without_column) {
+    if (told.bias.has_value())
       return UsageError(
           "[water] bias contradicts column = \"none\" (the share of the water is computed, or left out); "
           "give one of "
           "them");
-    numbers.push_back(
-        {"water_column", "left out", told.without_column ? "[water]" : "not decided", !told.without_column});
+    numbers.push_back({"water_column", "left out", "[water]", false});
     return plan;
   }
   if (absl::Status status = CheckReceiver(told); !status.ok()) return status;

@@ -4,29 +4,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "budget/query/query_check.h"
+#include "service/error_message.h"
 #include "service/server/ground/errors.h"
 #include "service/server/tables/wire_enums.h"
 
 namespace albtpu::server {
 namespace {
 
-std::array<double, 3> Read(const v1::NorthEastDown& v) { return {v.north(), v.east(), v.down()}; }
-std::array<double, 3> Read(const v1::RollPitchHeading& v) { return {v.roll(), v.pitch(), v.heading()}; }
 std::array<double, 3> Read(const v1::ForwardRightDown& v) { return {v.forward(), v.right(), v.down()}; }
-
-AirErrors Read(const v1::AirErrors& errors) {
-  return {.position = Read(errors.position()),
-          .attitude = Read(errors.attitude()),
-          .boresight = Read(errors.boresight()),
-          .lever_arm = errors.lever_arm(),
-          .scan = errors.scan(),
-          .time = errors.time(),
-          .range_offset = errors.range_offset(),
-          .bottom_range = errors.bottom_range(),
-          .surface_range = errors.surface_range(),
-          .surface_height = errors.surface_height(),
-          .index = errors.index()};
-}
 
 }  // namespace
 
@@ -35,7 +20,7 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
   if (!coverage.ok()) return coverage.status();
   const absl::StatusOr<SurfaceLocation> located = FromWire(options.located());
   if (!located.ok()) return located.status();
-  BudgetOptions read{.errors = Read(options.errors()),
+  BudgetOptions read{.errors = FromMessage(options.errors()),
                      .located = *located,
                      .lever_arm = Read(options.lever_arm()),
                      .datum = options.datum(),
@@ -54,35 +39,14 @@ absl::StatusOr<BudgetOptions> ReadBudgetOptions(const v1::BudgetOptions& options
 }
 
 std::array<RequestColumn, kAircraftInputs.size()> ColumnsOf(const v1::AircraftColumns& aircraft) {
-  const std::array<const std::string*, kAircraftInputs.size()> bytes = {&aircraft.altitude(),
-                                                                        &aircraft.beam_azimuth(),
-                                                                        &aircraft.roll(),
-                                                                        &aircraft.pitch(),
-                                                                        &aircraft.heading(),
-                                                                        &aircraft.velocity_north(),
-                                                                        &aircraft.velocity_east(),
-                                                                        &aircraft.velocity_down(),
-                                                                        &aircraft.roll_rate(),
-                                                                        &aircraft.pitch_rate(),
-                                                                        &aircraft.yaw_rate(),
-                                                                        &aircraft.position_sigma_north(),
-                                                                        &aircraft.position_sigma_east(),
-                                                                        &aircraft.position_sigma_down(),
-                                                                        &aircraft.roll_sigma(),
-                                                                        &aircraft.pitch_sigma(),
-                                                                        &aircraft.heading_sigma(),
-                                                                        &aircraft.wave_height(),
-                                                                        &aircraft.water_sigma_along(),
-                                                                        &aircraft.water_sigma_vertical(),
-                                                                        &aircraft.water_correlation(),
-                                                                        &aircraft.water_noise(),
-                                                                        &aircraft.water_bias_along(),
-                                                                        &aircraft.water_bias_vertical()};
+  static const std::string* const kScratch = new std::string();
   std::array<RequestColumn, kAircraftInputs.size()> columns;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {  // Field i + 1 is input i.
     const BudgetInput input = kAircraftInputs[i];
-    columns[i] = {"aircraft", kBudgetInputNames[static_cast<std::size_t>(input)], bytes[i],
-                  IsRequired(input)};
+    const std::string& bytes = aircraft.GetReflection()->GetStringReference(
+        aircraft, v1::AircraftColumns::descriptor()->FindFieldByNumber(static_cast<int>(i) + 1),
+        const_cast<std::string*>(kScratch));
+    columns[i] = {"aircraft", kBudgetInputNames[static_cast<std::size_t>(input)], &bytes, IsRequired(input)};
   }
   return columns;
 }

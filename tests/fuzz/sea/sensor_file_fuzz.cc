@@ -9,22 +9,17 @@ namespace {
 
 using namespace albtpu::client;
 
-void CheckNumber(const SigmaRange& range, double value) {
-  ALBTPU_MUST(value > 0 && value <= range.greatest);
-  ALBTPU_MUST(range.unit != "degree" || value >= kLeastAngle);
-}
-
 void CheckSensor(const Sensor& sensor) {
   ALBTPU_MUST(!sensor.title.empty());
-  for (const auto& [range, field] : kSensorNumbers) {
-    if (!(sensor.*field).has_value()) continue;
-    CheckNumber(range, (sensor.*field)->value);
-    ALBTPU_MUST(!(sensor.*field)->source.empty());
-  }
-  for (const auto& [range, field] : kSensorTriples) {
-    if (!(sensor.*field).has_value()) continue;
-    for (const double value : (sensor.*field)->value) CheckNumber(range, value);
-    ALBTPU_MUST(!(sensor.*field)->source.empty());
+  for (std::size_t i = 0; i < albtpu::kErrorSourceCount; ++i) {
+    const albtpu::ErrorSource& source = albtpu::kErrorSources[i];
+    ALBTPU_MUST(source.of_sensor || !sensor.errors.stated[i]);
+    ALBTPU_MUST(sensor.errors.stated[i] != sensor.origins[i].empty());
+    if (!sensor.errors.stated[i]) continue;
+    for (const double number : source.In(sensor.errors.values)) {
+      ALBTPU_MUST(number > 0 && number <= source.greatest);
+      ALBTPU_MUST(source.unit != "degree" || number >= kLeastAngle);
+    }
   }
   if (!sensor.divergence.has_value()) return;
   const SourcedDivergence& divergence = *sensor.divergence;

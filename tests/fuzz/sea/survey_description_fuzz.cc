@@ -37,17 +37,14 @@ void CheckNumbersAreInRange(const Keys& keys, const Told& told) {
   }
 }
 
-void CheckSigma(const SigmaRange& range, double value) {
-  ALBTPU_MUST(value >= 0 && value <= range.greatest);
-  ALBTPU_MUST(range.unit != "degree" || value == 0 || value >= kLeastAngle);
-}
-
-void CheckSigmasAreInRange(const ToldSigma& sigma) {
-  for (const auto& [range, field] : kSigmaNumbers)
-    if ((sigma.*field).has_value()) CheckSigma(range, *(sigma.*field));
-  for (const auto& [range, field] : kSigmaTriples) {
-    if (!(sigma.*field).has_value()) continue;
-    for (const double value : *(sigma.*field)) CheckSigma(range, value);
+void CheckSigmasAreInRange(const StatedErrors& sigma) {
+  for (std::size_t i = 0; i < albtpu::kErrorSourceCount; ++i) {
+    const albtpu::ErrorSource& source = albtpu::kErrorSources[i];
+    if (!sigma.stated[i]) continue;
+    for (const double number : source.In(sigma.values)) {
+      ALBTPU_MUST(number >= 0 && number <= source.greatest);
+      ALBTPU_MUST(source.unit != "degree" || number == 0 || number >= kLeastAngle);
+    }
   }
 }
 

@@ -83,16 +83,13 @@ TEST(SurveySections, SayAllOfASurvey) {
   EXPECT_FALSE(survey.water->without_column);
   EXPECT_EQ(survey.datum.value().sigma, 0.08);
   EXPECT_EQ(survey.datum->geoid_separation, -25.1);
-  EXPECT_THAT(survey.sigma.value().position.value(), ElementsAre(0.02, 0.02, 0.06));
-  EXPECT_THAT(survey.sigma->attitude.value(), ElementsAre(0.005, 0, 0.008));
-  EXPECT_THAT(survey.sigma->boresight.value(), ElementsAre(0, 0, 0));
-  EXPECT_EQ(survey.sigma->lever_arm, 0.02);
-  EXPECT_EQ(survey.sigma->scan, 0.02);
-  EXPECT_EQ(survey.sigma->time, 1e-5);
-  EXPECT_EQ(survey.sigma->range_offset, 0.01);
-  EXPECT_EQ(survey.sigma->bottom_range, 0.025);
-  EXPECT_EQ(survey.sigma->surface_height, 0);
-  EXPECT_EQ(survey.sigma->index, 0.001);
+  const StatedErrors& sigma = survey.sigma.value();
+  EXPECT_THAT(sigma.values.position, ElementsAre(0.02, 0.02, 0.06));
+  EXPECT_THAT(sigma.values.attitude, ElementsAre(0.005, 0, 0.008));
+  EXPECT_EQ(sigma.values.scan, 0.02);
+  EXPECT_EQ(sigma.values.surface_height, 0);
+  EXPECT_TRUE(sigma.Has(&AirErrors::surface_height));
+  EXPECT_FALSE(sigma.Has(&AirErrors::surface_range));
   EXPECT_THAT(survey.output.value().classes, ElementsAre(40));
   EXPECT_EQ(survey.output->coverage, "p95");
   EXPECT_EQ(survey.output->s44_order, "1b");
@@ -108,7 +105,7 @@ TEST(SurveySections, MayEachBeAbsentOrEmpty) {
   EXPECT_TRUE(empty.sensor && empty.trajectory && empty.surface && empty.sea && empty.water && empty.datum &&
               empty.sigma && empty.output);
   EXPECT_FALSE(empty.sensor->name.has_value());
-  EXPECT_FALSE(empty.sigma->position.has_value());
+  EXPECT_FALSE(empty.sigma->Has(&AirErrors::position));
   EXPECT_TRUE(empty.output->classes.empty());
 }
 
@@ -134,7 +131,7 @@ TEST(SurveySections, HaveALevelAsANumberOrAFile) {
 TEST(SurveySections, TakeWholeNumbersAsNumbers) {
   EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor->lever_arm.value(),
               ElementsAre(1, 2.5, -3));
-  EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma->scan, 1);
+  EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma->values.scan, 1);
 }
 
 // What stands in the file, and how the message begins and what it says.
@@ -247,9 +244,12 @@ TEST(SurveySections, RefuseEachWrongNumber) {
   };
   for (const auto& each : kWaterNumbers) refuse("water", each.key, each.greatest * 1.01);
   for (const auto& each : kDatumNumbers) refuse("datum", each.key, each.greatest * 1.01);
-  for (const auto& each : kSigmaNumbers) refuse("sigma", each.range.key, each.range.greatest * 1.01);
-  for (const auto& each : kSigmaTriples) {
-    const std::string key(each.range.key);
+  for (const ErrorSource& source : kErrorSources) {
+    const std::string key(source.name);
+    if (source.size() == 1) {
+      refuse("sigma", source.name, source.greatest * 1.01);
+      continue;
+    }
     for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]", "[nan, 1, 1]",
                               "[1, 1, inf]", "[1, 1, 101]", "[1, 1, \"1\"]"}) {
       const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
@@ -266,10 +266,17 @@ TEST(SurveySections, TakeTheEndsOfEachRange) {
       EXPECT_EQ(Survey(text).water.value().*each.field, end) << text;
     }
   }
-  for (const auto& each : kSigmaNumbers) {
-    for (const double end : {0.0, each.range.greatest}) {
-      const std::string text = "[sigma]\n" + std::string(each.range.key) + " = " + std::to_string(end) + "\n";
-      EXPECT_EQ(Survey(text).sigma.value().*each.field, end) << text;
+}
+
+TEST(SurveySections, TakeEachSourceOfErrorUpToItsEnd) {
+  for (const ErrorSource& source : kErrorSources) {
+    for (const double end : {0.0, source.greatest}) {
+      const std::string number = std::to_string(end);
+      const std::string value =
+          source.size() == 1 ? number : "[" + number + ", " + number + ", " + number + "]";
+      const StatedErrors sigma = Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma.value();
+      EXPECT_THAT(source.In(sigma.values), ::testing::Each(end)) << source.name;
+      EXPECT_EQ(std::ranges::count(sigma.stated, true), 1) << source.name;
     }
   }
 }

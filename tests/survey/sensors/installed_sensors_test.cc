@@ -48,15 +48,12 @@ TEST(ShippedSensors, CanAllBeRead) {
 // A source names what to look up: letters, and more than a word.
 TEST(ShippedSensors, HaveASourceForEachNumber) {
   const InstalledIn shipped(SHIPPED_SENSORS);
-  const auto check = [](const Sensor& sensor, const auto& known) {
-    if (!known.has_value()) return;
-    EXPECT_THAT(known->source, ::testing::ContainsRegex("[A-Za-z]+ .*[A-Za-z]")) << sensor.name;
-  };
+  const auto names_a_source = ::testing::ContainsRegex("[A-Za-z]+ .*[A-Za-z]");
   const std::vector<Sensor> sensors = ListSensors().value();
   for (const Sensor& sensor : sensors) {
-    for (const auto& each : kSensorNumbers) check(sensor, sensor.*each.field);
-    for (const auto& each : kSensorTriples) check(sensor, sensor.*each.field);
-    check(sensor, sensor.divergence);
+    for (std::size_t i = 0; i < kErrorSourceCount; ++i)
+      if (sensor.errors.stated[i]) EXPECT_THAT(sensor.origins[i], names_a_source) << sensor.name;
+    if (sensor.divergence.has_value()) EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
     EXPECT_LT(UnknownOf(sensor).size(), 10u) << sensor.name << " has no number";
   }
 }
@@ -74,8 +71,8 @@ TEST(ShippedSensors, RepeatTheNumbersOfCblue) {
               {"teledyne-czmil-nova", 0.00392, 0.025}, {"teledyne-czmil-supernova", 0.00392, 0.025}};
   for (const auto& row : rows) {
     const Sensor sensor = FindSensor(row.name).value();
-    EXPECT_EQ(sensor.scan.value().value, row.scan) << row.name;
-    EXPECT_EQ(sensor.bottom_range.value().value, row.range) << row.name;
+    EXPECT_EQ(sensor.errors.values.scan, row.scan) << row.name;
+    EXPECT_EQ(sensor.errors.values.bottom_range, row.range) << row.name;
   }
 }
 

@@ -49,10 +49,10 @@ TEST(Sensor, HasNumbersWithTheirSources) {
   const absl::StatusOr<Sensor> sensor = ParseSensor(kWhole);
   ASSERT_TRUE(sensor.ok()) << sensor.status();
   EXPECT_EQ(sensor->title, "Green Scanner 3");
-  EXPECT_EQ(sensor->scan.value().value, 0.02);
-  EXPECT_EQ(sensor->scan.value().source, "its data sheet");
-  EXPECT_THAT(sensor->attitude.value().value, ElementsAre(0.0025, 0.0025, 0.005));
-  EXPECT_EQ(sensor->attitude.value().source, "the manual of its IMU");
+  EXPECT_EQ(sensor->errors.values.scan, 0.02);
+  EXPECT_EQ(sensor->origins[Index(&AirErrors::scan)], "its data sheet");
+  EXPECT_THAT(sensor->errors.values.attitude, ElementsAre(0.0025, 0.0025, 0.005));
+  EXPECT_EQ(sensor->origins[Index(&AirErrors::attitude)], "the manual of its IMU");
   EXPECT_EQ(sensor->divergence.value().value, 1);
   EXPECT_EQ(sensor->divergence.value().least, 0.7);
   EXPECT_EQ(sensor->divergence.value().greatest, 2);
@@ -61,27 +61,29 @@ TEST(Sensor, HasNumbersWithTheirSources) {
 
 TEST(Sensor, LacksWhatNoSourceGives) {
   const Sensor sensor = ParseSensor(kWhole).value();
-  EXPECT_FALSE(sensor.bottom_range.has_value());
-  EXPECT_FALSE(sensor.boresight.has_value());
-  EXPECT_THAT(UnknownOf(sensor), ElementsAre("bottom_range", "surface_range", "range_offset", "lever_arm",
-                                             "time", "position", "boresight"));
+  EXPECT_TRUE(sensor.errors.Has(&AirErrors::scan));
+  EXPECT_FALSE(sensor.errors.Has(&AirErrors::boresight));
+  EXPECT_THAT(UnknownOf(sensor), ElementsAre("position", "boresight", "lever_arm", "time", "range_offset",
+                                             "bottom_range", "surface_range"));
   EXPECT_EQ(UnknownOf(ParseSensor("title = 'a'\n").value()).size(), 10u);
 }
 
 TEST(Sensor, ReadsEachNumberIntoItsOwnPlace) {
-  for (const auto& each : kSensorNumbers) {
-    const Sensor sensor =
-        ParseSensor(Number(std::string(each.range.key), "0.125", std::string(each.range.unit))).value();
-    for (const auto& other : kSensorNumbers)
-      EXPECT_EQ((sensor.*other.field).has_value(), other.range.key == each.range.key);
-    EXPECT_EQ((sensor.*each.field).value().value, 0.125) << each.range.key;
-  }
-  for (const auto& each : kSensorTriples) {
-    const Sensor sensor =
-        ParseSensor(Number(std::string(each.range.key), "[1, 2, 3.5]", std::string(each.range.unit))).value();
-    for (const auto& other : kSensorTriples)
-      EXPECT_EQ((sensor.*other.field).has_value(), other.range.key == each.range.key);
-    EXPECT_THAT((sensor.*each.field).value().value, ElementsAre(1, 2, 3.5)) << each.range.key;
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    const ErrorSource& source = kErrorSources[i];
+    const std::string text = Number(std::string(source.name), source.size() == 1 ? "0.0625" : "[1, 2, 3.5]",
+                                    std::string(source.unit));
+    if (!source.of_sensor) {
+      EXPECT_THAT(ErrorOf(text), HasSubstr("is no key of a sensor file"));
+      continue;
+    }
+    const Sensor sensor = ParseSensor(text).value();
+    for (std::size_t k = 0; k < kErrorSourceCount; ++k) EXPECT_EQ(sensor.errors.stated[k], k == i);
+    if (source.size() == 1) {
+      EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(0.0625)) << source.name;
+    } else {
+      EXPECT_THAT(source.In(sensor.errors.values), ElementsAre(1, 2, 3.5)) << source.name;
+    }
   }
 }
 
@@ -107,19 +109,16 @@ TEST(Sensor, NeedsTheSourceAndTheUnitOfEachNumber) {
 }
 
 TEST(Sensor, RefusesEachWrongNumber) {
-  for (const auto& each : kSensorNumbers) {
-    const std::string key(each.range.key), unit(each.range.unit);
-    for (const char* value : {"-0.1", "0", "0.0", "nan", "inf", "1e9", "'1'", "true", "[1]", "{}"}) {
-      const std::string error = ErrorOf(Number(key, value, unit));
-      EXPECT_THAT(error, StartsWith("line 3: '" + key + ".value' is ")) << value;
-      EXPECT_THAT(error, HasSubstr("; ")) << value;
-    }
-  }
-  for (const auto& each : kSensorTriples) {
-    const std::string key(each.range.key), unit(each.range.unit);
-    for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, 1, -1]", "[1, nan, 1]", "[1, 1, 0]",
-                              "[inf, 1, 1]", "['1', 1, 1]", "[1, 1, 1e9]"}) {
-      const std::string error = ErrorOf(Number(key, value, unit));
+  const std::vector<std::string> wrong = {"-0.1", "0",   "0.0",  "nan", "inf",
+                                          "1e9",  "'1'", "true", "[1]", "{}"};
+  const std::vector<std::string> wrong_triples = {"1",           "[]",          "[1, 1]",    "[1, 1, 1, 1]",
+                                                  "[1, 1, -1]",  "[1, nan, 1]", "[1, 1, 0]", "[inf, 1, 1]",
+                                                  "['1', 1, 1]", "[1, 1, 1e9]"};
+  for (const ErrorSource& source : kErrorSources) {
+    if (!source.of_sensor) continue;
+    const std::string key(source.name);
+    for (const std::string& value : source.size() == 1 ? wrong : wrong_triples) {
+      const std::string error = ErrorOf(Number(key, value, std::string(source.unit)));
       EXPECT_THAT(error, StartsWith("line 3: '" + key + ".value' ")) << value;
       EXPECT_THAT(error, HasSubstr("; ")) << value;
     }

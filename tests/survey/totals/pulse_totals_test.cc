@@ -47,8 +47,8 @@ TotalPlan Plan() {
 
 AircraftColumns Aircraft() {
   AircraftColumns aircraft;
-  aircraft.altitude = {400};
-  aircraft.beam_azimuth = {10, 100, 190};
+  aircraft[BudgetInput::kAltitude] = {400};
+  aircraft[BudgetInput::kBeamAzimuth] = {10, 100, 190};
   return aircraft;
 }
 
@@ -57,7 +57,7 @@ TEST(ComputeTotals, AddsTheShares) {
   TotalBatch totals;
   ComputeTotals(Plan(), Pulses(), Sea(), aircraft, totals);
   for (std::size_t i = 0; i < kPulses; ++i) {
-    const double vertical = totals.air.down[i] + totals.sea.down[i] + 0.05 * 0.05;
+    const double vertical = totals.air[2][i] + totals.sea[2][i] + 0.05 * 0.05;
     EXPECT_NEAR(totals.tvu[i], 2 * std::sqrt(vertical), 1e-6);
     EXPECT_NEAR(totals.thu[i], std::hypot(totals.thu_air[i], totals.thu_sea[i]), 1e-6);
     EXPECT_NEAR(totals.thu_sea[i], 0.1 * static_cast<double>(i + 1), 1e-6);
@@ -69,8 +69,7 @@ TEST(ComputeTotals, TakesSigmasOfThePulseWhereTheyAreKnown) {
   plan.position_by_pulse = true;
   AircraftColumns aircraft = Aircraft();
   for (std::size_t axis = 0; axis < 3; ++axis)
-    aircraft[static_cast<BudgetInput>(static_cast<std::size_t>(BudgetInput::kPositionSigmaNorth) + axis)] = {
-        1, NAN, 1};
+    aircraft[BudgetInput::kPositionSigmaNorth + axis] = {1, NAN, 1};
   TotalBatch totals, assumed;
   ComputeTotals(plan, Pulses(), Sea(), aircraft, totals);
   aircraft = Aircraft();
@@ -82,7 +81,7 @@ TEST(ComputeTotals, TakesSigmasOfThePulseWhereTheyAreKnown) {
 
 TEST(ComputeTotals, StatesNoHorizontalCovarianceWithoutADirection) {
   AircraftColumns aircraft = Aircraft();
-  aircraft.beam_azimuth.clear();
+  aircraft[BudgetInput::kBeamAzimuth].clear();
   TotalBatch totals;
   ComputeTotals(Plan(), Pulses(), Sea(), aircraft, totals);
   EXPECT_TRUE(std::isnan(totals.covariance[0][0]));

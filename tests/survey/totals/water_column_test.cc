@@ -142,10 +142,10 @@ TEST_F(WaterColumnPlan, IsAShareOfTheTotal) {
   const PulseBatch pulses = Pulses();
   AddWater(plan.water, pulses, answers, totals.water);
   AircraftColumns aircraft;
-  aircraft.altitude = {400};
-  aircraft.beam_azimuth = {10};
+  aircraft[BudgetInput::kAltitude] = {400};
+  aircraft[BudgetInput::kBeamAzimuth] = {10};
   ComputeTotals(plan, pulses, answers, aircraft, totals);
-  const double vertical = totals.air.down[0] + totals.sea.down[0] + totals.of_water.down[0] + 0.05 * 0.05;
+  const double vertical = totals.air[2][0] + totals.sea[2][0] + totals.of_water[2][0] + 0.05 * 0.05;
   EXPECT_NEAR(totals.tvu[0], 2 * std::sqrt(vertical), 1e-6);
   EXPECT_NEAR(totals.tvu_water[0], 2 * totals.water.sigma_vertical[0], 1e-6);
   EXPECT_TRUE(std::isnan(totals.tvu[1]));
@@ -156,8 +156,7 @@ TEST_F(WaterColumnPlan, IsAShareOfTheTotal) {
   double sum = 0;
   for (const auto& share : json["all"]["shares_vertical"]) sum += share.get<double>();
   EXPECT_NEAR(sum, 1, 1e-6);
-  EXPECT_NEAR(json["all"]["shares_vertical"]["water"].get<double>(), totals.of_water.down[0] / vertical,
-              1e-5);
+  EXPECT_NEAR(json["all"]["shares_vertical"]["water"].get<double>(), totals.of_water[2][0] / vertical, 1e-5);
 }
 
 }  // namespace

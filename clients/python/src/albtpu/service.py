@@ -104,9 +104,8 @@ class Service(UncertaintySource):
                       of the elevation that the location of the surface does not see; and the share of the water column,
                       which `albtpu-query pulse` states: water_sigma_along, water_sigma_vertical and water_noise in m,
                       water_correlation, water_bias_along and water_bias_vertical in m (omitted: left out).
-        errors:       standard deviations by source: position (north, east, down) in m, attitude (roll, pitch, heading)
-                      and boresight (about forward, right, down) in degrees, lever_arm in m, scan in degrees, time in s,
-                      range_offset, bottom_range, surface_range and surface_height in m, index. Omitted ones are 0.
+        errors:       standard deviations by source, three numbers or one: position=(north, east, down) in m, scan in
+                      degrees; docs/budget.md lists all sources with their units. Omitted ones are 0.
         lever_arm:    m, forward, right, down, from the trajectory's point to the sensor.
         refractive_index: of the water.
         datum:        m, standard deviation of the height of the vertical datum.
