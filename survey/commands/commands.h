@@ -1,10 +1,13 @@
 // The commands of albtpu-query. Each adds its options to the program and sets `run` if it is the command given.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "absl/status/status.h"
+
+namespace CLI {
+class App;
+}
 
 namespace albtpu::client {
 
@@ -24,6 +27,7 @@ void AddPlanCommand(CLI::App& program, Run& run);
 void AddTrajectoryCommand(CLI::App& program, Run& run);
 void AddSeaCommand(CLI::App& program, Run& run);
 void AddSensorsCommand(CLI::App& program, Run& run);
+void AddKeysCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 

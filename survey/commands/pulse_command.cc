@@ -11,8 +11,7 @@
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/pulse_text.h"
-#include "survey/commands/sea_options.h"
-#include "survey/commands/total_options.h"
+#include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
 #include "survey/sensors/installed_sensors.h"
 #include "survey/totals/pulse_report.h"
@@ -22,16 +21,15 @@ namespace {
 
 struct PulseOptions {
   FixedInputs inputs;
-  SeaOptions sea;
+  SurveyFlags flags;
   SourceOptions source;
   AnswerStyle style;
-  TotalOptions total;
   PulseMotion motion;
   bool json = false;
 };
 
 // What of the inputs only a total takes, and a footprint from the divergence of the sensor.
-absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, PulseTotal& total) {
+absl::Status TakeForTotal(const config::SurveySettings& settings, FixedInputs& inputs, PulseTotal& total) {
   if (!inputs[PulseInput::kAltitude].has_value())
     return UsageError("pulse: --altitude is missing; a total needs the height of the sensor above the water");
   total.altitude = *inputs[PulseInput::kAltitude];
@@ -39,7 +37,7 @@ absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, 
   if (inputs[PulseInput::kFootprint].has_value()) {
     if (!inputs[PulseInput::kDivergence].has_value()) inputs[PulseInput::kAltitude].reset();
   } else if (!inputs[PulseInput::kDivergence].has_value()) {
-    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+    const absl::StatusOr<Sensor> sensor = FindSensor(*settings.sensor.name);
     if (!sensor.ok()) return sensor.status();
     if (sensor->divergence.has_value()) {
       inputs[PulseInput::kDivergence] = static_cast<float>(sensor->divergence->value);
@@ -55,33 +53,28 @@ absl::Status TakeForTotal(const SurveyDescription& survey, FixedInputs& inputs, 
   return absl::OkStatus();
 }
 
-absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& survey, const ToldSea& sea,
-                      FixedInputs inputs) {
-  AnswerStyle style = options.style;
-  TakeStyle(survey, style);
+absl::Status RunTotal(const PulseOptions& options, const AnswerStyle& style,
+                      const config::SurveySettings& settings, FixedInputs inputs) {
   PulseTotal total;
   total.motion = options.motion;
-  const ToldSurface surface = survey.surface.value_or(ToldSurface());
+  const config::SurfaceSettings& surface = settings.surface;
   absl::StatusOr<TotalPlan> plan =
-      PlanTotal(survey, {.coverage = style.coverage,
-                         .index = {},
-                         .lever_arm = {},
-                         .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
-                         .has_level = surface.level.has_value() || surface.level_file.has_value(),
-                         .trajectory_errors = "",
-                         .decided = false});
+      PlanTotal(settings, {.coverage = style.coverage,
+                           .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
+                           .has_level = surface.level.has_value(),
+                           .decided = false});
   if (!plan.ok()) return plan.status();
   total.plan = *std::move(plan);
-  if (absl::Status status = TakeForTotal(survey, inputs, total); !status.ok()) return status;
+  if (absl::Status status = TakeForTotal(settings, inputs, total); !status.ok()) return status;
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(settings.sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
   const AnswerSource source = answerer->source();
   total.pulse = OnePulse(*coordinates);
   total.pulse.azimuths_from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
-  if (!sea.has_waves()) {
+  if (!inputs.any_sea) {
     const auto spectrum = source.table().attributes.find("spectrum");
     total.plan.wave_height =
         WaveHeightOfWind(inputs[PulseInput::kWindSpeed].value_or(0), inputs[PulseInput::kFetch],
@@ -95,26 +88,25 @@ absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& surv
 }
 
 absl::Status RunPulse(const PulseOptions& options) {
-  absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
-  if (!survey.ok()) return survey.status();
-  *survey = Together(options.total, *std::move(survey));
-  if (absl::Status status = CheckTotalFlags(options.total, *survey); !status.ok()) return status;
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
-  if (!sea.ok()) return sea.status();
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (!settings.ok()) return settings.status();
+  if (absl::Status status = CheckTotalFlags(options.flags, *settings); !status.ok()) return status;
+  AnswerStyle style = options.style;
+  TakeStyle(settings->output, style);
   FixedInputs inputs = options.inputs;
-  if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;
-  if (WantsTotal(*survey)) return RunTotal(options, *survey, *sea, inputs);
+  TakeWind(settings->sea, inputs);
+  if (settings->wants_total()) return RunTotal(options, style, *settings, inputs);
   if (options.motion.attitude || options.motion.velocity || options.motion.rates)
     return UsageError(
         "pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(settings->sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
   const bool from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
   const AnswerSource source = answerer->source();
-  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, options.style, source, from_north);
+  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, style, source, from_north);
   if (!answer.ok()) return answer.status();
   if (options.json) {
     std::cout << PulseJson(*answer, source.table(), answerer->SeaJson());
@@ -129,17 +121,16 @@ absl::Status RunPulse(const PulseOptions& options) {
 void AddPulseCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<PulseOptions>();
   CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
-  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->inputs.coordinates);
-  AddBeamInputs(*command, options->inputs);
-  AddSeaOptions(*command, options->sea);
-  AddTotalOptions(*command, options->total);
+  AddInputs(*command, options->inputs);
+  AddSeaFlags(*command, options->flags, {});
+  AddTotalFlags(*command, options->flags);
   AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]",
             options->motion.attitude);
   AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
   AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
             options->motion.rates);
   AddSourceOptions(*command, options->source);
-  AddStyleOptions(*command, options->style);
+  AddStyleFlags(*command, options->flags, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")
       ->group(group::kOutput);
   EndHelp(*command, kWhereAnswersComeFrom,

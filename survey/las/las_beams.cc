@@ -97,7 +97,7 @@ absl::Status LasBeams::FindSeas(const LasReader& reader, const SeaTimeline& seas
   }
   if (prescan_.chosen == 0) return absl::OkStatus();  // No point asks for a sea.
   const absl::StatusOr<double> utc =
-      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.told().file);
+      UtcOffset(reader.name(), TimesOf(reader, prescan_), {seas.start(), seas.end()}, *seas.settings().file);
   if (!utc.ok()) return utc.status();
   utc_ = *utc;
   records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);

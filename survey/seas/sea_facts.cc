@@ -89,7 +89,7 @@ double RefractionAlong(const HarmonicSpectrum& spectrum, const std::vector<Footp
 }
 
 SeaDescription DescriptionAt(const SeaTimeline& seas, std::size_t record) {
-  return DescriptionOf(seas.record(record), seas.told().description());
+  return DescriptionOf(seas.record(record), seas.settings().description());
 }
 
 std::string WindText(const SeaFacts& facts) {
@@ -110,7 +110,7 @@ std::string WindText(const SeaFacts& facts) {
 
 SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
   const SeaRecord& state = seas.record(record);
-  const ToldSea& told = seas.told();
+  const config::SeaSettings& told = seas.settings();
   SeaFacts facts;
   facts.time = state.time;
   facts.sea = Describe(state, told.description());
@@ -181,7 +181,7 @@ SlopeSurvey::SlopeSurvey() {
 }
 
 SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) const {
-  const DescribedSea sea = Describe(seas.record(record), seas.told().description());
+  const DescribedSea sea = Describe(seas.record(record), seas.settings().description());
   SlopeFacts facts;
   facts.mean_square_slope = MeanSquareSlope(sea.spectrum);
   facts.below_11 = MeanSquareSlopeBelow(sea.spectrum, 11);
@@ -197,8 +197,8 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
                                 DegreesOfRadians(beams[i].refraction_cross_wind())});
   }
   if (IsComplete(seas.record(record)) || !(sea.wind_speed_10m > 0)) return facts;
-  ToldSea told = seas.told();
-  for (const std::string_view rule : kTailRules) {
+  config::SeaSettings told = seas.settings();
+  for (const std::string_view rule : config::kTailRules) {
     told.tail = rule;
     facts.by_tail_rule.push_back(
         RefractionAlong(Describe(seas.record(record), told.description()).spectrum, one_footprint_));
@@ -220,13 +220,13 @@ ordered_json Json(const SlopeFacts& facts) {
   }
   json["refraction_along_by_tail"] = nullptr;
   for (std::size_t i = 0; i < facts.by_tail_rule.size(); ++i)
-    json["refraction_along_by_tail"][std::string(kTailRules[i])] = facts.by_tail_rule[i];
+    json["refraction_along_by_tail"][std::string(config::kTailRules[i])] = facts.by_tail_rule[i];
   return json;
 }
 
 ordered_json SeasHeadJson(const SeaTimeline& seas) {
   ordered_json json;
-  const std::optional<std::string>& file = seas.told().file;
+  const std::optional<std::string>& file = seas.settings().file;
   json["file"] =
       file.has_value() ? ordered_json(std::filesystem::path(*file).filename().string()) : ordered_json();
   json["format"] = file.has_value() ? ordered_json(seas.series().format) : ordered_json();
@@ -246,8 +246,8 @@ ordered_json SeasJson(const SeaTimeline& seas, std::size_t first, std::size_t la
 
 std::vector<std::string> SeasNotes(const SeaTimeline& seas, std::size_t first, std::size_t last) {
   std::string where = "sea";
-  if (seas.told().file.has_value())
-    absl::StrAppend(&where, " by ", std::filesystem::path(*seas.told().file).filename().string());
+  if (seas.settings().file.has_value())
+    absl::StrAppend(&where, " by ", std::filesystem::path(*seas.settings().file).filename().string());
   if (!seas.place().empty()) absl::StrAppend(&where, " at ", seas.place());
   const SeaFacts facts = FactsOf(seas, first);
   std::vector<std::string> notes = {absl::StrCat(where, ", ", Text(facts))};

@@ -91,7 +91,7 @@ absl::StatusOr<std::size_t> ChoosePlace(const std::optional<std::string>& told,
                                                  "); name one of them by --sea-place"));
 }
 
-double LongestGap(const ToldSea& told, const std::vector<double>& times) {
+double LongestGap(const config::SeaSettings& told, const std::vector<double>& times) {
   if (told.longest_gap.has_value()) return *told.longest_gap * kSecondsPerHour;
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -103,15 +103,15 @@ double LongestGap(const ToldSea& told, const std::vector<double>& times) {
 
 }  // namespace
 
-absl::StatusOr<SeaTimeline> SeaTimeline::Open(const ToldSea& told) {
+absl::StatusOr<SeaTimeline> SeaTimeline::Open(const config::SeaSettings& settings) {
   SeaTimeline seas;
-  seas.told_ = told;
-  if (!told.file.has_value()) {
-    seas.records_.push_back({.waves = std::make_shared<const std::vector<JonswapWaves>>(told.waves)});
+  seas.settings_ = settings;
+  if (!settings.file.has_value()) {
+    seas.records_.push_back({.waves = std::make_shared<const std::vector<JonswapWaves>>(settings.waves)});
     seas.fixed_ = BetweenRecords{};
     return seas;
   }
-  absl::StatusOr<SeaSeries> series = ReadSeaFile(*told.file, told.file_options());
+  absl::StatusOr<SeaSeries> series = ReadSeaFile(*settings.file, settings.file_options());
   absl::Status status = series.status();
   if (status.ok()) {
     std::vector<SeaRecord> records = std::exchange(series->records, {});
@@ -120,12 +120,12 @@ absl::StatusOr<SeaTimeline> SeaTimeline::Open(const ToldSea& told) {
   }
   if (status.ok()) status = seas.TakeTime();
   if (!status.ok())
-    return absl::Status(status.code(), absl::StrCat(*told.file, ": ", std::string(status.message())));
+    return absl::Status(status.code(), absl::StrCat(*settings.file, ": ", std::string(status.message())));
   return seas;
 }
 
 absl::Status SeaTimeline::TakePlace(std::vector<SeaRecord> records) {
-  const absl::StatusOr<std::size_t> place = ChoosePlace(told_.place, series_.points);
+  const absl::StatusOr<std::size_t> place = ChoosePlace(settings_.place, series_.points);
   if (!place.ok()) return place.status();
   place_ = PlaceName(series_.points[*place]);
   for (SeaRecord& record : records)
@@ -134,9 +134,9 @@ absl::Status SeaTimeline::TakePlace(std::vector<SeaRecord> records) {
     return absl::InvalidArgumentError(
         absl::StrCat("has no record of the place '", place_, "'; name another one by --sea-place"));
   const bool complete = std::holds_alternative<WholeSea>(records_.front().waves);
-  if (complete && (told_.tail.has_value() || told_.tail_from.has_value()))
+  if (complete && (settings_.tail.has_value() || settings_.tail_from.has_value()))
     return absl::InvalidArgumentError(
-        "is a sea by wavenumber, which is complete (no tail is joined); leave out --tail and --tail-from");
+        "is a sea by wavenumber, which is complete (no tail is joined); leave out tail and tail_from");
   return absl::OkStatus();
 }
 
@@ -144,28 +144,28 @@ absl::Status SeaTimeline::TakeTime() {
   const bool timed = records_.front().time.has_value();
   if (timed) {
     for (const SeaRecord& record : records_) times_.push_back(*record.time);
-    longest_gap_ = LongestGap(told_, times_);
+    longest_gap_ = LongestGap(settings_, times_);
   }
-  if (!told_.time.has_value()) {
+  if (!settings_.time.has_value()) {
     if (records_.size() == 1) fixed_ = BetweenRecords{};
     return absl::OkStatus();
   }
   if (!timed)
     return absl::InvalidArgumentError("its sea has no time, so that --sea-time has no effect; leave it out");
-  fixed_ = At(*ParseSeaTime(*told_.time));
+  fixed_ = At(*ParseSeaTime(*settings_.time));
   if (fixed_.has_value()) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrFormat("has no sea at %s (its %d records last %s, and gaps of up to %g h are bridged); choose "
-                      "another --sea-time, or "
-                      "a longer --sea-gap",
-                      *told_.time, records_.size(), SpanText(*this), longest_gap_ / kSecondsPerHour));
+                      "another --sea-time, or a longer --sea-gap (longest_gap in a survey file)",
+                      *settings_.time, records_.size(), SpanText(*this), longest_gap_ / kSecondsPerHour));
 }
 
 std::optional<BetweenRecords> SeaTimeline::At(double time, std::size_t guess) const {
   if (!(time >= start() && time <= end())) return std::nullopt;
   std::size_t first = guess;
   if (!(guess + 1 < times_.size() && times_[guess] <= time && time < times_[guess + 1]))
-    first = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
+    first =
+        static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
   if (time == times_[first]) return BetweenRecords{first, first, 0};
   const std::size_t second = first + 1;
   const double step = times_[second] - times_[first];

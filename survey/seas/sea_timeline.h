@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "config/sea_settings.h"
 #include "sea/files/sea_series.h"
 #include "service/seas/known_sea.h"
-#include "survey/seas/told_sea.h"
 
 namespace albtpu::client {
 
@@ -26,13 +26,13 @@ class SeaTimeline {
  public:
   // Reads the file that is told, or takes the waves. `told` has passed CheckSea and has waves. Errors begin with the
   // path of the file: what it cannot be read for, a place that is missing or unknown, a time that it does not have.
-  static absl::StatusOr<SeaTimeline> Open(const ToldSea& told);
+  static absl::StatusOr<SeaTimeline> Open(const config::SeaSettings& settings);
 
   // The records of one place.
   std::size_t size() const { return records_.size(); }
   const SeaRecord& record(std::size_t i) const { return records_[i]; }
   KnownSea sea(std::size_t i) const {
-    return KnownSeaOf(records_[i], told_.description(), series_.record_length);
+    return KnownSeaOf(records_[i], settings_.description(), series_.record_length);
   }
 
   // Whether pulses differ in their sea by their times. If not, fixed() holds for all.
@@ -48,7 +48,7 @@ class SeaTimeline {
   double end() const { return times_.back(); }
   double longest_gap() const { return longest_gap_; }  // s
 
-  const ToldSea& told() const { return told_; }
+  const config::SeaSettings& settings() const { return settings_; }
   const SeaSeries& series() const { return series_; }  // what the file states, without its records
   const std::string& place() const { return place_; }  // empty if the file has but one without a name
 
@@ -57,7 +57,7 @@ class SeaTimeline {
   absl::Status TakePlace(std::vector<SeaRecord> records);
   absl::Status TakeTime();
 
-  ToldSea told_;
+  config::SeaSettings settings_;
   SeaSeries series_;
   std::string place_;
   std::vector<SeaRecord> records_;

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string_view>
 
-#include "survey/toml/toml_keys.h"
+#include "config/toml/toml_keys.h"
 
 namespace albtpu::client {
+
+using config::TomlKeys;
 
 struct SigmaRange {
   std::string_view key, unit;

@@ -18,11 +18,11 @@ namespace {
 // What is assumed where nothing else is known, 1 sigma: a well calibrated system with a good trajectory, as
 // post-processed GNSS and inertial navigation of airborne surveys state it (data sheets of Applanix AP and POS AV,
 // PPK).
-constexpr Triple kPosition = {0.02, 0.02, 0.06};      // m
-constexpr Triple kAttitude = {0.005, 0.005, 0.008};   // degree
-constexpr Triple kBoresight = {0.001, 0.001, 0.004};  // degree
-constexpr double kLeverArm = 0.02;                    // m
-constexpr double kTime = 1e-5;                        // s
+constexpr config::Triple kPosition = {0.02, 0.02, 0.06};      // m
+constexpr config::Triple kAttitude = {0.005, 0.005, 0.008};   // degree
+constexpr config::Triple kBoresight = {0.001, 0.001, 0.004};  // degree
+constexpr double kLeverArm = 0.02;                            // m
+constexpr double kTime = 1e-5;                                // s
 constexpr double kLevel = 0.05;  // m; of a water level of a gauge or a tide model near by.
 // Sea water of 5 to 30 degrees C and salinities of 25 to 38 has 1.337 to 1.344 at 532 nm (Quan and Fry 1995).
 constexpr double kIndex = 0.002;
@@ -30,7 +30,7 @@ constexpr double kIndex = 0.002;
 constexpr double kIndexOfState = 0.0002;
 
 std::string Text(double value) { return absl::StrCat(value); }
-std::string Text(const Triple& value) { return absl::StrJoin(value, ", "); }
+std::string Text(const config::Triple& value) { return absl::StrJoin(value, ", "); }
 
 // Collects the numbers of the plan with their sources.
 class Numbers {
@@ -79,7 +79,8 @@ class Numbers {
   std::vector<std::string> missing_;
 };
 
-absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const TotalContext& context) {
+absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface,
+                                           const TotalContext& context) {
   if (surface.located.has_value()) {
     const auto found =
         std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
@@ -88,7 +89,7 @@ absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const Tot
       return located;
     return UsageError(
         absl::StrCat("[surface] located = \"", *surface.located,
-                     "\" needs returns from the surface, but only a level is told; give their classes, or "
+                     "\" needs returns from the surface, but only a level is given; give their classes, or "
                      "located = \"level\""));
   }
   if (context.has_surface_returns) return SurfaceLocation::kLocal;
@@ -99,15 +100,14 @@ absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const Tot
       "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
 }
 
-absl::Status CheckDecided(const SurveyDescription& survey) {
-  if (!survey.datum.has_value() || !survey.datum->sigma.has_value()) {
+absl::Status CheckDecided(const config::SurveySettings& survey) {
+  if (!survey.datum.sigma.has_value()) {
     return UsageError(
         "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
         "[datum] sigma "
         "in m, 1 sigma (0 for ellipsoidal heights)");
   }
-  if (survey.water.has_value() && (survey.water->without_column || survey.water->bias.has_value()))
-    return absl::OkStatus();
+  if (survey.water.without_column() || survey.water.bias.has_value()) return absl::OkStatus();
   return UsageError(
       "the share of the water column is not decided, so that no number may be called total; give [water] "
       "bias = "
@@ -118,12 +118,12 @@ absl::Status CheckDecided(const SurveyDescription& survey) {
 
 }  // namespace
 
-absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context) {
+absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
   if (context.decided)
     if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
-  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor.name);
   if (!sensor.ok()) return sensor.status();
-  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface.value_or(ToldSurface()), context);
+  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface, context);
   if (!located.ok()) return located.status();
   TotalPlan plan;
   BudgetOptions& options = plan.options;
@@ -135,7 +135,7 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
   };
   state("sensor", sensor->title, sensor->name, false);
 
-  const ToldSigma told = survey.sigma.value_or(ToldSigma());
+  const config::ToldSigma told = survey.sigma.value_or(config::ToldSigma());
   AirErrors& errors = options.errors;
   Numbers numbers(*sensor, plan);
   const std::string good = "assumed: a good post-processed trajectory";
@@ -177,29 +177,26 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
         "surface_height", "m", told.surface_height, level ? kLevel : return_range,
         level ? "assumed: a gauge or tide model near by" : "assumed: no better than one return");
   }
-  const ToldWater water = survey.water.value_or(ToldWater());
+  const config::WaterSettings& water = survey.water;
   const std::optional<double> of_water = IndexOf(water);
-  const bool by_state =
-      of_water.has_value() && !water.index.has_value() && context.index.value_or(*of_water) == *of_water;
+  const bool by_state = of_water.has_value() && !water.index.has_value();
   errors.index = numbers.Choose("index", "", told.index, by_state ? kIndexOfState : kIndex,
                                 by_state ? "assumed: temperature and salinity within 1 degree and 1"
                                          : "assumed: sea water of unknown temperature and salinity");
-  const std::optional<double> index = context.index.has_value() ? context.index : of_water;
-  options.index = index.value_or(options.index);
+  options.index = of_water.value_or(options.index);
   state("refractive_index", Text(options.index),
-        !index.has_value() ? "assumed: sea water at 532 nm"
-        : by_state         ? "temperature and salinity of [water], 532 nm"
-                           : "the user",
-        !index.has_value());
-  const std::optional<Triple> arm =
-      context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
-  options.lever_arm = arm.value_or(Triple{});
+        !of_water.has_value() ? "assumed: sea water at 532 nm"
+        : by_state            ? "temperature and salinity of [water], 532 nm"
+                              : "the user",
+        !of_water.has_value());
+  const std::optional<config::Triple>& arm = survey.sensor.lever_arm;
+  options.lever_arm = arm.value_or(config::Triple{});
   state("lever_arm_vector", absl::StrCat(Text(options.lever_arm), " m"),
         arm.has_value() ? "the user" : "assumed: none", !arm.has_value());
-  const bool datum_told = survey.datum.has_value() && survey.datum->sigma.has_value();
-  options.datum = datum_told ? *survey.datum->sigma : 0;
+  const std::optional<double>& datum = survey.datum.sigma;
+  options.datum = datum.value_or(0);
   state("datum", absl::StrCat(options.datum, " m"),
-        datum_told ? "[datum]" : "assumed: none, ellipsoidal heights", !datum_told);
+        datum.has_value() ? "[datum]" : "assumed: none, ellipsoidal heights", !datum.has_value());
   absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
   if (!planned.ok()) return planned.status();
   plan.water = *std::move(planned);

@@ -46,7 +46,7 @@ class SeaFilesTest(sea_states.Test):
         for flags in ((), ("--sea-time", utc(FLIGHT_START + 60))):
             self.assert_fails(query("sea", series, *flags, "--output", self.folder / "two.h5"), 2, "--sea-time")
         query("sea", series, "--sea-time", utc(FLIGHT_START), "--output", self.folder / "two.h5", check=0)
-        self.assert_fails(query("sea"), 2, "no waves are told")
+        self.assert_fails(query("sea"), 2, "no waves are given")
 
     def test_cut_and_foreign_files_are_one_clear_message(self):
         whole = self.sea_csv((FLIGHT_START, 1, 200)).read_bytes()

@@ -2,10 +2,13 @@
 // command given.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "absl/status/status.h"
+
+namespace CLI {
+class App;
+}
 
 namespace albtpu::client {
 

@@ -1,4 +1,4 @@
-#include "survey/seas/told_sea.h"
+#include "config/sea_settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,15 +6,16 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "survey/exit_status.h"
+#include "command_line/exit_codes.h"
+#include "config/survey_settings.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 namespace {
 
 using ::testing::HasSubstr;
 
-ToldSea OneWave() {
-  ToldSea sea;
+SeaSettings OneWave() {
+  SeaSettings sea;
   sea.waves.push_back({.significant_wave_height = 1, .peak_period = 6});
   return sea;
 }
@@ -25,8 +26,8 @@ void ExpectUsageError(const absl::Status& status, const std::string& part) {
   EXPECT_THAT(std::string(status.message()), HasSubstr("; "));
 }
 
-TEST(ToldSea, IsItsOwnDescription) {
-  ToldSea sea = OneWave();
+TEST(SeaSettings, IsItsOwnDescription) {
+  SeaSettings sea = OneWave();
   EXPECT_EQ(sea.description().tail, TailRule::kRelax);
   EXPECT_FALSE(sea.description().wind_from.has_value());
   sea.wind_speed = 0;
@@ -47,43 +48,39 @@ TEST(ToldSea, IsItsOwnDescription) {
   EXPECT_EQ(sea.description().tail_from, 0.5);
 }
 
-TEST(ToldSea, RefusesTwoWaysToTellTheWaves) {
-  ToldSea sea = OneWave();
+TEST(SeaSettings, RefusesTwoWaysToGiveTheWaves) {
+  SeaSettings sea = OneWave();
   EXPECT_TRUE(CheckSea(sea).ok());
   sea.file = "41010.spec";
   ExpectUsageError(CheckSea(sea), "both say which waves there are");
 }
 
-TEST(ToldSea, RefusesWhatHasNoEffect) {
-  const auto refuse = [](const auto& each, auto value, ToldSea sea) {
-    sea.*each.field = value;
-    ExpectUsageError(CheckSea(sea), std::string(each.flag) + " (" + std::string(each.key));
-  };
-  for (const auto& number : kSeaNumbers) {
-    const bool of_waves = number.key == "water_depth" || number.key == "tail_from";
-    const bool of_file = number.key == "longest_gap" || number.key == "anemometer_height";
-    if (of_waves || of_file) refuse(number, 5.0, ToldSea());
-    if (of_file) refuse(number, 5.0, OneWave());
-    if (of_file) continue;
-    ToldSea sea = OneWave();
-    sea.*number.field = 5;
-    EXPECT_TRUE(CheckSea(sea).ok()) << number.key;
+TEST(SeaSettings, RefusesWhatHasNoEffect) {
+  for (const Key<SeaSettings>& key : kSeaKeys) {
+    const std::string name(key.declaration.key);
+    const bool of_waves = name == "water_depth" || name == "tail_from" || name == "tail";
+    const bool of_file =
+        name == "longest_gap" || name == "anemometer_height" || name == "place" || name == "time";
+    for (SeaSettings sea : {SeaSettings(), OneWave()}) {
+      const bool no_effect =
+          of_file || (of_waves && !sea.has_waves()) || (name == "fetch" && sea.has_waves());
+      if (name == "file") continue;
+      Put(Value(5.0), key, sea);
+      Put(Value(std::string("relax")), key, sea);
+      if (no_effect) {
+        ExpectUsageError(CheckSea(sea), std::string(key.declaration.flag) + " (" + name +
+                                            " in a survey file) has no effect");
+      } else {
+        EXPECT_TRUE(CheckSea(sea).ok()) << name;
+      }
+    }
   }
-  for (const auto& text : kSeaTexts) {
-    if (text.key == "file") continue;
-    refuse(text, "relax", ToldSea());
-    if (text.key != "tail") refuse(text, "2020-06-08T03:50Z", OneWave());
-  }
-  ToldSea sea;
-  sea.wind_speed = 5;
-  sea.wind_from = 250;
-  EXPECT_TRUE(CheckSea(sea).ok()) << "a wind alone is for a table of winds";
 }
 
 // The waves of 2 s are 6.24 m long, of which Michell's limit takes 0.142. In 0.5 m of water they are 4.06 m long, and
 // the limit is lower by tanh(k h).
-TEST(ToldSea, RefusesWavesThatBreak) {
-  ToldSea sea;
+TEST(SeaSettings, RefusesWavesThatBreak) {
+  SeaSettings sea;
   sea.waves = {{.significant_wave_height = 0.88, .peak_period = 2}};
   EXPECT_TRUE(CheckSea(sea).ok());
   sea.waves[0].significant_wave_height = 0.89;
@@ -95,57 +92,60 @@ TEST(ToldSea, RefusesWavesThatBreak) {
   ExpectUsageError(CheckSea(sea), "in water of 0.5 m");
 }
 
-TEST(ToldSea, RefusesATimeThatIsNone) {
-  ToldSea sea;
+TEST(SeaSettings, RefusesATimeThatIsNone) {
+  SeaSettings sea;
   sea.file = "41010.spec";
   sea.time = "2020-06-08";
   ExpectUsageError(CheckSea(sea), "'2020-06-08' is no time");
 }
 
+SeaSettings Merged(const SeaSettings& flags, const SeaSettings& file) {
+  return Merge({.sea = flags}, {.sea = file}).sea;
+}
+
 TEST(FlagsAndSurveyFile, CompleteEachOther) {
-  ToldSea of_file = OneWave(), flags;
+  SeaSettings of_file = OneWave(), flags;
   of_file.water_depth = 12;
   flags.wind_speed = 6;
   flags.tail = "wind";
-  const ToldSea sea = Together(flags, of_file);
+  const SeaSettings sea = Merged(flags, of_file);
   EXPECT_EQ(sea.wind_speed, 6);
   EXPECT_EQ(sea.water_depth, 12);
   EXPECT_EQ(sea.tail, "wind");
   EXPECT_EQ(sea.waves.size(), 1u);
 }
 
-TEST(FlagsAndSurveyFile, SayDifferentThingsAndTheFlagsCount) {
-  for (const auto& number : kSeaNumbers) {
-    ToldSea flags, of_file;
-    flags.*number.field = 1;
-    of_file.*number.field = 2;
-    EXPECT_EQ(Together(flags, of_file).*number.field, 1) << number.key;
-    EXPECT_EQ(Together({}, of_file).*number.field, 2) << number.key;
-  }
-  for (const auto& text : kSeaTexts) {
-    ToldSea flags, of_file;
-    flags.*text.field = "flag";
-    of_file.*text.field = "file";
-    EXPECT_EQ(Together(flags, of_file).*text.field, "flag") << text.key;
-    EXPECT_EQ(Together({}, of_file).*text.field, "file") << text.key;
-  }
-}
-
-TEST(FlagsAndSurveyFile, TellOtherWavesOfWhichTheFlagsCount) {
-  ToldSea waves = OneWave(), buoy;
+TEST(FlagsAndSurveyFile, GiveOtherWavesOfWhichTheFlagsCount) {
+  SeaSettings waves = OneWave(), buoy;
   buoy.file = "41010.data_spec";
   buoy.place = "41010";
   buoy.longest_gap = 9;
   buoy.wind_speed = 6;
-  const ToldSea flags_have_waves = Together(waves, buoy);
+  const SeaSettings flags_have_waves = Merged(waves, buoy);
   EXPECT_EQ(flags_have_waves.waves.size(), 1u);
   EXPECT_FALSE(flags_have_waves.file.has_value() || flags_have_waves.place.has_value() ||
                flags_have_waves.longest_gap.has_value());
   EXPECT_EQ(flags_have_waves.wind_speed, 6);
-  const ToldSea flags_have_a_file = Together(buoy, waves);
+  const SeaSettings flags_have_a_file = Merged(buoy, waves);
   EXPECT_TRUE(flags_have_a_file.waves.empty());
   EXPECT_EQ(flags_have_a_file.place, "41010");
   EXPECT_TRUE(CheckSea(flags_have_a_file).ok());
+}
+
+TEST(FlagsAndSurveyFile, GiveWavesInPlaceOfAFetch) {
+  SeaSettings wind;
+  wind.fetch = 20000;
+  EXPECT_FALSE(Merged(OneWave(), wind).fetch.has_value());
+  EXPECT_EQ(Merged({}, wind).fetch, 20000);
+}
+
+TEST(FlagsAndSurveyFile, GiveATrajectoryEachAndThatOfTheFlagsCounts) {
+  SurveySettings flags, file;
+  file.trajectory = {.files = {"a"}, .errors = {"b"}, .time = "utc", .from_returns = {}};
+  EXPECT_EQ(Merge(flags, file).trajectory.errors.size(), 1u);
+  flags.trajectory.from_returns = true;
+  const TrajectorySettings merged = Merge(flags, file).trajectory;
+  EXPECT_TRUE(merged.files.empty() && merged.errors.empty() && !merged.time.has_value());
 }
 
 TEST(Swell, IsHeightPeriodAndDirection) {
@@ -168,18 +168,31 @@ TEST(Swell, IsNoOtherText) {
               HasSubstr("has the hs '110' (expected a number from 0 to 30 m)"));
 }
 
-TEST(ToldWaves, NameWhatIsMissingAsTheUserDoes) {
-  ToldWaves told;
-  told.hs = 1;
-  EXPECT_EQ(ProblemOf(told, "--"), "--tp is missing; give a number from 0.5 to 40 s");
-  told.tp = 6;
-  EXPECT_EQ(ProblemOf(told, ""), "waves_from is missing; give a number from -360 to 360 degree");
-  told.waves_from = 200;
-  EXPECT_EQ(ProblemOf(told, ""), "");
+TEST(WaveSettings, NameWhatIsMissingAsTheUserDoes) {
+  WaveSettings waves;
+  waves.hs = 1;
+  EXPECT_EQ(ProblemOf(waves, true), "--tp is missing; give a number from 0.5 to 40 s");
+  waves.tp = 6;
+  EXPECT_EQ(ProblemOf(waves, false), "waves_from is missing; give a number from -360 to 360 degree");
+  waves.waves_from = 200;
+  EXPECT_EQ(ProblemOf(waves, false), "");
 }
 
-TEST(ToldSea, StatesItsParameters) {
-  ToldSea sea = OneWave();
+TEST(WaveSettings, OfFlagsComeBeforeSwell) {
+  SeaSettings flags = OneWave();
+  EXPECT_TRUE(CompleteWaves(flags).ok());
+  EXPECT_EQ(flags.waves.size(), 1u);
+  flags.wave_flags.hs = 0.5;
+  ExpectUsageError(CompleteWaves(flags), "--tp is missing");
+  flags.wave_flags.tp = 3;
+  flags.wave_flags.waves_from = 0;
+  EXPECT_TRUE(CompleteWaves(flags).ok());
+  ASSERT_EQ(flags.waves.size(), 2u);
+  EXPECT_EQ(flags.waves[0].significant_wave_height, 0.5);
+}
+
+TEST(SeaSettings, StatesItsParameters) {
+  SeaSettings sea = OneWave();
   sea.waves[0].travels_towards = 3 * std::numbers::pi / 2;
   sea.tail = "level";
   EXPECT_EQ(Parameters(sea).dump(),
@@ -189,4 +202,4 @@ TEST(ToldSea, StatesItsParameters) {
 }
 
 }  // namespace
-}  // namespace albtpu::client
+}  // namespace albtpu::config
