@@ -11,19 +11,6 @@
 #include "service/printable_text.h"
 
 namespace albtpu::client {
-namespace {
-
-constexpr char kUsagePayload[] = "albtpu/usage";
-
-}  // namespace
-
-absl::Status UsageError(std::string_view message) {
-  absl::Status status = absl::InvalidArgumentError(absl::string_view(message.data(), message.size()));
-  status.SetPayload(kUsagePayload, absl::Cord());
-  return status;
-}
-
-bool IsUsageError(const absl::Status& status) { return status.GetPayload(kUsagePayload).has_value(); }
 
 std::string MessageWithDetails(const absl::Status& status) {
   std::string message(status.message());

@@ -17,10 +17,6 @@ namespace albtpu::client {
 // or flag comes first, before a colon:
 //     in.csv line 4, column 'depth': 'deep' is not a number; write a number in m, such as 12.5
 
-// An InvalidArgument whose cause is the command line, rather than a file or a server.
-absl::Status UsageError(std::string_view message);
-bool IsUsageError(const absl::Status& status);
-
 // The message of `status`, followed by `; FIELD: DESCRIPTION` for each field violation (google.rpc.BadRequest)
 // in the details of a server's error that the message does not mention yet.
 std::string MessageWithDetails(const absl::Status& status);

@@ -7,7 +7,6 @@ namespace {
 
 // The limits of an order at 95 %: THU `c + e d`, TVU `sqrt(a^2 + (b d)^2)`, where d is the depth in m.
 struct Limits {
-  std::string_view name;
   double c;  // m
   double e;
   double a;  // m
@@ -16,18 +15,16 @@ struct Limits {
 
 // IHO S-44 edition 6.1.0, Table 1, in the order of kS44Orders.
 constexpr std::array<Limits, kS44Orders.size()> kLimits = {{
-    {"exclusive", 1, 0, 0.15, 0.0075},
-    {"special", 2, 0, 0.25, 0.0075},
-    {"1a", 5, 0.05, 0.5, 0.013},
-    {"1b", 5, 0.05, 0.5, 0.013},
-    {"2", 20, 0.10, 1.0, 0.023},
+    {1, 0, 0.15, 0.0075},
+    {2, 0, 0.25, 0.0075},
+    {5, 0.05, 0.5, 0.013},
+    {5, 0.05, 0.5, 0.013},
+    {20, 0.10, 1.0, 0.023},
 }};
 
 const Limits& LimitsOf(S44Order order) { return kLimits[static_cast<std::size_t>(order)]; }
 
 }  // namespace
-
-std::string_view Name(S44Order order) { return LimitsOf(order).name; }
 
 std::optional<S44Order> FindS44Order(std::string_view name) {
   for (S44Order order : kS44Orders) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -13,7 +14,9 @@ inline constexpr std::array<S44Order, 5> kS44Orders = {S44Order::kExclusive, S44
                                                        S44Order::k1a, S44Order::k1b, S44Order::k2};
 inline constexpr std::string_view kS44Edition = "IHO S-44 edition 6.1.0";
 
-std::string_view Name(S44Order order);  // "exclusive", "special", "1a", "1b", "2"
+inline constexpr std::array<std::string_view, 5> kS44OrderNames = {"exclusive", "special", "1a", "1b", "2"};
+
+constexpr std::string_view Name(S44Order order) { return kS44OrderNames[static_cast<std::size_t>(order)]; }
 std::optional<S44Order> FindS44Order(std::string_view name);
 
 // The maximum THU and TVU at a depth in m, both at 95 %, in m.

@@ -22,7 +22,6 @@ namespace albtpu::client {
 // How answers are stated: the flags that all commands have.
 struct AnswerStyle {
   Coverage coverage = Coverage::kTwoSigma;
-  bool coverage_given = false;        // By a flag, not by default.
   std::optional<S44Order> s44_order;  // Also states what this order leaves for all other error sources.
   bool standard_errors = false;       // Also states the standard errors.
 

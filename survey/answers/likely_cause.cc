@@ -171,8 +171,7 @@ LikelyCause WithoutPulse(NoPulse why, const std::optional<Spread>& spread, const
     case NoPulse::kNoSea:
       return {"the file of the sea has no record near their times",
               "check that it is of these days, in UTC; choose one of its times by --sea-time, or bridge "
-              "longer gaps "
-              "by --sea-gap"};
+              "longer gaps by longest_gap in [sea] of a survey file"};
     case NoPulse::kAboveWater:
       break;
   }

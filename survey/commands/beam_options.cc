@@ -1,18 +1,24 @@
 #include "survey/commands/beam_options.h"
 
-#include <cmath>
+#include <CLI/CLI.hpp>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "command_line/checks.h"
+#include "survey/commands/options.h"
 #include "survey/exit_status.h"
-#include "survey/number_text.h"
+#include "survey/totals/water_column.h"
 
 namespace albtpu::client {
 namespace {
 
-// Glass and water of any salinity lie well inside; sines of refracted rays stay below 1.
-// Fresh water at 30 degrees and 1064 nm has 1.32, cold sea water at 355 nm 1.36.
-constexpr double kLeastIndex = 1.3, kGreatestIndex = 1.4;
+using config::SurveySettings;
+
+constexpr double kFoot = 0.3048;                 // m, international; exact.
+constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, US survey; exact.
+
+double ParseUnit(const std::string& text) { return text == "ft" ? kFoot : text == "us-ft" ? kSurveyFoot : 1; }
 
 enum Way : unsigned { kTrajectory = 1, kReturns = 2, kScanner = 4, kIncidence = 8 };
 
@@ -22,16 +28,16 @@ struct WayFlag {
   bool given;
 };
 
-std::array<WayFlag, 4> WayFlags(const BeamOptions& options) {
-  return {{{kTrajectory, "--trajectory", !options.trajectory.empty()},
-           {kReturns, "--trajectory-from-returns", options.from_returns},
+std::array<WayFlag, 4> WayFlags(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
+  return {{{kTrajectory, "--trajectory", !trajectory.files.empty()},
+           {kReturns, "--trajectory-from-returns", trajectory.from_returns.value_or(false)},
            {kScanner, "--scanner", options.scanner.has_value()},
            {kIncidence, "--incidence", options.incidence.has_value()}}};
 }
 
-absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options) {
+absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
   std::optional<WayFlag> chosen;
-  for (const WayFlag& way : WayFlags(options)) {
+  for (const WayFlag& way : WayFlags(options, trajectory)) {
     if (!way.given) continue;
     if (chosen.has_value()) {
       return UsageError(absl::StrCat("las: ", chosen->flag, " and ", way.flag,
@@ -46,27 +52,27 @@ absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options) {
 }
 
 // Flags that mean something for some of the ways only.
-absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options) {
+absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const SurveySettings& flags) {
   const struct {
     const char* flag;
     bool given;
     unsigned ways;
-  } flags[] = {
-      {"--trajectory-errors", !options.trajectory_errors.empty(), kTrajectory},
-      {"--trajectory-time", options.trajectory_time.has_value(), kTrajectory},
-      {"--geoid-separation", options.geoid_separation.has_value(), kTrajectory},
-      {"--lever-arm", options.lever_arm.has_value(), kTrajectory},
+  } checked[] = {
+      {"--trajectory-errors", !flags.trajectory.errors.empty(), kTrajectory},
+      {"--trajectory-time", flags.trajectory.time.has_value(), kTrajectory},
+      {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
+      {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
       {"--crs", options.crs.has_value(), kTrajectory | kReturns},
-      {"--water-index", options.water_index.has_value(), kTrajectory | kReturns},
+      {"--water-index", flags.water.index.has_value(), kTrajectory | kReturns},
       {"--flight-direction", options.flight_direction.has_value(), kScanner},
       {"--beam-azimuth", options.beam_azimuth.has_value(), kIncidence},
       {"--altitude", options.altitude.has_value(), kScanner | kIncidence},
-      {"--azimuth", options.fixed[Index(AxisId::kAzimuth)].has_value(), kScanner | kIncidence},
+      {"--azimuth", options.fixed[PulseInput::kAzimuth].has_value(), kScanner | kIncidence},
   };
-  for (const auto& flag : flags) {
+  for (const auto& flag : checked) {
     if (!flag.given || (flag.ways & way.way) != 0) continue;
     std::vector<std::string> others;
-    for (const WayFlag& other : WayFlags(options)) {
+    for (const WayFlag& other : WayFlags(options, flags.trajectory)) {
       if ((flag.ways & other.way) != 0) others.emplace_back(other.flag);
     }
     return UsageError(absl::StrCat("las: ", flag.flag, " has no effect with ", way.flag,
@@ -75,14 +81,16 @@ absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<BeamSource> Source(const WayFlag& way, const BeamOptions& options) {
+absl::StatusOr<BeamSource> Source(const WayFlag& way, const BeamOptions& options,
+                                  const SurveySettings& settings) {
+  const config::TrajectorySettings& trajectory = settings.trajectory;
   switch (way.way) {
     case kTrajectory:
-      return TrajectoryFromFiles{.paths = options.trajectory,
-                                 .errors = options.trajectory_errors,
-                                 .utc = options.trajectory_time == "utc",
-                                 .geoid_separation = options.geoid_separation,
-                                 .lever_arm = options.lever_arm.value_or(std::array<double, 3>{}),
+      return TrajectoryFromFiles{.paths = trajectory.files,
+                                 .errors = trajectory.errors,
+                                 .utc = trajectory.time == "utc",
+                                 .geoid_separation = settings.datum.geoid_separation,
+                                 .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
                                  .crs = options.crs};
     case kReturns:
       return TrajectoryFromReturns{.crs = options.crs};
@@ -100,7 +108,7 @@ absl::StatusOr<BeamSource> Source(const WayFlag& way, const BeamOptions& options
 }
 
 absl::Status SetFootprint(const BeamOptions& options, bool details, BeamPlan& plan) {
-  const std::optional<float>& footprint = options.fixed[Index(AxisId::kFootprint)];
+  const std::optional<float>& footprint = options.fixed[PulseInput::kFootprint];
   const bool track = plan.has_track();
   const bool range_known = track || options.altitude.has_value();
   if (options.divergence.has_value() && range_known && !footprint.has_value()) {
@@ -128,10 +136,11 @@ absl::Status CheckDirectionOnce(const BeamPlan& plan) {
       "las: the direction of the beam is given twice; give --azimuth (from downwind), or its true direction");
 }
 
-absl::Status SetAzimuth(const BeamOptions& options, bool details, BeamPlan& plan) {
-  plan.azimuth = options.fixed[Index(AxisId::kAzimuth)];
+absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& sea, bool details,
+                        BeamPlan& plan) {
+  plan.azimuth = options.fixed[PulseInput::kAzimuth];
   if (plan.any_sea) return CheckDirectionOnce(plan);
-  plan.wind_from = options.wind_from;
+  plan.wind_from = sea.wind_from;
   if (plan.azimuth.has_value() && plan.wind_from.has_value()) {
     return UsageError(
         "las: the direction of the beam is given twice; give --azimuth (from downwind), or --wind-from and "
@@ -152,8 +161,8 @@ absl::Status SetAzimuth(const BeamOptions& options, bool details, BeamPlan& plan
   return absl::OkStatus();
 }
 
-absl::Status SetWater(const BeamOptions& options, BeamPlan& plan) {
-  if (!options.water_level.has_value() && options.water_classes.empty()) {
+absl::Status SetWater(const config::SurfaceSettings& surface, BeamPlan& plan) {
+  if (!surface.level.has_value() && surface.classes.empty()) {
     return UsageError(
         "las: the water surface is missing; give --water-level (its height in the unit and datum of the "
         "file's "
@@ -161,43 +170,97 @@ absl::Status SetWater(const BeamOptions& options, BeamPlan& plan) {
         "41,42, or in "
         "point formats 0 to 5 mostly 9 or 27)");
   }
-  plan.water_classes = options.water_classes;
-  if (options.water_level.has_value()) {
-    plan.water_level = ParseDouble(*options.water_level);
-    if (!plan.water_level.has_value()) plan.water_level_file = options.water_level;
+  plan.water_classes = {surface.classes.begin(), surface.classes.end()};
+  if (!surface.level.has_value()) return absl::OkStatus();
+  if (const auto* file = std::get_if<std::string>(&*surface.level)) {
+    plan.water_level_file = *file;
+  } else {
+    plan.water_level = std::get<double>(*surface.level);
   }
   return absl::OkStatus();
 }
 
+void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
+  AddFlags(command,
+           {"--trajectory", "--trajectory-errors", "--trajectory-time", "--geoid-separation", "--lever-arm"},
+           group::kBeam, flags);
+  command
+      .add_option("--crs", options.crs,
+                  "Coordinate system of the points, such as EPSG:26917, in place of what the files state")
+      ->type_name("CODE")
+      ->check(NotEmpty("coordinate system"))
+      ->group(group::kBeam);
+  AddFlags(command, {"--trajectory-from-returns"}, group::kBeam, flags);
+  command
+      .add_option("--scanner", options.scanner,
+                  "The scanner swings across the track: incidence is |scan angle|")
+      ->type_name("across-track")
+      ->check(OneOf({"across-track"}))
+      ->group(group::kBeam);
+  AddNumber(command, "--flight-direction", Sign::kAny,
+            "Direction of flight, for --scanner across-track [degree, true]", options.flight_direction)
+      ->group(group::kBeam);
+  AddNumber(command, "--incidence", Sign::kNotNegative,
+            "One angle of all beams from the vertical, in air, as of a cone [degree]", options.incidence)
+      ->group(group::kBeam);
+  AddNumber(command, "--beam-azimuth", Sign::kAny,
+            "Where the beams travel to, for --incidence [degree, true]", options.beam_azimuth)
+      ->group(group::kBeam);
+}
+
 }  // namespace
 
-absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, bool details, bool any_sea) {
-  const absl::StatusOr<WayFlag> way = ChosenWay(options);
+void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
+  AddWays(command, options, flags);
+  AddFlags(command, {"--water-level", "--water-classes", "--water-index"}, group::kSea, flags);
+  for (const PulseInput input : {PulseInput::kFootprint, PulseInput::kAzimuth})
+    AddInput(command, input, options.fixed);
+  AddNumber(command, "--altitude", Sign::kNotNegative,
+            "Height of the aircraft above the water, where no trajectory gives it [m]", options.altitude)
+      ->group(group::kPulse);
+  AddNumber(command, "--divergence", Sign::kNotNegative, "Divergence of the beam, full angle [mrad]",
+            options.divergence)
+      ->group(group::kPulse);
+  AddNumber(command, "--aperture", Sign::kNotNegative,
+            "Diameter of the beam where it leaves the sensor, with --divergence [m] (default: 0)",
+            options.aperture)
+      ->group(group::kPulse);
+  command
+      .add_option_function<std::string>(
+          "--units", [&options](const std::string& text) { options.metres_per_unit = ParseUnit(text); },
+          "Unit of the file's heights and of --water-level: m, ft (international) or us-ft (US survey) "
+          "(default: that "
+          "of the file's coordinate system)")
+      ->type_name("m|ft|us-ft")
+      ->check(OneOf({"m", "ft", "us-ft"}))
+      ->group(group::kPoints);
+}
+
+absl::StatusOr<BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,
+                                  const SurveySettings& settings, bool details) {
+  const config::SeaSettings& sea = settings.sea;
+  const absl::StatusOr<WayFlag> way = ChosenWay(options, settings.trajectory);
   if (!way.ok()) return way.status();
-  if (absl::Status status = CheckFlagsOf(*way, options); !status.ok()) return status;
-  const absl::StatusOr<BeamSource> source = Source(*way, options);
+  if (absl::Status status = CheckFlagsOf(*way, options, flags); !status.ok()) return status;
+  const absl::StatusOr<BeamSource> source = Source(*way, options, settings);
   if (!source.ok()) return source.status();
-  const std::optional<float>& wind_speed = options.fixed[Index(AxisId::kWindSpeed)];
-  if (!wind_speed.has_value() && !any_sea) {
+  if (!sea.wind_speed.has_value() && !sea.has_waves()) {
     return UsageError(
         "las: --wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
         "--survey");
   }
+  FixedInputs wind;
+  TakeWind(sea, wind);
   BeamPlan plan;
   plan.source = *source;
-  plan.any_sea = any_sea;
-  plan.wind_speed = wind_speed.value_or(0);
-  plan.fetch = options.fixed[Index(AxisId::kFetch)];
+  plan.any_sea = wind.any_sea;
+  plan.wind_speed = wind[PulseInput::kWindSpeed].value_or(0);
+  plan.fetch = wind[PulseInput::kFetch];
   plan.metres_per_unit = options.metres_per_unit;
-  plan.refractive_index = options.water_index.value_or(kSeaWaterIndex);
-  if (plan.refractive_index < kLeastIndex || plan.refractive_index > kGreatestIndex) {
-    return UsageError(absl::StrCat("las: --water-index is ", plan.refractive_index, " (that of water is ",
-                                   kLeastIndex, " to ", kGreatestIndex,
-                                   "); give the refractive index of the water, about ", kSeaWaterIndex));
-  }
-  if (absl::Status status = SetWater(options, plan); !status.ok()) return status;
+  if (plan.has_track()) plan.refractive_index = IndexOf(settings.water).value_or(kSeaWaterIndex);
+  if (absl::Status status = SetWater(settings.surface, plan); !status.ok()) return status;
   if (absl::Status status = SetFootprint(options, details, plan); !status.ok()) return status;
-  if (absl::Status status = SetAzimuth(options, details, plan); !status.ok()) return status;
+  if (absl::Status status = SetAzimuth(options, sea, details, plan); !status.ok()) return status;
   return plan;
 }
 

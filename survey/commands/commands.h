@@ -6,6 +6,10 @@
 #include "absl/status/status.h"
 #include "command_line/cli_fwd.h"
 
+namespace CLI {
+class App;
+}
+
 namespace albtpu::client {
 
 inline constexpr char kWhereAnswersComeFrom[] =
@@ -24,6 +28,7 @@ void AddPlanCommand(CLI::App& program, Run& run);
 void AddTrajectoryCommand(CLI::App& program, Run& run);
 void AddSeaCommand(CLI::App& program, Run& run);
 void AddSensorsCommand(CLI::App& program, Run& run);
+void AddKeysCommand(CLI::App& program, Run& run);
 void AddTablesCommand(CLI::App& program, Run& run);
 void AddHealthCommand(CLI::App& program, Run& run);
 

@@ -11,8 +11,7 @@
 #include "command_line/help.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
-#include "survey/commands/sea_options.h"
-#include "survey/commands/total_options.h"
+#include "survey/commands/survey_flags.h"
 #include "survey/csv/csv_annotation.h"
 #include "survey/exit_status.h"
 #include "survey/files/annotation_run.h"
@@ -25,20 +24,20 @@ namespace {
 struct CsvOptions {
   FileOptions files;
   Existing existing = Existing::kKeep;
-  SeaOptions sea;
+  SurveyFlags flags;
   SourceOptions source;
   AnswerStyle style;
   FixedInputs fixed;
-  TotalOptions total;
-  bool details = false;
 };
 
 // For a summary; null where a column of the file has it, or nothing does.
-nlohmann::ordered_json Parameters(const CsvOptions& options, const ToldSea& sea) {
+nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSettings& sea) {
   nlohmann::ordered_json json;
+  FixedInputs stated = options.fixed;
+  StateWind(sea, stated);
   for (std::size_t i = 0; i < kPulseInputCount; ++i) {
     const auto input = static_cast<PulseInput>(i);
-    const std::optional<float>& value = options.fixed[input];
+    const std::optional<float>& value = stated[input];
     json[std::string(Name(input))] = value.has_value() ? JsonNumber(*value) : nlohmann::ordered_json();
   }
   if (sea.has_waves()) json["sea"] = Parameters(sea);
@@ -54,51 +53,50 @@ std::optional<bool> IsFootprintFromBeam(const FixedInputs& fixed) {
 }
 
 // Null where no sensor is named.
-absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options, const SurveyDescription& survey,
+absl::StatusOr<std::optional<CsvTotal>> TotalOf(const CsvOptions& options,
+                                                const config::SurveySettings& settings,
                                                 const FixedInputs& fixed) {
-  if (absl::Status status = CheckTotalFlags(options.total, survey); !status.ok()) return status;
-  if (!WantsTotal(survey)) {
-    if (options.details) return UsageError("csv: --details has no effect without --sensor; leave it out");
+  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  if (!settings.wants_total()) {
+    if (options.flags.settings.output.details.has_value())
+      return UsageError("csv: --details has no effect without --sensor; leave it out");
     return std::nullopt;
   }
-  absl::StatusOr<TotalPlan> plan = PlanTotal(survey, ContextOf(survey, options.style.coverage));
+  absl::StatusOr<TotalPlan> plan = PlanTotal(settings, ContextOf(settings, options.style.coverage));
   if (!plan.ok()) return plan.status();
   if (const std::optional<float>& wind_from = fixed[PulseInput::kWindFrom]; wind_from.has_value())
     plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
-  const bool details =
-      options.details || (survey.output.has_value() && survey.output->details.value_or(false));
-  return CsvTotal{.plan = *std::move(plan), .details = details, .wind_spectrum = {}};
+  return CsvTotal{
+      .plan = *std::move(plan), .details = settings.output.details.value_or(false), .wind_spectrum = {}};
 }
 
-absl::Status RunCsv(const CsvOptions& flags) {
-  absl::StatusOr<SurveyDescription> survey = SurveyOf(flags.sea);
-  if (!survey.ok()) return survey.status();
-  *survey = Together(flags.total, *std::move(survey));
-  CsvOptions options = flags;
-  TakeStyle(*survey, options.style);
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
-  if (!sea.ok()) return sea.status();
+absl::Status RunCsv(const CsvOptions& given) {
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(given.flags);
+  if (!settings.ok()) return settings.status();
+  const config::SeaSettings& sea = settings->sea;
+  CsvOptions options = given;
+  TakeStyle(settings->output, options.style);
   FixedInputs fixed = options.fixed;
-  if (absl::Status status = TakeWind(*sea, fixed); !status.ok()) return status;
-  absl::StatusOr<std::optional<CsvTotal>> total = TotalOf(options, *survey, fixed);
+  TakeWind(sea, fixed);
+  absl::StatusOr<std::optional<CsvTotal>> total = TotalOf(options, *settings, fixed);
   if (!total.ok()) return total.status();
   AnswerStyle style = options.style;
   if (total->has_value())
     style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
   const absl::StatusOr<std::vector<Job>> jobs = FindJobs("csv", {".csv"}, options.files);
   if (!jobs.ok()) return jobs.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("csv"); !status.ok()) return status;
   const AnswerSource source = answerer->source();
-  if (total->has_value() && !sea->has_waves()) {
+  if (total->has_value() && !sea.has_waves()) {
     const auto spectrum = source.table().attributes.find("spectrum");
     (*total)->wind_spectrum = spectrum != source.table().attributes.end() ? spectrum->second : "not stated";
   }
   if (options.style.standard_errors) Note(answerer->ErrorNote());
   const std::string notes = answerer->SeaText();
   std::vector<std::filesystem::path> files;
-  if (sea->file.has_value()) files.emplace_back(*sea->file);
+  if (sea.file.has_value()) files.emplace_back(*sea.file);
   const auto annotate = [&](const Job& job, FileProgress& progress) -> absl::StatusOr<AnnotatedFile> {
     absl::StatusOr<AnnotatedCsv> csv = AnnotateCsv(job.input, job.output, options.existing, fixed, style,
                                                    source, progress, total->has_value() ? &**total : nullptr);
@@ -125,7 +123,7 @@ absl::Status RunCsv(const CsvOptions& flags) {
                                   .tally = csv->summary.Tally()},
                          text + notes};
   };
-  nlohmann::ordered_json parameters = Parameters(options, *sea);
+  nlohmann::ordered_json parameters = Parameters(options, sea);
   if (total->has_value()) {
     parameters["details"] = (*total)->details;
     parameters["total"] = Parameters((*total)->plan);
@@ -157,17 +155,12 @@ void AddCsvCommand(CLI::App& program, Run& run) {
                                              "and divergence for footprint; with a total also roll, "
                                              "pitch, heading, velocity_north and the like");
   AddFileOptions(*command, ".csv", options->files, options->existing);
-  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->fixed.coordinates);
-  AddBeamInputs(*command, options->fixed);
-  AddSeaOptions(*command, options->sea);
-  AddTotalOptions(*command, options->total);
-  command
-      ->add_flag("--details", options->details,
-                 "With a total also append the contributions of air side and sea, and the covariance (north, "
-                 "east, down)")
-      ->group(group::kOutput);
+  AddInputs(*command, options->fixed);
+  AddSeaFlags(*command, options->flags, kRareSeaFlags);
+  AddTotalFlags(*command, options->flags);
+  AddFlags(*command, {"--details"}, group::kOutput, options->flags);
   AddSourceOptions(*command, options->source);
-  AddStyleOptions(*command, options->style);
+  AddStyleFlags(*command, options->flags, options->style);
   EndHelp(*command,
           absl::StrCat("A column that is missing can be given once for all pulses by its option.\n",
                        kWhereAnswersComeFrom),

@@ -137,14 +137,11 @@ CauseContext ContextOf(const BeamPlan& plan, const TableSummary& table) {
   return context;
 }
 
-absl::Status RunLas(const LasOptions& flags) {
-  absl::StatusOr<SurveyDescription> survey = SurveyOf(flags.sea);
-  if (!survey.ok()) return survey.status();
-  *survey = Together(flags.total, *std::move(survey));
-  const LasOptions options = Together(flags, *survey);
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
-  if (!sea.ok()) return sea.status();
-  absl::StatusOr<LasAnnotation> annotation = Annotation(options, *survey, *sea);
+absl::Status RunLas(const LasOptions& options) {
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options);
+  if (!settings.ok()) return settings.status();
+  const config::SeaSettings& sea = settings->sea;
+  absl::StatusOr<LasAnnotation> annotation = Annotation(options, *settings);
   if (!annotation.ok()) return annotation.status();
   const absl::StatusOr<std::optional<LasKind>> kind = OutputKind(options);
   if (!kind.ok()) return kind.status();
@@ -154,11 +151,11 @@ absl::Status RunLas(const LasOptions& flags) {
       FindJobs("las", {Extension(LasKind::kLas), Extension(LasKind::kLaz)}, file_options);
   if (!jobs.ok()) return jobs.status();
   if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
-  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
   if (!answerer.ok()) return answerer.status();
   annotation->seas = answerer->timeline();
   const AnswerSource source = answerer->source();
-  if (annotation->total.has_value() && !sea->has_waves()) {
+  if (annotation->total.has_value() && !sea.has_waves()) {
     const auto& attributes = source.table().attributes;
     const auto spectrum = attributes.find("spectrum");
     annotation->total->wave_height =
@@ -168,13 +165,13 @@ absl::Status RunLas(const LasOptions& flags) {
   if (options.style.standard_errors) Note(answerer->ErrorNote());
   LasFiles files(options, *annotation, *kind, source);
   std::vector<std::string> read = FilesOf(annotation->plan);
-  if (sea->file.has_value()) read.push_back(*sea->file);
+  if (sea.file.has_value()) read.push_back(*sea.file);
   const absl::Status status = AnnotateFiles(
       *jobs,
       {.command = "las",
        .records = "points",
        .record = "chosen point",
-       .parameters = Parameters(*annotation, *sea, options.format),
+       .parameters = Parameters(*annotation, sea, options.format),
        .files = {read.begin(), read.end()},
        .resume = options.files.resume,
        .existing = options.existing,
@@ -193,8 +190,10 @@ absl::Status RunLas(const LasOptions& flags) {
 
 void AddLasCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<LasOptions>();
-  CLI::App* command = program.add_subcommand(
-      "las", "Copy LAS and LAZ files (1.0 to 1.4) and append sea_thu and sea_tvu to each point");
+  CLI::App* command = program.add_subcommand("las",
+                                             "Copy LAS and LAZ files (1.0 to 1.4) and append to each point "
+                                             "total_thu and total_tvu, or without a sensor "
+                                             "sea_thu and sea_tvu");
   AddLasOptions(*command, *options);
   command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
 }

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "command_line/help.h"
 #include "survey/commands/commands.h"
+#include "survey/commands/options.h"
 #include "survey/exit_status.h"
 #include "survey/las/las_points.h"
 #include "survey/sensors/installed_sensors.h"
@@ -17,19 +18,17 @@
 namespace albtpu::client {
 namespace {
 
-absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOptions& beams,
-                                  const BeamPlan& plan, bool told_divergence, Coverage coverage) {
+absl::StatusOr<TotalPlan> TotalOf(const config::SurveySettings& settings, const BeamOptions& beams,
+                                  const BeamPlan& plan, bool is_divergence_given, Coverage coverage) {
   if (!plan.has_track() && !beams.altitude.has_value())
     return UsageError("las: --altitude is missing; a total needs the height of the sensor above the water");
   TotalContext context{.coverage = coverage,
-                       .index = beams.water_index,
-                       .lever_arm = beams.lever_arm,
                        .has_surface_returns = !plan.water_classes.empty(),
                        .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
-                       .trajectory_errors = beams.trajectory_errors.empty() ? "" : "--trajectory-errors"};
-  absl::StatusOr<TotalPlan> total = PlanTotal(survey, context);
+                       .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"};
+  absl::StatusOr<TotalPlan> total = PlanTotal(settings, context);
   if (!total.ok()) return total.status();
-  if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint); beam != nullptr && !told_divergence)
+  if (const auto* beam = std::get_if<DivergingBeam>(&plan.footprint); beam != nullptr && !is_divergence_given)
     total->numbers.push_back(AssumedDivergence(beam->divergence));
   if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
   return total;
@@ -39,21 +38,11 @@ absl::StatusOr<TotalPlan> TotalOf(const SurveyDescription& survey, const BeamOpt
 
 void AddLasOptions(CLI::App& command, LasOptions& options) {
   AddFileOptions(command, ".las", options.files, options.existing);
-  AddBeamOptions(command, options.beams);
-  AddSeaOptions(command, options.sea);
-  AddTotalOptions(command, options.total);
-  command
-      .add_option_function<std::string>(
-          "--classes",
-          [&options](const std::string& text) { options.classes = ParseClasses("--classes", text); },
-          "The classes of bathymetric points (default: 40; 26 in point formats 0 to 5)")
-      ->type_name("N,N")
-      ->group(group::kPoints);
-  command
-      .add_flag("--details", options.details,
-                "Also append the geometry of each beam: incidence, beam_azimuth, footprint, water_depth, "
-                "slant_range; with a total also its shares, biases and covariance")
-      ->group(group::kOutput);
+  AddBeamOptions(command, options.beams, options.flags);
+  AddSeaFlags(command, options.flags, kRareSeaFlags);
+  AddTotalFlags(command, options.flags);
+  AddFlags(command, {"--classes"}, group::kPoints, options.flags);
+  AddFlags(command, {"--details"}, group::kOutput, options.flags);
   command
       .add_flag(
           "--replace", options.replace,
@@ -72,12 +61,12 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
       ->type_name("las|laz")
       ->group(group::kOutput);
   AddSourceOptions(command, options.source);
-  AddStyleOptions(command, options.style);
+  AddStyleFlags(command, options.flags, options.style);
   EndHelp(
       command,
       absl::StrCat(
           "OUT.laz is compressed, as by LASzip, OUT.las is not.\n"
-          "Where each beam went is told in one of four ways: --trajectory, --trajectory-from-returns,\n"
+          "Where each beam went is given in one of four ways: --trajectory, --trajectory-from-returns,\n"
           "--scanner across-track or --incidence. The water surface is --water-classes, --water-level or "
           "both.\n"
           "The beam's size is --footprint or --divergence; the latter needs --altitude where there is no\n"
@@ -89,74 +78,46 @@ void AddLasOptions(CLI::App& command, LasOptions& options) {
       "--wind-speed 5 --wind-from 250 --details");
 }
 
-LasOptions Together(LasOptions flags, const SurveyDescription& survey) {
-  BeamOptions& beams = flags.beams;
-  const bool way_told = !beams.trajectory.empty() || beams.from_returns || beams.scanner.has_value() ||
-                        beams.incidence.has_value();
-  if (survey.trajectory.has_value() && !way_told) {
-    beams.trajectory = survey.trajectory->files;
-    beams.from_returns = survey.trajectory->from_returns.value_or(false);
-    if (beams.trajectory_errors.empty()) beams.trajectory_errors = survey.trajectory->errors;
-    if (!beams.trajectory_time.has_value()) beams.trajectory_time = survey.trajectory->time;
-  }
-  const bool from_files = !beams.trajectory.empty();
-  if (from_files && !beams.lever_arm.has_value() && survey.sensor.has_value())
-    beams.lever_arm = survey.sensor->lever_arm;
-  if (from_files && !beams.geoid_separation.has_value() && survey.datum.has_value())
-    beams.geoid_separation = survey.datum->geoid_separation;
-  if ((from_files || beams.from_returns) && !beams.water_index.has_value() && survey.water.has_value())
-    beams.water_index = IndexOf(*survey.water);
-  if (const std::optional<ToldSurface>& surface = survey.surface; surface.has_value()) {
-    if (beams.water_classes.empty()) beams.water_classes = {surface->classes.begin(), surface->classes.end()};
-    if (!beams.water_level.has_value() && surface->level.has_value())
-      beams.water_level = absl::StrCat(*surface->level);
-    if (!beams.water_level.has_value()) beams.water_level = surface->level_file;
-  }
-  if (const std::optional<ToldOutput>& output = survey.output; output.has_value()) {
-    if (!flags.classes.has_value() && !output->classes.empty())
-      flags.classes = std::set<int>(output->classes.begin(), output->classes.end());
-    flags.details = flags.details || output->details.value_or(false);
-  }
-  TakeStyle(survey, flags.style);
-  return flags;
+absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
+  absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (settings.ok() && (options.beams.scanner.has_value() || options.beams.incidence.has_value()))
+    settings->trajectory = options.flags.settings.trajectory;
+  return settings;
 }
 
-absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const SurveyDescription& survey,
-                                         const ToldSea& sea) {
-  if (absl::Status status = CheckTotalFlags(options.total, survey); !status.ok()) return status;
+absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings) {
+  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  LasAnnotation annotation{.replace = options.replace, .style = options.style};
+  TakeStyle(settings.output, annotation.style);
+  annotation.details = settings.output.details.value_or(false);
+  if (!settings.output.classes.empty())
+    annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
   BeamOptions beams = options.beams;
-  const bool total = WantsTotal(survey);
-  if (total && !beams.divergence.has_value() && !beams.fixed[Index(AxisId::kFootprint)].has_value()) {
-    const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+  const bool total = settings.wants_total();
+  if (total && !beams.divergence.has_value() && !beams.fixed[PulseInput::kFootprint].has_value()) {
+    const absl::StatusOr<Sensor> sensor = FindSensor(*settings.sensor.name);
     if (!sensor.ok()) return sensor.status();
     if (sensor->divergence.has_value()) beams.divergence = sensor->divergence->value;
   }
-  if (absl::Status status = TakeWind(sea, beams.fixed); !status.ok()) return status;
-  if (!beams.wind_from.has_value()) beams.wind_from = sea.wind_from;
-  absl::StatusOr<BeamPlan> plan = MakePlan(beams, options.details || total, sea.has_waves());
+  absl::StatusOr<BeamPlan> plan =
+      MakePlan(beams, options.flags.settings, settings, annotation.details || total);
   if (!plan.ok()) return plan.status();
   plan->any_aircraft = total;
-  std::optional<TotalPlan> totals;
   if (total) {
     absl::StatusOr<TotalPlan> made =
-        TotalOf(survey, beams, *plan, options.beams.divergence.has_value(), options.style.coverage);
+        TotalOf(settings, beams, *plan, options.beams.divergence.has_value(), annotation.style.coverage);
     if (!made.ok()) return made.status();
-    totals = *std::move(made);
+    annotation.total = *std::move(made);
   }
   // A return is either from the water surface or from the bottom: in both, every depth would be 0.
-  for (const int point_class : options.classes.value_or(std::set<int>{DefaultClass(kFirstModernFormat)})) {
-    if (!options.beams.water_classes.contains(point_class)) continue;
+  for (const int point_class : annotation.classes.value_or(std::set<int>{DefaultClass(kFirstModernFormat)})) {
+    if (!plan->water_classes.contains(point_class)) continue;
     return UsageError(absl::StrCat("las: class ", point_class,
                                    " is both a class of the water surface and of the bottom; name different "
                                    "classes by --water-classes and --classes"));
   }
-  return LasAnnotation{.classes = options.classes,
-                       .plan = *std::move(plan),
-                       .seas = nullptr,
-                       .details = options.details,
-                       .replace = options.replace,
-                       .style = options.style,
-                       .total = std::move(totals)};
+  annotation.plan = *std::move(plan);
+  return annotation;
 }
 
 absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options) {
@@ -174,7 +135,7 @@ absl::StatusOr<std::optional<LasKind>> OutputKind(const LasOptions& options) {
   return options.format.has_value() ? options.format : named;
 }
 
-nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const ToldSea& sea,
+nlohmann::ordered_json Parameters(const LasAnnotation& annotation, const config::SeaSettings& sea,
                                   std::optional<LasKind> format) {
   nlohmann::ordered_json json = Parameters(annotation.plan);
   if (sea.has_waves()) json["sea"] = Parameters(sea);

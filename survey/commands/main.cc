@@ -20,7 +20,7 @@ namespace {
 int Main(int argc, char** argv) {
   using namespace albtpu::client;
 
-  CLI::App program("The uncertainty that the sea surface adds to pulses of airborne lidar bathymetry");
+  CLI::App program("Per-pulse total propagated uncertainty of airborne lidar bathymetry");
   program.name("albtpu-query");
   program.require_subcommand(1);
   albtpu::SetUpProgram(program, albtpu::Version(), albtpu::Commit());
@@ -40,6 +40,7 @@ int Main(int argc, char** argv) {
   AddTrajectoryCommand(program, run);
   AddSeaCommand(program, run);
   AddSensorsCommand(program, run);
+  AddKeysCommand(program, run);
   AddTablesCommand(program, run);
   AddHealthCommand(program, run);
   try {

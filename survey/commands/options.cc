@@ -6,6 +6,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "command_line/checks.h"
 #include "survey/number_text.h"
 
@@ -13,18 +14,13 @@ namespace albtpu::client {
 namespace {
 
 template <typename Number>
-void CheckNumber(const std::string& flag, const std::string& text, std::optional<Number> value, Sign sign,
-                 bool infinity_allowed) {
-  const bool number =
-      value.has_value() && (std::isfinite(*value) || (infinity_allowed && std::isinf(*value) && *value > 0));
+void CheckNumber(const std::string& flag, const std::string& text, std::optional<Number> value, Sign sign) {
   const std::string remedy =
-      absl::StrCat("give ", sign == Sign::kNotNegative ? "a number of at least 0" : "a finite number",
-                   infinity_allowed ? ", or inf" : "");
-  if (!number)
+      absl::StrCat("give ", sign == Sign::kNotNegative ? "a number of at least 0" : "a finite number");
+  if (!value.has_value() || !std::isfinite(*value))
     throw CLI::ValidationError(flag, absl::StrCat("'", text, "' is not a finite number; ", remedy));
-  if (sign == Sign::kNotNegative && *value < 0) {
+  if (sign == Sign::kNotNegative && *value < 0)
     throw CLI::ValidationError(flag, absl::StrCat(text, " is negative; ", remedy));
-  }
 }
 
 // Validators of CLI11 answer with what is wrong, or with an empty text.
@@ -37,31 +33,19 @@ std::string CheckHostAndPort(const std::string& text) {
   return absl::StrCat("'", text, "' is not an address; give HOST:PORT, such as 127.0.0.1:50051");
 }
 
-const char* DescribeFlag(AxisId axis) {
-  switch (axis) {
-    case AxisId::kWindSpeed:
-      return "Wind speed at 10 m above the sea [m/s]";
-    case AxisId::kFetch:
-      return "Fetch [m], or inf for a fully developed sea (default)";
-    case AxisId::kIncidence:
+const char* DescribeInput(PulseInput input) {
+  switch (input) {
+    case PulseInput::kIncidence:
       return "Angle of the beam from the vertical, in air [degree]";
-    case AxisId::kAzimuth:
+    case PulseInput::kAzimuth:
       return "Horizontal direction of the beam from downwind [degree] (default: the worse of along and "
              "across the wind)";
-    case AxisId::kFootprint:
+    case PulseInput::kFootprint:
       return "Diameter of the beam at the mean surface, across its axis [m]";
-    case AxisId::kDepth:
+    case PulseInput::kDepth:
       return "Depth below the surface [m]";
-  }
-  return "";
-}
-
-const char* DescribeBeamInput(PulseInput input) {
-  switch (input) {
     case PulseInput::kBeamAzimuth:
       return "Where the beam travels to [degree, true]; with --wind-from instead of --azimuth";
-    case PulseInput::kWindFrom:
-      return "Where the wind comes from [degree, true]; with --beam-azimuth instead of --azimuth";
     case PulseInput::kAltitude:
       return "Altitude above the water [m]; with --divergence instead of --footprint";
     case PulseInput::kDivergence:
@@ -69,21 +53,6 @@ const char* DescribeBeamInput(PulseInput input) {
     default:
       return "";
   }
-}
-
-void AddBeamInput(CLI::App& command, PulseInput input, FixedInputs& fixed) {
-  const bool is_direction = input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom;
-  command
-      .add_option_function<std::string>(
-          FlagName(input),
-          [input, is_direction, &fixed](const std::string& text) {
-            const std::optional<float> value = ParseFloat(text);
-            CheckNumber(FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative, false);
-            fixed[input] = value;
-          },
-          DescribeBeamInput(input))
-      ->type_name("NUMBER")
-      ->group(input == PulseInput::kWindFrom ? group::kSea : group::kPulse);
 }
 
 // Each of them means TLS.
@@ -133,35 +102,6 @@ void AddSourceOptions(CLI::App& command, SourceOptions& options) {
       ->group(group::kSource);
 }
 
-void AddStyleOptions(CLI::App& command, AnswerStyle& style) {
-  command
-      .add_option_function<std::string>(
-          "--coverage",
-          [&style](const std::string& text) {
-            style.coverage = *FindCoverage(text);
-            style.coverage_given = true;
-          },
-          "2sigma for twice the standard deviation (default), p95 for 95 %, 1sigma for one standard "
-          "deviation")
-      ->type_name("2sigma|p95|1sigma")
-      ->check(OneOf({"2sigma", "p95", "1sigma"}))
-      ->group(group::kOutput);
-  std::vector<std::string> orders;
-  for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
-  command
-      .add_option_function<std::string>(
-          "--s44-order", [&style](const std::string& text) { style.s44_order = FindS44Order(text); },
-          "Compare with this order of IHO S-44: exclusive, special, 1a, 1b or 2")
-      ->type_name("ORDER")
-      ->check(OneOf(orders))
-      ->group(group::kOutput);
-  command
-      .add_flag_callback(
-          "--standard-errors", [&style] { style.standard_errors = true; },
-          "Give the standard error of each value, too")
-      ->group(group::kOutput);
-}
-
 void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options,
                     Existing& existing) {
   command
@@ -200,28 +140,47 @@ nlohmann::ordered_json Parameters(const AnswerStyle& style) {
   return json;
 }
 
-void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed) {
-  const Sign sign = axis == AxisId::kAzimuth ? Sign::kAny : Sign::kNotNegative;
-  const bool is_of_the_sea = axis == AxisId::kWindSpeed || axis == AxisId::kFetch;
+void AddInput(CLI::App& command, PulseInput input, FixedInputs& fixed) {
+  const bool is_direction = input == PulseInput::kBeamAzimuth || input == PulseInput::kAzimuth;
   command
       .add_option_function<std::string>(
-          FlagName(axis),
-          [axis, sign, &fixed](const std::string& text) {
+          FlagName(input),
+          [input, is_direction, &fixed](const std::string& text) {
             const std::optional<float> value = ParseFloat(text);
-            CheckNumber(FlagName(axis), text, value, sign, axis == AxisId::kFetch);
-            fixed[Index(axis)] = value;
+            CheckNumber(FlagName(input), text, value, is_direction ? Sign::kAny : Sign::kNotNegative);
+            fixed[input] = value;
           },
-          DescribeFlag(axis))
+          DescribeInput(input))
       ->type_name("NUMBER")
-      ->group(is_of_the_sea ? group::kSea : group::kPulse);
+      ->group(group::kPulse);
 }
 
-void AddWindFrom(CLI::App& command, FixedInputs& fixed) {
-  AddBeamInput(command, PulseInput::kWindFrom, fixed);
+void AddInputs(CLI::App& command, FixedInputs& fixed) {
+  for (std::size_t i = 0; i < kPulseInputCount; ++i)
+    if (const auto input = static_cast<PulseInput>(i); !IsOfSea(input)) AddInput(command, input, fixed);
 }
 
-void AddBeamInputs(CLI::App& command, FixedInputs& fixed) {
-  for (const PulseInput input : kBeamInputs) AddBeamInput(command, input, fixed);
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
+               const std::string& description, std::optional<std::array<double, 3>>& value) {
+  command
+      .add_option_function<std::string>(
+          flag,
+          [flag, type, &value](const std::string& text) {
+            const std::vector<std::string> parts = absl::StrSplit(text, ',');
+            std::array<double, 3> numbers = {};
+            bool good = parts.size() == numbers.size();
+            for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+              const std::optional<double> number = ParseDouble(parts[i]);
+              good = number.has_value() && std::isfinite(*number);
+              numbers[i] = number.value_or(0);
+            }
+            if (!good)
+              throw CLI::ValidationError(flag, absl::StrCat("is '", text, "'; give three numbers: ", type));
+            value = numbers;
+          },
+          description)
+      ->type_name(type)
+      ->group(group::kTotal);
 }
 
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,
@@ -231,7 +190,7 @@ CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, co
           flag,
           [flag, sign, &value](const std::string& text) {
             const std::optional<double> parsed = ParseDouble(text);
-            CheckNumber(flag, text, parsed, sign, false);
+            CheckNumber(flag, text, parsed, sign);
             value = parsed;
           },
           description)

@@ -2,6 +2,7 @@
 // CLI::ValidationError while arguments are parsed: bad usage, exit 2.
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,11 @@
 #include "survey/csv/pulse_inputs.h"
 #include "survey/files/file_jobs.h"
 #include "tables/file/table_io.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace albtpu::client {
 
@@ -35,9 +41,6 @@ CLI::Option* AddServerOptions(CLI::App& command, SourceOptions& options);
 // The same, --table and --table-name.
 void AddSourceOptions(CLI::App& command, SourceOptions& options);
 
-// --coverage, --s44-order and --standard-errors.
-void AddStyleOptions(CLI::App& command, AnswerStyle& style);
-
 // Input and output files of an `extension`, such as ".las", --output-dir, --recursive, --resume and --overwrite.
 void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions& options,
                     Existing& existing);
@@ -45,19 +48,19 @@ void AddFileOptions(CLI::App& command, const std::string& extension, FileOptions
 // The style as a summary states it.
 nlohmann::ordered_json Parameters(const AnswerStyle& style);
 
-// `--wind-speed` and the like, one value for all pulses.
-void AddCoordinate(CLI::App& command, AxisId axis, FixedCoordinates& fixed);
+// `--incidence` and the like, one value for all pulses. Those of the sea have keys (survey_flags.h).
+void AddInput(CLI::App& command, PulseInput input, FixedInputs& fixed);
+// Of all inputs but those of the sea.
+void AddInputs(CLI::App& command, FixedInputs& fixed);
 
-// --beam-azimuth, --wind-from, --altitude and --divergence, one value for all pulses.
-void AddBeamInputs(CLI::App& command, FixedInputs& fixed);
-
-// --wind-from alone.
-void AddWindFrom(CLI::App& command, FixedInputs& fixed);
+// Three numbers, of the motion of the aircraft at one pulse.
+void AddTriple(CLI::App& command, const std::string& flag, const std::string& type,
+               const std::string& description, std::optional<std::array<double, 3>>& value);
 
 // Whether numbers below zero make sense.
 enum class Sign { kAny, kNotNegative };
 
-// A finite number. Only AddCoordinate(--fetch) takes `inf` as well.
+// A finite number.
 CLI::Option* AddNumber(CLI::App& command, const std::string& flag, Sign sign, const std::string& description,
                        std::optional<double>& value);
 

@@ -15,8 +15,7 @@
 #include "command_line/standard_output.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
-#include "survey/commands/sea_options.h"
-#include "survey/commands/total_options.h"
+#include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
 #include "survey/files/file_progress.h"
 #include "survey/planning/survey_plan.h"
@@ -27,10 +26,8 @@ namespace albtpu::client {
 namespace {
 
 struct PlanOptions {
-  FixedInputs inputs;  // Of which only wind and fetch.
-  SeaOptions sea;
+  SurveyFlags flags;
   SourceOptions source;
-  TotalOptions total;
   std::optional<double> divergence;  // mrad
   double altitude = 400, incidence = 20;
   std::vector<double> altitudes = {200, 300, 400, 500, 600, 700, 800};
@@ -43,10 +40,9 @@ struct PlanOptions {
   Existing existing = Existing::kKeep;
 };
 
-absl::StatusOr<TotalPlan> PlanOf(const SurveyDescription& survey) {
-  const ToldSurface surface = survey.surface.value_or(ToldSurface());
-  const bool level = surface.level.has_value() || surface.level_file.has_value();
-  return PlanTotal(survey, {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
+absl::StatusOr<TotalPlan> PlanOf(const config::SurveySettings& settings) {
+  const bool level = settings.surface.level.has_value();
+  return PlanTotal(settings, {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
 }
 
 // In ascending order, each once. Values too small for float32, the precision of table queries, become 0.
@@ -59,7 +55,7 @@ std::vector<double> Rising(std::vector<double> values) {
 }
 
 // The sea with its waves scaled to this significant height in total.
-ToldSea WithHeight(ToldSea sea, double height) {
+config::SeaSettings WithHeight(config::SeaSettings sea, double height) {
   double energy = 0;
   for (const JonswapWaves& each : sea.waves)
     energy += each.significant_wave_height * each.significant_wave_height;
@@ -69,8 +65,8 @@ ToldSea WithHeight(ToldSea sea, double height) {
 
 class Planner {
  public:
-  Planner(const PlanOptions& options, const SurveyDescription& survey, ToldSea sea)
-      : options_(options), survey_(survey), sea_(std::move(sea)) {}
+  Planner(const PlanOptions& options, const config::SurveySettings& settings)
+      : options_(options), settings_(settings), sea_(settings.sea) {}
 
   absl::StatusOr<SurveyPlan> Make() {
     const bool waves = sea_.has_waves();
@@ -104,20 +100,17 @@ class Planner {
     if (sea_.file.has_value())
       return UsageError(
           "plan: a file of the sea is of one survey; give the waves by --hs and --tp, or the wind alone");
-    if (!sea_.has_waves() &&
-        (options_.inputs[PulseInput::kWindSpeed] || options_.inputs[PulseInput::kWindFrom]))
+    const config::SeaSettings& flags = options_.flags.settings.sea;
+    if (!sea_.has_waves() && (flags.wind_speed || flags.wind_from))
       return UsageError("plan: one wind has no effect without waves (all winds are planned); give --winds");
-    if (sea_.has_waves() && options_.inputs[PulseInput::kFetch])
-      return UsageError(
-          "plan: --fetch has no effect with --hs (only tables of winds have a fetch); leave it out");
     if (sea_.has_waves() &&
         std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
       return UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
-    if (options_.kds_given && (!survey_.water.has_value() || survey_.water->without_column))
+    if (options_.kds_given && !wants_column())
       return UsageError(
           "plan: --kds has no effect without the contribution of the water column; describe the water in "
           "--survey");
-    absl::StatusOr<TotalPlan> total = PlanOf(survey_);
+    absl::StatusOr<TotalPlan> total = PlanOf(settings_);
     if (!total.ok()) return total.status();
     planned_ = *std::move(total);
     if (options_.divergence.has_value()) {
@@ -151,18 +144,17 @@ class Planner {
 
   // A total for each attenuation, if the share of the water column is wanted.
   absl::Status PrepareWaters(FileProgress::File& shown) {
-    const bool column = survey_.water.has_value() && !survey_.water->without_column;
-    if (column) {
+    if (wants_column()) {
       plan_.axes.push_back({"kd", "1/m", Rising(options_.kds), {}});
       for (const double kd : plan_.axes.back().values) {
-        SurveyDescription survey = survey_;
-        ToldWater& water = *survey.water;
+        config::SurveySettings settings = settings_;
+        config::WaterSettings& water = settings.water;
         water.kd = kd;
         if (!water.kd_kind.has_value() || *water.kd_kind == "secchi" || *water.kd_kind == "jerlov")
           water.kd_kind = "diffuse532";
         water.kd_sigma = water.secchi = water.absorption = water.scattering = std::nullopt;
         water.jerlov = std::nullopt;
-        absl::StatusOr<TotalPlan> total = PlanOf(survey);
+        absl::StatusOr<TotalPlan> total = PlanOf(settings);
         if (!total.ok()) return total.status();
         of_waters_.push_back(*std::move(total));
         ++done_;
@@ -173,7 +165,7 @@ class Planner {
     return absl::OkStatus();
   }
 
-  absl::Status Open(const ToldSea& sea) {
+  absl::Status Open(const config::SeaSettings& sea) {
     absl::StatusOr<Answerer> opened = Answerer::Open(sea, options_.source);
     if (!opened.ok()) return opened.status();
     answerer_ = std::make_unique<Answerer>(*std::move(opened));
@@ -219,7 +211,9 @@ class Planner {
                      .wind_speed = {},
                      .fetch = {}};
     if (!sea_.has_waves()) {
-      const std::optional<float>& fetch = options_.inputs[PulseInput::kFetch];
+      FixedInputs wind;
+      TakeWind(sea_, wind);
+      const std::optional<float>& fetch = wind[PulseInput::kFetch];
       const auto spectrum = source.table().attributes.find("spectrum");
       beam.wind_speed = sea;
       if (fetch.has_value()) beam.fetch = *fetch;
@@ -229,11 +223,16 @@ class Planner {
     return ReachOf(plan, source, beam);
   }
 
+  // Whether the water is described, and its share not left out.
+  bool wants_column() const {
+    return IsAnyGiven(config::kWaterKeys, settings_.water) && !settings_.water.without_column();
+  }
+
   const TableSummary& source_table() const { return answerer_->source().table(); }
 
   const PlanOptions& options_;
-  const SurveyDescription& survey_;
-  ToldSea sea_;
+  const config::SurveySettings& settings_;
+  config::SeaSettings sea_;
   std::uint64_t done_ = 0;  // Waters and seas.
   double divergence_ = 0;   // mrad
   TotalPlan planned_;
@@ -243,13 +242,10 @@ class Planner {
 };
 
 absl::Status RunPlan(const PlanOptions& options) {
-  absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
-  if (!survey.ok()) return survey.status();
-  *survey = Together(options.total, *std::move(survey));
-  if (!WantsTotal(*survey))
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (!settings.ok()) return settings.status();
+  if (!settings->wants_total())
     return UsageError("plan: the sensor is missing; name it by --sensor or in --survey");
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
-  if (!sea.ok()) return sea.status();
   if (!options.output.empty() && !options.no_page)
     if (absl::Status status = CheckPageCanBeDrawn(); !status.ok()) return status;
   std::optional<NewFolder> folder;
@@ -257,7 +253,7 @@ absl::Status RunPlan(const PlanOptions& options) {
     folder.emplace(options.output);
     if (absl::Status status = PrepareFolder(options.output, options.existing); !status.ok()) return status;
   }
-  absl::StatusOr<SurveyPlan> plan = Planner(options, *survey, *sea).Make();
+  absl::StatusOr<SurveyPlan> plan = Planner(options, *settings).Make();
   if (!plan.ok()) return plan.status();
   const nlohmann::ordered_json json = PlanJson(*plan);
   if (!options.output.empty())
@@ -273,11 +269,8 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   CLI::App* command = program.add_subcommand(
       "plan",
       "The depth down to which each order of S-44 can be met: for wind or waves, altitude, incidence, water");
-  for (const AxisId axis : {AxisId::kWindSpeed, AxisId::kFetch})
-    AddCoordinate(*command, axis, options->inputs.coordinates);
-  AddWindFrom(*command, options->inputs);
-  AddSeaOptions(*command, options->sea);
-  AddTotalOptions(*command, options->total);
+  AddSeaFlags(*command, options->flags, {});
+  AddTotalFlags(*command, options->flags);
   const auto number = [&](const char* flag, auto& value, const char* help, double least, double most,
                           const char* unit) {
     return command->add_option(flag, value, help)->check(NumberIn(least, most, unit));
@@ -312,7 +305,6 @@ void AddPlanCommand(CLI::App& program, Run& run) {
   AddSourceOptions(*command, options->source);
   Group(*command, "What is planned", {"--order", "--altitude", "--incidence", "--divergence"});
   Group(*command, "What is compared", {"--winds", "--wave-heights", "--altitudes", "--incidences", "--kds"});
-  Group(*command, group::kSea, {"--fetch"});
   Group(*command, group::kOutput, {"--output", "--no-page", "--json", "--overwrite"});
   EndHelp(*command, "Whether the laser sees the bottom at these depths is another question.",
           "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",

@@ -10,8 +10,7 @@
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
 #include "survey/commands/pulse_text.h"
-#include "survey/commands/sea_options.h"
-#include "survey/commands/total_options.h"
+#include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
 #include "survey/totals/pulse_report.h"
 
@@ -20,10 +19,9 @@ namespace {
 
 struct PulseOptions {
   FixedInputs inputs;
-  SeaOptions sea;
+  SurveyFlags flags;
   SourceOptions source;
   AnswerStyle style;
-  TotalOptions total;
   PulseMotion motion;
   bool json = false;
 };
@@ -49,25 +47,23 @@ absl::Status TakeForTotal(FixedInputs& inputs, PulseTotal& total) {
   return absl::OkStatus();
 }
 
-absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& survey, const ToldSea& sea,
-                      FixedInputs inputs) {
-  AnswerStyle style = options.style;
-  TakeStyle(survey, style);
+absl::Status RunTotal(const PulseOptions& options, const AnswerStyle& style,
+                      const config::SurveySettings& settings, FixedInputs inputs) {
   PulseTotal total;
   total.motion = options.motion;
-  absl::StatusOr<TotalPlan> plan = PlanTotal(survey, ContextOf(survey, style.coverage));
+  absl::StatusOr<TotalPlan> plan = PlanTotal(settings, ContextOf(settings, style.coverage));
   if (!plan.ok()) return plan.status();
   total.plan = *std::move(plan);
   if (absl::Status status = TakeForTotal(inputs, total); !status.ok()) return status;
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(settings.sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
   const AnswerSource source = answerer->source();
   total.pulse = OnePulse(*coordinates);
   total.pulse.azimuths_from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
-  if (!sea.has_waves()) {
+  if (!inputs.any_sea) {
     const auto spectrum = source.table().attributes.find("spectrum");
     total.plan.wave_height =
         WaveHeightOfWind(inputs[PulseInput::kWindSpeed].value_or(0), inputs[PulseInput::kFetch],
@@ -81,26 +77,25 @@ absl::Status RunTotal(const PulseOptions& options, const SurveyDescription& surv
 }
 
 absl::Status RunPulse(const PulseOptions& options) {
-  absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
-  if (!survey.ok()) return survey.status();
-  *survey = Together(options.total, *std::move(survey));
-  if (absl::Status status = CheckTotalFlags(options.total, *survey); !status.ok()) return status;
-  const absl::StatusOr<ToldSea> sea = ToldBy(options.sea, *survey);
-  if (!sea.ok()) return sea.status();
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (!settings.ok()) return settings.status();
+  if (absl::Status status = CheckTotalFlags(options.flags, *settings); !status.ok()) return status;
+  AnswerStyle style = options.style;
+  TakeStyle(settings->output, style);
   FixedInputs inputs = options.inputs;
-  if (absl::Status status = TakeWind(*sea, inputs); !status.ok()) return status;
-  if (WantsTotal(*survey)) return RunTotal(options, *survey, *sea, inputs);
+  TakeWind(settings->sea, inputs);
+  if (settings->wants_total()) return RunTotal(options, style, *settings, inputs);
   if (options.motion.attitude || options.motion.velocity || options.motion.rates)
     return UsageError(
         "pulse: --attitude, --velocity and --rates have no effect without --sensor; leave them out");
   const absl::StatusOr<FixedCoordinates> coordinates = CoordinatesOf(inputs);
   if (!coordinates.ok()) return coordinates.status();
-  absl::StatusOr<Answerer> answerer = Answerer::Open(*sea, options.source);
+  absl::StatusOr<Answerer> answerer = Answerer::Open(settings->sea, options.source);
   if (!answerer.ok()) return answerer.status();
   if (absl::Status status = answerer->CheckOneTime("pulse"); !status.ok()) return status;
   const bool from_north = inputs.any_sea && inputs[PulseInput::kBeamAzimuth].has_value();
   const AnswerSource source = answerer->source();
-  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, options.style, source, from_north);
+  const absl::StatusOr<PulseAnswer> answer = AskPulse(*coordinates, style, source, from_north);
   if (!answer.ok()) return answer.status();
   if (options.json) {
     std::cout << PulseJson(*answer, source.table(), answerer->SeaJson());
@@ -115,17 +110,16 @@ absl::Status RunPulse(const PulseOptions& options) {
 void AddPulseCommand(CLI::App& program, Run& run) {
   const auto options = std::make_shared<PulseOptions>();
   CLI::App* command = program.add_subcommand("pulse", "Print the uncertainty of one pulse");
-  for (const AxisId axis : kAxes) AddCoordinate(*command, axis, options->inputs.coordinates);
-  AddBeamInputs(*command, options->inputs);
-  AddSeaOptions(*command, options->sea);
-  AddTotalOptions(*command, options->total);
+  AddInputs(*command, options->inputs);
+  AddSeaFlags(*command, options->flags, {});
+  AddTotalFlags(*command, options->flags);
   AddTriple(*command, "--attitude", "ROLL,PITCH,HEADING", "Of the aircraft [degree]",
             options->motion.attitude);
   AddTriple(*command, "--velocity", "NORTH,EAST,DOWN", "Of the aircraft [m/s]", options->motion.velocity);
   AddTriple(*command, "--rates", "ROLL,PITCH,YAW", "Of the aircraft, about its own axes [degree/s]",
             options->motion.rates);
   AddSourceOptions(*command, options->source);
-  AddStyleOptions(*command, options->style);
+  AddStyleFlags(*command, options->flags, options->style);
   command->add_flag("--json", options->json, "Print one flat JSON object, with null where there is no number")
       ->group(group::kOutput);
   EndHelp(*command, kWhereAnswersComeFrom,

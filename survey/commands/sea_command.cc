@@ -16,7 +16,7 @@
 #include "sea/table/sea_table.h"
 #include "survey/commands/commands.h"
 #include "survey/commands/options.h"
-#include "survey/commands/sea_options.h"
+#include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
 #include "survey/seas/sea_facts.h"
 
@@ -26,8 +26,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct SeaCommandOptions {
-  SeaOptions sea;
-  FixedInputs inputs;
+  SurveyFlags flags;
   std::string output;  // FILE.h5
   Existing existing = Existing::kKeep;
   bool json = false;
@@ -84,13 +83,11 @@ absl::Status WriteSea(const SeaTimeline& seas, const SeaCommandOptions& options)
 }
 
 absl::Status RunSea(const SeaCommandOptions& options) {
-  const absl::StatusOr<SurveyDescription> survey = SurveyOf(options.sea);
-  if (!survey.ok()) return survey.status();
-  const absl::StatusOr<ToldSea> settings = ToldBy(options.sea, *survey);
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
   if (!settings.ok()) return settings.status();
-  if (!settings->has_waves())
+  if (!settings->sea.has_waves())
     return UsageError("sea: no waves are given; give a FILE, --survey, or --hs and --tp");
-  const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(*settings);
+  const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(settings->sea);
   if (!seas.ok()) return seas.status();
   if (!options.output.empty()) {
     if (absl::Status status = WriteSea(*seas, options); !status.ok()) return status;
@@ -124,11 +121,10 @@ void AddSeaCommand(CLI::App& program, Run& run) {
   CLI::App* command =
       program.add_subcommand("sea", "Show the states of the sea that a file has, and the slopes under beams");
   command
-      ->add_option("file", options->sea.flags.file, "Spectra or heights of waves; or give --survey or --hs")
+      ->add_option("file", options->flags.settings.sea.file,
+                   "Spectra or heights of waves; or give --survey or --hs")
       ->type_name("FILE");
-  AddCoordinate(*command, AxisId::kWindSpeed, options->inputs.coordinates);
-  AddWindFrom(*command, options->inputs);
-  AddSeaOptions(*command, options->sea);
+  AddSeaFlags(*command, options->flags, {"--fetch"});
   command->add_flag("--json", options->json, "Print one JSON object with an array `records`")
       ->group(group::kOutput);
   command->add_option("--output", options->output, "Write the table of the sea, of one instant, to this file")

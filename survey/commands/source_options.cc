@@ -1,11 +1,15 @@
 #include "survey/commands/source_options.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "sea/sea_time.h"
 #include "service/client/local_source.h"
 #include "service/client/server_source.h"
+#include "survey/answers/interpolation_error.h"
 #include "survey/exit_status.h"
+#include "survey/seas/sea_facts.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_folder.h"
 #include "tables/file/table_io.h"
@@ -118,6 +122,56 @@ absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& option
         absl::StrCat("there is no table '", options.name, "'; `albtpu-query tables` lists all"));
   }
   return tables;
+}
+
+absl::StatusOr<Answerer> Answerer::Open(const config::SeaSettings& sea, const SourceOptions& options) {
+  Answerer answerer;
+  if (!sea.has_waves()) {
+    absl::StatusOr<std::unique_ptr<UncertaintySource>> table = OpenSource(options);
+    if (!table.ok()) return table.status();
+    answerer.table_ = *std::move(table);
+    return answerer;
+  }
+  absl::StatusOr<std::unique_ptr<SeaSources>> sources = OpenSeaSources(options);
+  if (!sources.ok()) return sources.status();
+  absl::StatusOr<SeaTimeline> timeline = SeaTimeline::Open(sea);
+  if (!timeline.ok()) return timeline.status();
+  answerer.timeline_ = std::make_shared<const SeaTimeline>(*std::move(timeline));
+  absl::StatusOr<std::unique_ptr<SeaAnswers>> seas =
+      SeaAnswers::Open(answerer.timeline_, *std::move(sources));
+  if (!seas.ok()) return seas.status();
+  answerer.seas_ = *std::move(seas);
+  return answerer;
+}
+
+std::string Answerer::ErrorNote() const {
+  if (seas_ == nullptr) return InterpolationErrorNote(table_->table());
+  return "standard errors are the sea's own: the sampling of its spectrum, and half the difference between "
+         "the tail "
+         "rules wind and level";
+}
+
+nlohmann::ordered_json Answerer::SeaJson() const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (seas_ != nullptr)
+    json["sea"] = SeasJson(*timeline_, timeline_->fixed().first, timeline_->fixed().second);
+  return json;
+}
+
+std::string Answerer::SeaText() const {
+  std::string text;
+  if (seas_ == nullptr) return text;
+  for (const std::string& note : SeasNotes(*timeline_, timeline_->fixed().first, timeline_->fixed().second))
+    absl::StrAppend(&text, "\n  ", note);
+  return text;
+}
+
+absl::Status Answerer::CheckOneTime(const std::string& command) const {
+  if (timeline_ == nullptr || !timeline_->by_time()) return absl::OkStatus();
+  return UsageError(absl::StrCat(command, ": ", *timeline_->settings().file, " has ", timeline_->size(),
+                                 " records ", SpanText(*timeline_),
+                                 " (pulses have no time here); choose one by --sea-time, such as ",
+                                 SeaTimeText(timeline_->end())));
 }
 
 }  // namespace albtpu::client

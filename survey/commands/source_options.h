@@ -1,14 +1,18 @@
-// Which table answers: a file, one of a server, or one of those that are installed beside the program.
+// What answers: a table of a file, of a server or of those that are installed beside the program, or the sea.
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "config/sea_settings.h"
 #include "service/client/credentials.h"
 #include "service/client/sea_sources.h"
 #include "service/client/uncertainty_source.h"
+#include "survey/answers/batch.h"
+#include "survey/seas/sea_answers.h"
 
 namespace albtpu::client {
 
@@ -27,5 +31,33 @@ absl::StatusOr<std::unique_ptr<SeaSources>> OpenSeaSources(const SourceOptions& 
 
 // All tables of the source, or those that `options.name` names.
 absl::StatusOr<std::vector<TableSummary>> ListTables(const SourceOptions& options);
+
+// What answers the pulses of a command: a table, or the sea.
+class Answerer {
+ public:
+  // Opens a table, unless `sea` has waves. UsageError if both are given.
+  static absl::StatusOr<Answerer> Open(const config::SeaSettings& sea, const SourceOptions& options);
+
+  AnswerSource source() { return seas_ != nullptr ? seas_->source() : AnswerSource(*table_); }
+  // Null where a table answers.
+  std::shared_ptr<const SeaTimeline> timeline() const { return timeline_; }
+  SeaAnswers* seas() { return seas_.get(); }
+
+  // What the errors of its numbers are, for the user.
+  std::string ErrorNote() const;
+
+  // Which sea it is, for a summary ({"sea": ...} or {}) and for the user, lines indented by two blanks. Of a sea for
+  // all pulses.
+  nlohmann::ordered_json SeaJson() const;
+  std::string SeaText() const;
+
+  // UsageError if the sea goes by times that the pulses of `command` do not have.
+  absl::Status CheckOneTime(const std::string& command) const;
+
+ private:
+  std::unique_ptr<UncertaintySource> table_;
+  std::shared_ptr<const SeaTimeline> timeline_;
+  std::unique_ptr<SeaAnswers> seas_;
+};
 
 }  // namespace albtpu::client

@@ -13,12 +13,14 @@
 #include "absl/strings/str_replace.h"
 #include "command_line/near_match.h"
 #include "command_line/one_line.h"
+#include "config/toml/toml_keys.h"
 #include "survey/answers/batch.h"
-#include "survey/toml/toml_keys.h"
 #include "tables/default_tables.h"
 
 namespace albtpu::client {
 namespace {
+
+using namespace config;
 
 namespace fs = std::filesystem;
 

@@ -106,7 +106,7 @@ std::string WindText(const SeaFacts& facts) {
 
 SeaFacts FactsOf(const SeaTimeline& seas, std::size_t record) {
   const SeaRecord& state = seas.record(record);
-  const ToldSea& settings = seas.settings();
+  const config::SeaSettings& settings = seas.settings();
   SeaFacts facts;
   facts.time = state.time;
   facts.sea = Describe(state, settings.description());
@@ -193,8 +193,8 @@ SlopeFacts SlopeSurvey::operator()(const SeaTimeline& seas, std::size_t record) 
                                 DegreesOfRadians(beams[i].refraction_cross_wind())});
   }
   if (IsComplete(seas.record(record)) || !(sea.wind_speed_10m > 0)) return facts;
-  ToldSea settings = seas.settings();
-  for (const std::string_view rule : kTailRules) {
+  config::SeaSettings settings = seas.settings();
+  for (const std::string_view rule : config::kTailRules) {
     settings.tail = rule;
     facts.by_tail_rule.push_back(
         RefractionAlong(Describe(seas.record(record), settings.description()).spectrum, one_footprint_));
@@ -216,7 +216,7 @@ ordered_json Json(const SlopeFacts& facts) {
   }
   json["refraction_along_by_tail"] = nullptr;
   for (std::size_t i = 0; i < facts.by_tail_rule.size(); ++i)
-    json["refraction_along_by_tail"][std::string(kTailRules[i])] = facts.by_tail_rule[i];
+    json["refraction_along_by_tail"][std::string(config::kTailRules[i])] = facts.by_tail_rule[i];
   return json;
 }
 

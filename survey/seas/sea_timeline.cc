@@ -90,7 +90,7 @@ absl::StatusOr<std::size_t> ChoosePlace(const std::optional<std::string>& wanted
                                                  "); name one of them by --sea-place"));
 }
 
-double LongestGap(const ToldSea& settings, const std::vector<double>& times) {
+double LongestGap(const config::SeaSettings& settings, const std::vector<double>& times) {
   if (settings.longest_gap.has_value()) return *settings.longest_gap * kSecondsPerHour;
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -102,7 +102,7 @@ double LongestGap(const ToldSea& settings, const std::vector<double>& times) {
 
 }  // namespace
 
-absl::StatusOr<SeaTimeline> SeaTimeline::Open(const ToldSea& settings) {
+absl::StatusOr<SeaTimeline> SeaTimeline::Open(const config::SeaSettings& settings) {
   SeaTimeline seas;
   seas.settings_ = settings;
   if (!settings.file.has_value()) {
@@ -135,7 +135,7 @@ absl::Status SeaTimeline::TakePlace(std::vector<SeaRecord> records) {
   const bool complete = std::holds_alternative<WholeSea>(records_.front().waves);
   if (complete && (settings_.tail.has_value() || settings_.tail_from.has_value()))
     return absl::InvalidArgumentError(
-        "is a sea by wavenumber, which is complete (no tail is joined); leave out --tail and --tail-from");
+        "is a sea by wavenumber, which is complete (no tail is joined); leave out tail and tail_from");
   return absl::OkStatus();
 }
 
@@ -155,8 +155,7 @@ absl::Status SeaTimeline::TakeTime() {
   if (fixed_.has_value()) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrFormat("has no sea at %s (its %d records last %s, and gaps of up to %g h are bridged); choose "
-                      "another --sea-time, or "
-                      "a longer --sea-gap",
+                      "another --sea-time, or a longer --sea-gap (longest_gap in a survey file)",
                       *settings_.time, records_.size(), SpanText(*this), longest_gap_ / kSecondsPerHour));
 }
 

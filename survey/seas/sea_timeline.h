@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "config/sea_settings.h"
 #include "sea/files/sea_series.h"
 #include "service/seas/known_sea.h"
-#include "survey/seas/told_sea.h"
 
 namespace albtpu::client {
 
@@ -25,7 +25,7 @@ class SeaTimeline {
  public:
   // Reads the given file, or takes the given waves. `settings` has passed CheckSea and has waves. Errors begin with the
   // path of the file: it cannot be read, its place is missing or unknown, or it does not have the time.
-  static absl::StatusOr<SeaTimeline> Open(const ToldSea& settings);
+  static absl::StatusOr<SeaTimeline> Open(const config::SeaSettings& settings);
 
   // The records of one place.
   std::size_t size() const { return records_.size(); }
@@ -47,7 +47,7 @@ class SeaTimeline {
   double end() const { return times_.back(); }
   double longest_gap() const { return longest_gap_; }  // s
 
-  const ToldSea& settings() const { return settings_; }
+  const config::SeaSettings& settings() const { return settings_; }
   const SeaSeries& series() const { return series_; }  // what the file states, without its records
   const std::string& place() const { return place_; }  // empty if the file has but one without a name
 
@@ -56,7 +56,7 @@ class SeaTimeline {
   absl::Status TakePlace(std::vector<SeaRecord> records);
   absl::Status TakeTime();
 
-  ToldSea settings_;
+  config::SeaSettings settings_;
   SeaSeries series_;
   std::string place_;
   std::vector<SeaRecord> records_;

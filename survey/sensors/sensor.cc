@@ -9,6 +9,8 @@
 namespace albtpu::client {
 namespace {
 
+using namespace config;
+
 constexpr TomlKind kSensorFile = {"a sensor file", "the sensor", "the name of the sensor"};
 
 constexpr char kValue[] = "value";

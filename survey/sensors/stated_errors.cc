@@ -13,7 +13,7 @@ std::string PartsText(const ErrorSource& source) {
   return absl::StrCat("[", absl::StrJoin(source.parts, ", ", append), "]");
 }
 
-void ReadErrors(TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors) {
+void ReadErrors(config::TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors) {
   const ErrorSource& source = kErrorSources[i];
   const std::span<double> numbers = source.In(errors.values);
   if (numbers.size() == 1) {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "budget/air/air_errors.h"
-#include "survey/toml/toml_keys.h"
+#include "config/toml/toml_keys.h"
 
 namespace albtpu::client {
 
@@ -31,6 +31,6 @@ inline constexpr double kLeastAngle = 2e-4;
 
 // Reads what `key` has of source `i` of kErrorSources: its number or its three numbers, each from 0 to the greatest
 // plausible; 0 is none. Not stated if the key is missing or a problem.
-void ReadErrors(TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors);
+void ReadErrors(config::TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors);
 
 }  // namespace albtpu::client

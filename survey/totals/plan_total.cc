@@ -29,9 +29,9 @@ std::string Text(std::span<const double> numbers, std::string_view unit) {
 // is assumed; and states which.
 class ErrorPlan {
  public:
-  ErrorPlan(const SurveyDescription& survey, const TotalContext& context, const Sensor& sensor,
+  ErrorPlan(const config::SurveySettings& survey, const TotalContext& context, const Sensor& sensor,
             bool index_of_state, TotalPlan& plan)
-      : told_(survey.sigma.value_or(StatedErrors())),
+      : given_(survey.sigma),
         trajectory_errors_(context.trajectory_errors),
         sensor_(sensor),
         index_of_state_(index_of_state),
@@ -39,15 +39,15 @@ class ErrorPlan {
 
   absl::Status Make() {
     const SurfaceLocation located = plan_.options.located;
-    const bool range_told = told_.Has(&AirErrors::surface_range),
-               height_told = told_.Has(&AirErrors::surface_height);
-    if (range_told && (height_told || located == SurfaceLocation::kLevel)) {
+    const bool range_given = given_.Has(&AirErrors::surface_range),
+               height_given = given_.Has(&AirErrors::surface_height);
+    if (range_given && (height_given || located == SurfaceLocation::kLevel)) {
       return UsageError(
           absl::StrCat("[sigma] surface_range has no effect ",
-                       height_told ? "beside surface_height" : "where a level locates the surface",
+                       height_given ? "beside surface_height" : "where a level locates the surface",
                        " (one of them is how well the surface was located); leave it out"));
     }
-    const bool own_return = located == SurfaceLocation::kPulse && !height_told;
+    const bool own_return = located == SurfaceLocation::kPulse && !height_given;
     for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
       const ErrorSource& source = kErrorSources[i];
       if (source.Is(&AirErrors::surface_range) ? own_return
@@ -71,7 +71,7 @@ class ErrorPlan {
     bool* const by_pulse = source.Is(&AirErrors::position)   ? &plan_.position_by_pulse
                            : source.Is(&AirErrors::attitude) ? &plan_.attitude_by_pulse
                                                              : nullptr;
-    if (told_.stated[i]) return take(told_.values, "[sigma]", false);
+    if (given_.stated[i]) return take(given_.values, "[sigma]", false);
     if (by_pulse != nullptr && !trajectory_errors_.empty()) {
       *by_pulse = true;
       std::ranges::copy(source.In(assumed), source.In(plan_.options.errors).begin());
@@ -88,7 +88,7 @@ class ErrorPlan {
   std::pair<AirErrors, std::string> Assumed(const ErrorSource& source) const {
     AirErrors assumed;
     std::copy_n(source.assumed.begin(), source.size(), source.In(assumed).begin());
-    const double one_return = told_.Has(&AirErrors::surface_range) ? told_.values.surface_range
+    const double one_return = given_.Has(&AirErrors::surface_range) ? given_.values.surface_range
                               : sensor_.errors.Has(&AirErrors::surface_range)
                                   ? sensor_.errors.values.surface_range
                                   : plan_.options.errors.bottom_range;
@@ -104,7 +104,7 @@ class ErrorPlan {
     return {assumed, std::string(source.assumption)};
   }
 
-  const StatedErrors told_;
+  const StatedErrors given_;
   const std::string& trajectory_errors_;
   const Sensor& sensor_;
   bool index_of_state_;
@@ -112,7 +112,8 @@ class ErrorPlan {
   std::vector<std::string> missing_;
 };
 
-absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const TotalContext& context) {
+absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface,
+                                           const TotalContext& context) {
   if (surface.located.has_value()) {
     const auto found =
         std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
@@ -121,7 +122,7 @@ absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const Tot
       return located;
     return UsageError(
         absl::StrCat("[surface] located = \"", *surface.located,
-                     "\" needs returns from the surface, but only a level is told; give their classes, or "
+                     "\" needs returns from the surface, but only a level is given; give their classes, or "
                      "located = \"level\""));
   }
   if (context.has_surface_returns) return SurfaceLocation::kLocal;
@@ -132,15 +133,14 @@ absl::StatusOr<SurfaceLocation> LocationOf(const ToldSurface& surface, const Tot
       "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
 }
 
-absl::Status CheckDecided(const SurveyDescription& survey) {
-  if (!survey.datum.has_value() || !survey.datum->sigma.has_value()) {
+absl::Status CheckDecided(const config::SurveySettings& survey) {
+  if (!survey.datum.sigma.has_value()) {
     return UsageError(
         "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
         "[datum] sigma "
         "in m, 1 sigma (0 for ellipsoidal heights)");
   }
-  if (survey.water.has_value() && (survey.water->without_column || survey.water->bias.has_value()))
-    return absl::OkStatus();
+  if (survey.water.without_column() || survey.water.bias.has_value()) return absl::OkStatus();
   return UsageError(
       "the share of the water column is not decided, so that no number may be called total; give [water] "
       "bias = "
@@ -151,18 +151,18 @@ absl::Status CheckDecided(const SurveyDescription& survey) {
 
 }  // namespace
 
-TotalContext ContextOf(const SurveyDescription& survey, Coverage coverage) {
-  const ToldSurface surface = survey.surface.value_or(ToldSurface());
+TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) {
+  const config::SurfaceSettings& surface = survey.surface;
   return {.coverage = coverage,
           .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
-          .has_level = surface.level.has_value() || surface.level_file.has_value()};
+          .has_level = surface.level.has_value()};
 }
 
-absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const TotalContext& context) {
+absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
   if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
-  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor->name);
+  const absl::StatusOr<Sensor> sensor = FindSensor(*survey.sensor.name);
   if (!sensor.ok()) return sensor.status();
-  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface.value_or(ToldSurface()), context);
+  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface, context);
   if (!located.ok()) return located.status();
   TotalPlan plan;
   BudgetOptions& options = plan.options;
@@ -175,25 +175,22 @@ absl::StatusOr<TotalPlan> PlanTotal(const SurveyDescription& survey, const Total
   state("sensor", sensor->title, sensor->name, false);
   if (sensor->divergence.has_value()) plan.divergence = sensor->divergence->value;
 
-  const ToldWater water = survey.water.value_or(ToldWater());
+  const config::WaterSettings& water = survey.water;
   const std::optional<double> of_water = IndexOf(water);
-  const bool by_state =
-      of_water.has_value() && !water.index.has_value() && context.index.value_or(*of_water) == *of_water;
+  const bool by_state = of_water.has_value() && !water.index.has_value();
   if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok())
     return status;
-  const std::optional<double> index = context.index.has_value() ? context.index : of_water;
-  options.index = index.value_or(options.index);
+  options.index = of_water.value_or(options.index);
   state("refractive_index", absl::StrCat(options.index),
-        !index.has_value() ? "assumed: sea water at 532 nm"
+        !of_water.has_value() ? "assumed: sea water at 532 nm"
         : by_state         ? "temperature and salinity of [water], 532 nm"
                            : "the user",
-        !index.has_value());
-  const std::optional<Triple> arm =
-      context.lever_arm.has_value() ? context.lever_arm : survey.sensor->lever_arm;
-  options.lever_arm = arm.value_or(Triple{});
+        !of_water.has_value());
+  const std::optional<config::Triple>& arm = survey.sensor.lever_arm;
+  options.lever_arm = arm.value_or(config::Triple{});
   state("lever_arm_vector", Text(options.lever_arm, "m"), arm.has_value() ? "the user" : "assumed: none",
         !arm.has_value());
-  options.datum = *survey.datum->sigma;
+  options.datum = *survey.datum.sigma;
   state("datum", absl::StrCat(options.datum, " m"), "[datum]", false);
   absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
   if (!planned.ok()) return planned.status();

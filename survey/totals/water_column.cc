@@ -29,45 +29,47 @@ absl::Status InWater(const absl::Status& status) {
   return UsageError(absl::StrCat("[water] ", std::string(status.message())));
 }
 
-OpticsInput OpticsTold(const ToldWater& told) {
-  OpticsInput optics{.kd = told.kd,
-                     .kd_kind = {},
-                     .secchi = told.secchi,
-                     .jerlov = {},
-                     .absorption = told.absorption,
-                     .scattering = told.scattering,
-                     .kd_sigma = told.kd_sigma,
-                     .omega0 = told.omega0,
-                     .omega0_sigma = told.omega0_sigma,
-                     .backscatter_fraction = told.backscatter_fraction};
-  if (told.kd_kind.has_value()) optics.kd_kind = static_cast<KdKind>(PlaceOf(kKdKindNames, *told.kd_kind));
-  if (told.jerlov.has_value()) optics.jerlov = *told.jerlov;
+OpticsInput OpticsGiven(const config::WaterSettings& settings) {
+  OpticsInput optics{.kd = settings.kd,
+                    .kd_kind = {},
+                    .secchi = settings.secchi,
+                    .jerlov = {},
+                    .absorption = settings.absorption,
+                    .scattering = settings.scattering,
+                    .kd_sigma = settings.kd_sigma,
+                    .omega0 = settings.omega0,
+                    .omega0_sigma = settings.omega0_sigma,
+                    .backscatter_fraction = settings.backscatter_fraction};
+  if (settings.kd_kind.has_value())
+    optics.kd_kind = static_cast<KdKind>(PlaceOf(kKdKindNames, *settings.kd_kind));
+  if (settings.jerlov.has_value()) optics.jerlov = *settings.jerlov;
   return optics;
 }
 
-absl::StatusOr<BiasTreatment> TreatmentOf(const ToldWater& told) {
-  BiasTreatment treatment{.handling = static_cast<BiasHandling>(PlaceOf(kBiasHandlingNames, *told.bias))};
+absl::StatusOr<BiasTreatment> TreatmentOf(const config::WaterSettings& settings) {
+  BiasTreatment treatment{.handling = static_cast<BiasHandling>(PlaceOf(kBiasHandlingNames, *settings.bias))};
   const auto needs = [&](BiasHandling handling, bool has, const char* key, const char* what) -> absl::Status {
     if ((treatment.handling == handling) == has) return absl::OkStatus();
     if (has) {
-      return UsageError(absl::StrCat(
-          "[water] ", key, " has no effect with bias = \"", *told.bias, "\"; leave it out, or give bias = \"",
-          std::string(kBiasHandlingNames[static_cast<std::size_t>(handling)]), "\""));
+      return UsageError(absl::StrCat("[water] ", key, " has no effect with bias = \"", *settings.bias,
+                                     "\"; leave it out, or give bias = \"",
+                                     std::string(kBiasHandlingNames[static_cast<std::size_t>(handling)]),
+                                     "\""));
     }
-    return UsageError(absl::StrCat("[water] bias = \"", *told.bias, "\" needs ", key, "; give ", what));
+    return UsageError(absl::StrCat("[water] bias = \"", *settings.bias, "\" needs ", key, "; give ", what));
   };
-  if (absl::Status status = needs(BiasHandling::kVendor, told.residual_fraction.has_value(),
+  if (absl::Status status = needs(BiasHandling::kVendor, settings.residual_fraction.has_value(),
                                   "residual_fraction", "the fraction of the bias that remains, 0 to 1");
       !status.ok())
     return status;
   const char* const kCalibration = "calibration = {depth = 5, offset = -0.04, sigma = 0.01}, in m";
   if (absl::Status status =
-          needs(BiasHandling::kCalibrated, told.calibration.has_value(), "calibration", kCalibration);
+          needs(BiasHandling::kCalibrated, settings.calibration.has_value(), "calibration", kCalibration);
       !status.ok())
     return status;
-  treatment.residual_fraction = told.residual_fraction.value_or(0);
-  if (!told.calibration.has_value()) return treatment;
-  const ToldCalibration& calibration = *told.calibration;
+  treatment.residual_fraction = settings.residual_fraction.value_or(0);
+  if (!settings.calibration.has_value()) return treatment;
+  const config::CalibrationSettings& calibration = *settings.calibration;
   if (!calibration.depth.has_value() || !calibration.offset.has_value() || !calibration.sigma.has_value())
     return UsageError(absl::StrCat("[water] calibration lacks a number; give ", kCalibration));
   treatment.calibration_depth = *calibration.depth;
@@ -76,14 +78,14 @@ absl::StatusOr<BiasTreatment> TreatmentOf(const ToldWater& told) {
   return treatment;
 }
 
-absl::Status CheckReceiver(const ToldWater& told) {
+absl::Status CheckReceiver(const config::WaterSettings& settings) {
   std::string missing;
   const auto need = [&](bool has, const char* what) {
     if (!has) absl::StrAppend(&missing, missing.empty() ? "" : ", ", what);
   };
-  need(told.detector.has_value(), "detector");
-  need(told.field_of_view.has_value(), "field_of_view (m)");
-  need(told.pulse_length.has_value(), "pulse_length (ns)");
+  need(settings.detector.has_value(), "detector");
+  need(settings.field_of_view.has_value(), "field_of_view (m)");
+  need(settings.pulse_length.has_value(), "pulse_length (ns)");
   if (missing.empty()) return absl::OkStatus();
   return UsageError(
       absl::StrCat("[water] lacks ", missing,
@@ -101,18 +103,20 @@ absl::StatusOr<WaterColumnTable> ReadWaterTable() {
 }
 
 // What was taken of the optics, and whose numbers they are.
-void StateOptics(const ToldWater& told, const WaterOptics& optics, std::vector<StatedNumber>& numbers) {
-  const std::string way = told.kd.has_value()       ? absl::StrCat("kd of kind ", *told.kd_kind)
-                          : told.secchi.has_value() ? "the Secchi depth"
-                          : told.jerlov.has_value() ? absl::StrCat("Jerlov type ", *told.jerlov)
-                                                    : "absorption and scattering";
+void StateOptics(const config::WaterSettings& settings, const WaterOptics& optics,
+                 std::vector<StatedNumber>& numbers) {
+  const std::string way = settings.kd.has_value()       ? absl::StrCat("kd of kind ", *settings.kd_kind)
+                          : settings.secchi.has_value() ? "the Secchi depth"
+                          : settings.jerlov.has_value() ? absl::StrCat("Jerlov type ", *settings.jerlov)
+                                                        : "absorption and scattering";
   numbers.push_back({"water_attenuation", absl::StrFormat("%.4g 1/m", optics.attenuation),
                      absl::StrCat("[water] ", way), false});
-  numbers.push_back(
-      {"water_attenuation_sigma", absl::StrFormat("%.3g %%", 100 * optics.attenuation_log_sigma),
-       told.kd_sigma.has_value() ? "[water] kd_sigma" : absl::StrCat("assumed: what ", way, " is good for"),
-       !told.kd_sigma.has_value()});
-  const bool albedo_told = told.omega0.has_value() || told.absorption.has_value();
+  numbers.push_back({"water_attenuation_sigma",
+                     absl::StrFormat("%.3g %%", 100 * optics.attenuation_log_sigma),
+                     settings.kd_sigma.has_value() ? "[water] kd_sigma"
+                                                   : absl::StrCat("assumed: what ", way, " is good for"),
+                     !settings.kd_sigma.has_value()});
+  const bool albedo_told = settings.omega0.has_value() || settings.absorption.has_value();
   const double ratio = optics.scattering_over_absorption;
   numbers.push_back({"water_albedo", absl::StrFormat("%.3g", ratio / (1 + ratio)),
                      albedo_told ? "[water]" : "assumed: coastal water, 0.8 +- 0.1", !albedo_told});
@@ -120,8 +124,8 @@ void StateOptics(const ToldWater& told, const WaterOptics& optics, std::vector<S
                      optics.least_fraction == optics.most_fraction
                          ? absl::StrCat(optics.least_fraction)
                          : absl::StrCat(optics.least_fraction, " to ", optics.most_fraction),
-                     told.backscatter_fraction.has_value() ? "[water]" : "assumed: natural particles",
-                     !told.backscatter_fraction.has_value()});
+                     settings.backscatter_fraction.has_value() ? "[water]" : "assumed: natural particles",
+                     !settings.backscatter_fraction.has_value()});
 }
 
 // Points that the treatment leaves biased, or not.
@@ -146,28 +150,29 @@ std::filesystem::path WaterTablePath() {
   return InstalledDataDirectory() / "water" / "water_column.h5";
 }
 
-std::optional<double> IndexOf(const ToldWater& water) {
+std::optional<double> IndexOf(const config::WaterSettings& water) {
   if (water.index.has_value() || !water.temperature.has_value() || !water.salinity.has_value())
     return water.index;
   return SeaWaterIndex(*water.temperature, *water.salinity).phase;
 }
 
-absl::StatusOr<WaterPlan> PlanWater(const ToldWater& told, double index, std::vector<StatedNumber>& numbers) {
-  WaterPlan plan{.share = nullptr, .photons = told.photons, .index = index, .of_water = {}};
+absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
+                                    std::vector<StatedNumber>& numbers) {
+  WaterPlan plan{.share = nullptr, .photons = settings.photons, .index = index, .of_water = {}};
   std::optional<WaterIndex> of_state;
-  if (told.temperature.has_value() && told.salinity.has_value())
-    of_state = SeaWaterIndex(*told.temperature, *told.salinity);
-  if (told.processed_with.has_value()) {
+  if (settings.temperature.has_value() && settings.salinity.has_value())
+    of_state = SeaWaterIndex(*settings.temperature, *settings.salinity);
+  if (settings.processed_with.has_value()) {
     if (!of_state.has_value())
       return UsageError(
           "[water] processed_with needs the index that the water has; give its temperature (degree C) and "
           "salinity");
     plan.of_water = of_state;
-    plan.processed_with = *told.processed_with;
-    numbers.push_back({"processed_with", absl::StrCat(*told.processed_with), "[water]", false});
+    plan.processed_with = *settings.processed_with;
+    numbers.push_back({"processed_with", absl::StrCat(*settings.processed_with), "[water]", false});
   }
-  if (told.without_column) {
-    if (told.bias.has_value())
+  if (settings.without_column()) {
+    if (settings.bias.has_value())
       return UsageError(
           "[water] bias contradicts column = \"none\" (the share of the water is computed, or left out); "
           "give one of "
@@ -175,29 +180,29 @@ absl::StatusOr<WaterPlan> PlanWater(const ToldWater& told, double index, std::ve
     numbers.push_back({"water_column", "left out", "[water]", false});
     return plan;
   }
-  if (absl::Status status = CheckReceiver(told); !status.ok()) return status;
-  const absl::StatusOr<BiasTreatment> treatment = TreatmentOf(told);
+  if (absl::Status status = CheckReceiver(settings); !status.ok()) return status;
+  const absl::StatusOr<BiasTreatment> treatment = TreatmentOf(settings);
   if (!treatment.ok()) return treatment.status();
-  const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsTold(told));
+  const absl::StatusOr<WaterOptics> optics = OpticsOf(OpticsGiven(settings));
   if (!optics.ok()) return InWater(optics.status());
   const absl::StatusOr<WaterColumnTable> table = ReadWaterTable();
   if (!table.ok()) return table.status();
   const WaterReceiver receiver{
-      .detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *told.detector)),
-      .field_of_view = *told.field_of_view,
-      .pulse_length = *told.pulse_length,
+      .detector = static_cast<EchoDetector>(PlaceOf(kEchoDetectorNames, *settings.detector)),
+      .field_of_view = *settings.field_of_view,
+      .pulse_length = *settings.pulse_length,
       .group_index = of_state.has_value() ? of_state->group : kUsualGroupIndex};
   absl::StatusOr<WaterShare> share = WaterShare::Create(*table, *optics, receiver, *treatment);
   if (!share.ok()) return InWater(share.status());
-  if (!told.processed_with.has_value())
+  if (!settings.processed_with.has_value())
     numbers.push_back({"processed_with", "the group index of the water",
                        "assumed: ranges in water were computed with it", true});
-  StateOptics(told, *optics, numbers);
-  numbers.push_back({"water_detector", *told.detector, "[water]", false});
-  numbers.push_back({"water_field_of_view", absl::StrCat(*told.field_of_view, " m"), "[water]", false});
-  numbers.push_back({"water_pulse_length", absl::StrCat(*told.pulse_length, " ns"), "[water]", false});
+  StateOptics(settings, *optics, numbers);
+  numbers.push_back({"water_detector", *settings.detector, "[water]", false});
+  numbers.push_back({"water_field_of_view", absl::StrCat(*settings.field_of_view, " m"), "[water]", false});
+  numbers.push_back({"water_pulse_length", absl::StrCat(*settings.pulse_length, " ns"), "[water]", false});
   numbers.push_back(
-      {"water_bias", *told.bias, absl::StrCat("[water]: ", HandlingText(treatment->handling)), false});
+      {"water_bias", *settings.bias, absl::StrCat("[water]: ", HandlingText(treatment->handling)), false});
   numbers.push_back({"water_table",
                      absl::StrCat(table->table().provenance().id, " ", table->table().digest()),
                      WaterTablePath().string(), false});

@@ -8,8 +8,8 @@
 #include "absl/status/statusor.h"
 #include "budget/water/refractive_index.h"
 #include "budget/water/water_share.h"
+#include "config/survey_settings.h"
 #include "survey/answers/batch.h"
-#include "survey/description/told_survey.h"
 #include "survey/totals/stated_number.h"
 
 namespace albtpu::client {
@@ -24,12 +24,13 @@ struct WaterPlan {
   double processed_with = 0;
 };
 
-// `index` is that of the plan. UsageError where what is told is incomplete or contradicts itself, and what the table
+// `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the table
 // refuses. Adds to `numbers` what was taken and where from.
-absl::StatusOr<WaterPlan> PlanWater(const ToldWater& told, double index, std::vector<StatedNumber>& numbers);
+absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
+                                    std::vector<StatedNumber>& numbers);
 
-// The index that the user tells, or that of the temperature and salinity if both are told (refractive_index.h).
-std::optional<double> IndexOf(const ToldWater& water);
+// The index that the user gives, or that of the temperature and salinity if both are given (refractive_index.h).
+std::optional<double> IndexOf(const config::WaterSettings& water);
 
 // The value of the environment variable `ALBTPU_WATER_TABLE`. If it is empty or not set,
 // PREFIX/share/albtpu/water/water_column.h5 for a program that runs as PREFIX/bin/NAME.

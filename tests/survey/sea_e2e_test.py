@@ -58,7 +58,7 @@ class SeaTest(sea_states.Test):
         self.assertAlmostEqual(errors["thu_standard_error"] / errors["thu"],
                                errors["sea"]["first"]["relative_standard_error"]["total"], delta=0.02)
 
-    def test_a_calm_has_only_what_is_told(self):
+    def test_a_calm_has_only_what_is_given(self):
         calm = pulse("--hs", 0, "--tp", 5, "--waves-from", 0, "--wind-speed", 0)
         self.assertEqual(numbers(calm), [0] * 6)
         self.assertEqual(calm["outcome"], "INTERPOLATED")
@@ -115,7 +115,7 @@ spread = 18
                 (("--survey", waves, "--sea", series), 2, "has 2 records from", "--sea-time"),
                 ((*WAVES, "--table", self.table), 2, "--table cannot be used with a sea"),
                 ((*WAVES, "--table-name", "survey"), 2, "--table-name cannot be used with a sea"),
-                ((*WAVES, "--fetch", 1000), 2, "--fetch has no effect"),
+                ((*WAVES, "--fetch", 1000), 2, "--fetch (fetch in a survey file) has no effect with waves"),
                 ((*WAVES, "--sea-time", "2020-06-08T03:50Z"), 2, "--sea-time", "no effect without a file"),
                 ((*WAVES, "--sea-place", "x"), 2, "--sea-place", "no effect"),
                 ((*WAVES, "--sea-gap", 3), 2, "--sea-gap", "no effect"),
@@ -127,10 +127,10 @@ spread = 18
                 (("--wind-speed", 5, "--tail-from", 1, "--table", self.table), 2, "--tail-from", "no effect"),
                 (("--hs", 1), 2, "--tp is missing"), (("--tp", 3), 2, "--hs is missing"),
                 (("--hs", 1, "--tp", 3), 2, "--waves-from is missing"), (("--spread", 9), 2, "--hs is missing"),
-                (("--swell", "1,9"), 2, "HS,TP,FROM"), (("--hs", 99), 2, "from 0 to 30 m"),
+                (("--swell", "1,9"), 2, "HS,TP,FROM"), (("--hs", 99), 2, "expected 0 to 30 m"),
                 ((*WAVES, "--spread", 0.3), 2, "--spread", "1.6 to 81 degree"),
                 (("--hs", 2, "--tp", 2, "--waves-from", 0), 2, "waves of 2 m and 2 s", "break above 0.89 m"),
-                (("--tail", "up"), 2, "up"), ((*WAVES[:-4], "--wind-speed", 500), 2, "from 0 to 100 m/s"),
+                (("--tail", "up"), 2, "up"), ((*WAVES[:-4], "--wind-speed", 500), 2, "expected 0 to 100 m/s"),
                 (("--sea", series), 2, "has 2 records from", "--sea-time"),
                 (("--sea", series, "--sea-time", "noon"), 2, "'noon' is no time"),
                 (("--sea", series, "--sea-time", utc(FLIGHT_START - 60)), 1, "has no sea at", "2 records last from"),

@@ -69,8 +69,9 @@ class SeaSeriesTest(sea_states.Test):
         gap = self.sea_csv(*((FLIGHT_START + 3600 * hour, 1, 200) for hour in (-5, -4, -3, -2, 3, 4, 5)),
                            name="gap.csv")
         result = query("las", source, self.folder / "gap.las", *flags, "--sea", gap)
-        self.assert_fails(result, 1, "the file of the sea has no record near their times", "--sea-gap")
-        query("las", source, self.folder / "gap.las", *flags, "--sea", gap, "--sea-gap", 5, "--overwrite", check=0)
+        self.assert_fails(result, 1, "the file of the sea has no record near their times", "longest_gap")
+        bridged = self.toml("[sea]\nfile = 'gap.csv'\nlongest_gap = 5\n")
+        query("las", source, self.folder / "gap.las", *flags, "--survey", bridged, "--overwrite", check=0)
         for name, states, *parts in (
                 ("early.csv", [(FLIGHT_START - 9000, 1, 200), (FLIGHT_START - 5400, 1, 200)], "measured outside of"),
                 ("late.csv", [(FLIGHT_START + 60, 1, 200), (FLIGHT_START + 3600, 1, 200)], "measured outside of",
@@ -101,7 +102,7 @@ class SeaSeriesTest(sea_states.Test):
         flags = ("las", source, self.folder / "out.las", *FLIGHT, *WAVES, "--resume")
         query(*flags, check=0)
         self.assertIn("already complete", query(*flags, check=0).stderr)
-        self.assert_fails(query(*flags, "--tail", "wind"), 1, "parameters.sea.tail", "add --overwrite")
+        self.assert_fails(query(*flags, "--survey", self.toml("[sea]\ntail = 'wind'\n")), 1, "parameters.sea.tail", "add --overwrite")
 
 
 if __name__ == "__main__":

@@ -3,23 +3,28 @@
 #include <cmath>
 #include <string_view>
 
-#include "survey/description/survey_description.h"
+#include "config/survey_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {
 
 using namespace albtpu;
-using namespace albtpu::client;
+using namespace albtpu::config;
 
-void CheckSeaIsInRange(const ToldSea& sea) {
-  for (const auto& number : kSeaNumbers) {
-    const std::optional<double>& value = sea.*number.field;
-    ALBTPU_MUST(!value.has_value() || (*value >= number.least && *value <= number.greatest));
+template <typename Settings>
+void CheckKey(const Key<Settings>& key, const Settings& settings) {
+  if (const auto* number = std::get_if<Number>(&key.declaration.values)) {
+    const auto& value = settings.*std::get<std::optional<double> Settings::*>(key.member);
+    ALBTPU_MUST(!value.has_value() || (*value >= number->least && *value <= number->greatest));
+  } else if (const auto* text = std::get_if<std::optional<std::string> Settings::*>(&key.member)) {
+    ALBTPU_MUST(!(settings.**text).has_value() || !(settings.**text)->empty());
+  } else if (const auto* classes = std::get_if<std::vector<int> Settings::*>(&key.member)) {
+    for (const int each : settings.**classes)
+      ALBTPU_MUST(each >= kClasses.least && each <= kClasses.greatest);
   }
-  for (const auto& text : kSeaTexts) {
-    const std::optional<std::string>& value = sea.*text.field;
-    ALBTPU_MUST(!value.has_value() || !value->empty());
-  }
+}
+
+void CheckWaves(const SeaSettings& sea) {
   for (const JonswapWaves& waves : sea.waves) {
     ALBTPU_MUST(waves.significant_wave_height >= 0 && waves.significant_wave_height <= 30);
     ALBTPU_MUST(waves.peak_period >= 0.5 && waves.peak_period <= 40 && waves.gamma >= 1 && waves.gamma <= 20);
@@ -29,43 +34,27 @@ void CheckSeaIsInRange(const ToldSea& sea) {
   ALBTPU_MUST(status.ok() || absl::IsInvalidArgument(status));
 }
 
-template <typename Keys, typename Told>
-void CheckNumbersAreInRange(const Keys& keys, const Told& told) {
-  for (const auto& each : keys) {
-    const std::optional<double>& value = told.*each.field;
-    ALBTPU_MUST(!value.has_value() || (*value >= each.least && *value <= each.greatest));
-  }
-}
-
-void CheckSigmasAreInRange(const StatedErrors& sigma) {
+void CheckSigmasAreInRange(const client::StatedErrors& sigma) {
   for (std::size_t i = 0; i < albtpu::kErrorSourceCount; ++i) {
     const albtpu::ErrorSource& source = albtpu::kErrorSources[i];
     if (!sigma.stated[i]) continue;
     for (const double number : source.In(sigma.values)) {
       ALBTPU_MUST(number >= 0 && number <= source.greatest);
-      ALBTPU_MUST(source.unit != "degree" || number == 0 || number >= kLeastAngle);
+      ALBTPU_MUST(source.unit != "degree" || number == 0 || number >= client::kLeastAngle);
     }
   }
 }
 
-void CheckClasses(const std::vector<int>& classes) {
-  for (const int each : classes) ALBTPU_MUST(each >= 0 && each <= kGreatestClass);
-}
-
-void CheckSurvey(const SurveyDescription& survey) {
-  if (survey.sea.has_value()) CheckSeaIsInRange(*survey.sea);
-  if (survey.water.has_value()) CheckNumbersAreInRange(kWaterNumbers, *survey.water);
-  if (survey.datum.has_value()) CheckNumbersAreInRange(kDatumNumbers, *survey.datum);
-  if (survey.sigma.has_value()) CheckSigmasAreInRange(*survey.sigma);
-  if (survey.output.has_value()) CheckClasses(survey.output->classes);
-  if (const auto& trajectory = survey.trajectory; trajectory.has_value())
-    ALBTPU_MUST(!trajectory->from_returns.value_or(false) ||
-                (trajectory->files.empty() && trajectory->errors.empty()));
-  if (const auto& surface = survey.surface; surface.has_value()) {
-    CheckClasses(surface->classes);
-    const bool level = surface->level.has_value() || surface->level_file.has_value();
-    ALBTPU_MUST(!level || surface->located.value_or("level") == "level");
-  }
+void CheckSurvey(const SurveySettings& survey) {
+  ForEachSection([&](const char*, const auto& keys, const auto& section) {
+    for (const auto& key : keys) CheckKey(key, section(survey));
+  });
+  CheckWaves(survey.sea);
+  CheckSigmasAreInRange(survey.sigma);
+  const TrajectorySettings& trajectory = survey.trajectory;
+  ALBTPU_MUST(!trajectory.from_returns.value_or(false) ||
+              (trajectory.files.empty() && trajectory.errors.empty()));
+  ALBTPU_MUST(!survey.surface.level.has_value() || survey.surface.located.value_or("level") == "level");
 }
 
 }  // namespace
@@ -73,7 +62,7 @@ void CheckSurvey(const SurveyDescription& survey) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data),
                          size);  // A copy: sanitizers see reads beyond it.
-  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "folder");
+  const absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "folder");
   if (!survey.ok()) {
     const std::string_view message(survey.status().message().data(), survey.status().message().size());
     ALBTPU_MUST(absl::IsInvalidArgument(survey.status()));

@@ -188,7 +188,7 @@ TEST_F(LikelyCauseTest, ExplainsPointsWithoutAPulse) {
   summary_.Add(NoPulse::kNoTrajectory, 4);
   EXPECT_THAT(Cause(), AllOf(HasSubstr("no position at their times"), HasSubstr("--trajectory-time")));
   summary_.Add(NoPulse::kNoSea, 5);
-  EXPECT_THAT(Cause(), AllOf(HasSubstr("no record near their times"), HasSubstr("--sea-gap")));
+  EXPECT_THAT(Cause(), AllOf(HasSubstr("no record near their times"), HasSubstr("longest_gap")));
 }
 
 TEST_F(LikelyCauseTest, NamesCoordinatesThatAreNotNumbers) {

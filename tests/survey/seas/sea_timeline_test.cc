@@ -19,18 +19,18 @@ constexpr double kHour = 3600, kStart = 1591588800;  // 2020-06-08T04:00Z
 
 class SeaTimelineTest : public ::testing::Test {
  protected:
-  ToldSea File(const std::string& text) {
-    ToldSea sea;
+  config::SeaSettings File(const std::string& text) {
+    config::SeaSettings sea;
     sea.file = folder_.Write("sea.txt", text).string();
     return sea;
   }
   // Records at these hours after kStart.
-  ToldSea Hours(const std::vector<double>& hours) {
+  config::SeaSettings Hours(const std::vector<double>& hours) {
     std::vector<testing::SeaAtTime> seas;
     for (const double hour : hours) seas.push_back({kStart + hour * kHour, 1});
     return File(testing::SeaCsv(seas));
   }
-  std::string ErrorOf(const ToldSea& told) {
+  std::string ErrorOf(const config::SeaSettings& told) {
     const absl::StatusOr<SeaTimeline> seas = SeaTimeline::Open(told);
     EXPECT_FALSE(seas.ok());
     EXPECT_THAT(std::string(seas.status().message()), StartsWith(*told.file + ": "));
@@ -41,7 +41,7 @@ class SeaTimelineTest : public ::testing::Test {
 };
 
 TEST_F(SeaTimelineTest, OfWavesIsOneSea) {
-  ToldSea told;
+  config::SeaSettings told;
   told.waves.push_back({.significant_wave_height = 1, .peak_period = 6});
   told.wind_speed = 5;
   const SeaTimeline seas = SeaTimeline::Open(told).value();
@@ -77,7 +77,7 @@ TEST_F(SeaTimelineTest, BridgesShortGapsOnly) {
   EXPECT_FALSE(seas.At(kStart + 8 * kHour).has_value());
   EXPECT_TRUE(seas.At(kStart + 9.5 * kHour).has_value()) << "a record itself";
   EXPECT_TRUE(seas.At(kStart + 6 * kHour).has_value()) << "the record before the gap";
-  ToldSea told = Hours({0, 1, 2, 3, 6, 9.5, 10, 11});
+  config::SeaSettings told = Hours({0, 1, 2, 3, 6, 9.5, 10, 11});
   told.longest_gap = 4;
   EXPECT_TRUE(SeaTimeline::Open(told)->At(kStart + 8 * kHour).has_value());
   told.longest_gap = 0.9;
@@ -90,7 +90,7 @@ TEST_F(SeaTimelineTest, BridgesShortGapsOnly) {
 }
 
 TEST_F(SeaTimelineTest, TakesTheInstantThatIsTold) {
-  ToldSea told = Hours({0, 1, 2});
+  config::SeaSettings told = Hours({0, 1, 2});
   told.time = "2020-06-08T05:15Z";
   const SeaTimeline seas = SeaTimeline::Open(told).value();
   EXPECT_FALSE(seas.by_time());
@@ -150,7 +150,7 @@ FACTOR
 )";
 
 TEST_F(SeaTimelineTest, AsksForThePlace) {
-  ToldSea told = File(kTwoPlaces);
+  config::SeaSettings told = File(kTwoPlaces);
   EXPECT_THAT(ErrorOf(told),
               HasSubstr("has 2 places (28.5000,-80.0000; 29.5000,-79.0000); name one by --sea-place"));
   told.place = "29.5000,-79.0000";
@@ -165,14 +165,14 @@ TEST_F(SeaTimelineTest, AsksForThePlace) {
 }
 
 TEST_F(SeaTimelineTest, RefusesATimeOfASeaWithoutOne) {
-  ToldSea told = File("f,E\n0.1,1\n0.2,1\n");
+  config::SeaSettings told = File("f,E\n0.1,1\n0.2,1\n");
   EXPECT_FALSE(SeaTimeline::Open(told)->by_time());
   told.time = "2020-06-08T05:15Z";
   EXPECT_THAT(ErrorOf(told), HasSubstr("--sea-time has no effect"));
 }
 
 TEST_F(SeaTimelineTest, RefusesATailOfACompleteSea) {
-  ToldSea told = File("k,S,a2,b2\n0.1,1,0,0\n0.2,1,0,0\n");
+  config::SeaSettings told = File("k,S,a2,b2\n0.1,1,0,0\n0.2,1,0,0\n");
   EXPECT_TRUE(SeaTimeline::Open(told).ok());
   told.tail = "wind";
   EXPECT_THAT(ErrorOf(told), HasSubstr("which is complete"));
@@ -180,7 +180,7 @@ TEST_F(SeaTimelineTest, RefusesATailOfACompleteSea) {
 
 TEST_F(SeaTimelineTest, NamesTheFileThatItCannotRead) {
   EXPECT_THAT(ErrorOf(File("hello\n")), HasSubstr("begins with 'hello'"));
-  ToldSea told;
+  config::SeaSettings told;
   told.file = (folder_ / "absent").string();
   EXPECT_THAT(ErrorOf(told), HasSubstr("does not exist"));
 }

@@ -12,10 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-SurveyDescription Survey(const std::string& text) {
-  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, ".");
+config::SurveySettings Survey(const std::string& text) {
+  const absl::StatusOr<config::SurveySettings> survey = config::ParseSurvey(text, ".");
   EXPECT_TRUE(survey.ok()) << survey.status();
-  return survey.value_or(SurveyDescription());
+  return survey.value_or(config::SurveySettings());
 }
 
 std::string Sensor(const std::string& name) { return std::string(SHIPPED_SENSORS) + "/" + name + ".toml"; }
@@ -83,7 +83,7 @@ TEST(PlanTotal, TakesErrorsOfTheTrajectoryPulseByPulseUnlessTheUserOverridesThem
   EXPECT_TRUE(plan->attitude_by_pulse);
 }
 
-TEST(PlanTotal, LocatesTheSurfaceAsToldElseByWhatThereIs) {
+TEST(PlanTotal, LocatesTheSurfaceAsGivenElseByWhatThereIs) {
   const auto located = [&](const std::string& more, const TotalContext& context) {
     const absl::StatusOr<TotalPlan> plan = PlanTotal(Survey(Decided() + more), context);
     EXPECT_TRUE(plan.ok()) << plan.status();
@@ -134,8 +134,8 @@ TEST(WaveHeightOfWind, GrowsWithWindAndFetch) {
 }
 
 TEST(PlanTotal, KnowsTheIndexByTemperatureAndSalinity) {
-  const auto plan = [](const std::string& water, const TotalContext& context = {.has_level = true}) {
-    const absl::StatusOr<TotalPlan> found = PlanTotal(Survey(Decided() + water), context);
+  const auto plan = [](const std::string& water) {
+    const absl::StatusOr<TotalPlan> found = PlanTotal(Survey(Decided() + water), {.has_level = true});
     EXPECT_TRUE(found.ok()) << found.status();
     return *found;
   };
@@ -145,14 +145,12 @@ TEST(PlanTotal, KnowsTheIndexByTemperatureAndSalinity) {
   EXPECT_THAT(Number(by_state, "refractive_index").source, HasSubstr("temperature and salinity"));
   EXPECT_FALSE(Number(by_state, "refractive_index").assumed);
   EXPECT_TRUE(Number(by_state, "index").assumed);
-  // Half of what is needed, what is told outright, and what a flag says.
+  // Half of what is needed, and what is given outright.
   EXPECT_NEAR(plan("salinity = 35\n").options.errors.index, 0.002, kAny);
-  const TotalPlan told = plan("temperature = 15\nsalinity = 35\nindex = 1.336\n");
-  EXPECT_NEAR(told.options.index, 1.336, kAny);
-  EXPECT_EQ(Number(told, "refractive_index").source, "the user");
-  const TotalPlan by_flag = plan("temperature = 15\nsalinity = 35\n", {.index = 1.338, .has_level = true});
-  EXPECT_NEAR(by_flag.options.index, 1.338, kAny);
-  EXPECT_NEAR(by_flag.options.errors.index, 0.002, kAny);
+  const TotalPlan given = plan("temperature = 15\nsalinity = 35\nindex = 1.336\n");
+  EXPECT_NEAR(given.options.index, 1.336, kAny);
+  EXPECT_NEAR(given.options.errors.index, 0.002, kAny);
+  EXPECT_EQ(Number(given, "refractive_index").source, "the user");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "survey/answers/outcome_counts.h"
-#include "survey/description/survey_description.h"
+#include "config/survey_file.h"
 #include "survey/exit_status.h"
 #include "survey/totals/pulse_totals.h"
 #include "survey/totals/total_summary.h"
@@ -23,15 +23,15 @@ class WaterColumnPlan : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { setenv("ALBTPU_WATER_TABLE", SHIPPED_WATER_TABLE, 1); }
 
-  static ToldWater Told(const std::string& text) {
-    const absl::StatusOr<SurveyDescription> survey = ParseSurvey("[water]\n" + text, ".");
+  static config::WaterSettings Water(const std::string& text) {
+    const absl::StatusOr<config::SurveySettings> survey = config::ParseSurvey("[water]\n" + text, ".");
     EXPECT_TRUE(survey.ok()) << survey.status();
-    return survey.ok() && survey->water.has_value() ? *survey->water : ToldWater();
+    return survey.ok() ? survey->water : config::WaterSettings();
   }
   static absl::StatusOr<WaterPlan> Plan(const std::string& text,
                                         std::vector<StatedNumber>* numbers = nullptr) {
     std::vector<StatedNumber> own;
-    return PlanWater(Told(text), 1.34, numbers != nullptr ? *numbers : own);
+    return PlanWater(Water(text), 1.34, numbers != nullptr ? *numbers : own);
   }
   static std::string ProblemOf(const std::string& text) {
     const absl::StatusOr<WaterPlan> plan = Plan(text);

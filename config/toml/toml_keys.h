@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "survey/toml/toml_file.h"
+#include "config/toml/toml_file.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 
 // The first problem of a file, "line 3: 'sea.tail' is ...".
 class TomlProblem {
@@ -29,6 +29,9 @@ class TomlProblem {
   std::string kind_;
   absl::Status status_;
 };
+
+// Empty if `text` is one of `words`; otherwise what to do: "did you mean ...?", "give one of them".
+std::string WordProblem(const std::string& text, const std::vector<std::string>& words);
 
 class TomlKeys {
  public:
@@ -82,4 +85,4 @@ class TomlKeys {
   std::set<std::string, std::less<>> known_;
 };
 
-}  // namespace albtpu::client
+}  // namespace albtpu::config

@@ -1,4 +1,4 @@
-#include "survey/toml/toml_file.h"
+#include "config/toml/toml_file.h"
 
 #include <fstream>
 #include <system_error>
@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "command_line/one_line.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ absl::Status InFile(const fs::path& path, const absl::Status& problem) {
   return absl::Status(problem.code(), absl::StrCat(path.string(), ": ", problem.message()));
 }
 
-}  // namespace albtpu::client
+}  // namespace albtpu::config

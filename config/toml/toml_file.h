@@ -10,7 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 
 // How messages speak of a kind of file.
 struct TomlKind {
@@ -28,4 +28,4 @@ absl::StatusOr<std::string> ReadTomlText(const std::filesystem::path& path, cons
 // A problem of the text, with the path of its file before it.
 absl::Status InFile(const std::filesystem::path& path, const absl::Status& problem);
 
-}  // namespace albtpu::client
+}  // namespace albtpu::config

@@ -1,14 +1,12 @@
-#include "survey/description/survey_sections.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
 #include <string>
 
-#include "survey/description/survey_description.h"
+#include "config/survey_file.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 namespace {
 
 using ::testing::ElementsAre;
@@ -54,84 +52,76 @@ details = true
 )";
 
 std::string ErrorOf(const std::string& text) {
-  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "/data");
+  const absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "/data");
   EXPECT_FALSE(survey.ok()) << text;
   return std::string(survey.status().message());
 }
 
-SurveyDescription Survey(const std::string& text) {
-  absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "/data");
+SurveySettings Survey(const std::string& text) {
+  absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "/data");
   EXPECT_TRUE(survey.ok()) << text << survey.status();
-  return survey.value_or(SurveyDescription());
+  return survey.value_or(SurveySettings());
 }
 
 TEST(SurveySections, SayAllOfASurvey) {
-  const SurveyDescription survey = Survey(kWhole);
-  EXPECT_EQ(survey.sensor.value().name, "riegl-vq-880-g");
-  EXPECT_THAT(survey.sensor->lever_arm.value(), ElementsAre(0.3, -0.2, 0.5));
-  EXPECT_THAT(survey.trajectory.value().files, ElementsAre("/data/sbet/", "/data/b.out"));
-  EXPECT_THAT(survey.trajectory->errors, ElementsAre("/data/smrmsg/"));
-  EXPECT_EQ(survey.trajectory->time, "utc");
-  EXPECT_FALSE(survey.trajectory->from_returns.has_value());
-  EXPECT_THAT(survey.surface.value().classes, ElementsAre(41, 42));
-  EXPECT_EQ(survey.surface->located, "local");
-  EXPECT_EQ(survey.sea.value().wind_speed, 5);
-  EXPECT_EQ(survey.water.value().kd, 0.12);
-  EXPECT_EQ(survey.water->temperature, 24);
-  EXPECT_EQ(survey.water->salinity, 36);
-  EXPECT_EQ(survey.water->index, 1.3397);
-  EXPECT_FALSE(survey.water->without_column);
-  EXPECT_EQ(survey.datum.value().sigma, 0.08);
-  EXPECT_EQ(survey.datum->geoid_separation, -25.1);
-  const StatedErrors& sigma = survey.sigma.value();
+  const SurveySettings survey = Survey(kWhole);
+  EXPECT_EQ(survey.sensor.name, "riegl-vq-880-g");
+  EXPECT_THAT(survey.sensor.lever_arm.value(), ElementsAre(0.3, -0.2, 0.5));
+  EXPECT_THAT(survey.trajectory.files, ElementsAre("/data/sbet/", "/data/b.out"));
+  EXPECT_THAT(survey.trajectory.errors, ElementsAre("/data/smrmsg/"));
+  EXPECT_EQ(survey.trajectory.time, "utc");
+  EXPECT_FALSE(survey.trajectory.from_returns.has_value());
+  EXPECT_THAT(survey.surface.classes, ElementsAre(41, 42));
+  EXPECT_EQ(survey.surface.located, "local");
+  EXPECT_EQ(survey.sea.wind_speed, 5);
+  EXPECT_EQ(survey.water.kd, 0.12);
+  EXPECT_EQ(survey.water.temperature, 24);
+  EXPECT_EQ(survey.water.salinity, 36);
+  EXPECT_EQ(survey.water.index, 1.3397);
+  EXPECT_FALSE(survey.water.without_column());
+  EXPECT_EQ(survey.datum.sigma, 0.08);
+  EXPECT_EQ(survey.datum.geoid_separation, -25.1);
+  const client::StatedErrors& sigma = survey.sigma;
   EXPECT_THAT(sigma.values.position, ElementsAre(0.02, 0.02, 0.06));
   EXPECT_THAT(sigma.values.attitude, ElementsAre(0.005, 0, 0.008));
   EXPECT_EQ(sigma.values.scan, 0.02);
   EXPECT_EQ(sigma.values.surface_height, 0);
   EXPECT_TRUE(sigma.Has(&AirErrors::surface_height));
   EXPECT_FALSE(sigma.Has(&AirErrors::surface_range));
-  EXPECT_THAT(survey.output.value().classes, ElementsAre(40));
-  EXPECT_EQ(survey.output->coverage, "p95");
-  EXPECT_EQ(survey.output->s44_order, "1b");
-  EXPECT_EQ(survey.output->details, true);
+  EXPECT_THAT(survey.output.classes, ElementsAre(40));
+  EXPECT_EQ(survey.output.coverage, "p95");
+  EXPECT_EQ(survey.output.s44_order, "1b");
+  EXPECT_EQ(survey.output.details, true);
 }
 
 TEST(SurveySections, MayEachBeAbsentOrEmpty) {
-  const SurveyDescription none = Survey("");
-  EXPECT_FALSE(none.sensor || none.trajectory || none.surface || none.sea || none.water || none.datum ||
-               none.sigma || none.output);
-  const SurveyDescription empty =
-      Survey("[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n");
-  EXPECT_TRUE(empty.sensor && empty.trajectory && empty.surface && empty.sea && empty.water && empty.datum &&
-              empty.sigma && empty.output);
-  EXPECT_FALSE(empty.sensor->name.has_value());
-  EXPECT_FALSE(empty.sigma->Has(&AirErrors::position));
-  EXPECT_TRUE(empty.output->classes.empty());
+  for (const char* text :
+       {"", "[sensor]\n[trajectory]\n[surface]\n[sea]\n[water]\n[datum]\n[sigma]\n[output]\n"}) {
+    const SurveySettings survey = Survey(text);
+    ForEachSection([&](const char* name, const auto& keys, const auto& section) {
+      EXPECT_FALSE(IsAnyGiven(keys, section(survey))) << name;
+    });
+    EXPECT_EQ(std::ranges::count(survey.sigma.stated, true), 0);
+  }
 }
 
 TEST(SurveySections, FindFilesFromTheFolderOfTheSurvey) {
-  EXPECT_EQ(Survey("[sensor]\nname = 'mine.toml'\n").sensor->name, "/data/mine.toml");
-  EXPECT_EQ(Survey("[sensor]\nname = 'sensors/mine'\n").sensor->name, "/data/sensors/mine");
-  EXPECT_EQ(Survey("[sensor]\nname = '/x/mine.toml'\n").sensor->name, "/x/mine.toml");
-  EXPECT_EQ(Survey("[sensor]\nname = 'mine'\n").sensor->name, "mine");
-  EXPECT_EQ(Survey("[surface]\nlevel = 'level.csv'\n").surface->level_file, "/data/level.csv");
+  EXPECT_EQ(Survey("[sensor]\nname = 'mine.toml'\n").sensor.name, "/data/mine.toml");
+  EXPECT_EQ(Survey("[sensor]\nname = 'sensors/mine'\n").sensor.name, "/data/sensors/mine");
+  EXPECT_EQ(Survey("[sensor]\nname = '/x/mine.toml'\n").sensor.name, "/x/mine.toml");
+  EXPECT_EQ(Survey("[sensor]\nname = 'mine'\n").sensor.name, "mine");
+  EXPECT_EQ(Survey("[surface]\nlevel = 'level.csv'\n").surface.level, Level("/data/level.csv"));
 }
 
 TEST(SurveySections, HaveALevelAsANumberOrAFile) {
-  const ToldSurface number = Survey("[surface]\nlevel = -23\nlocated = 'level'\n").surface.value();
-  EXPECT_EQ(number.level, -23);
-  EXPECT_FALSE(number.level_file.has_value());
-  EXPECT_FALSE(Survey("[surface]\nlevel = 'level.csv'\n").surface->level.has_value());
-  for (const char* level : {"true", "''", "[1]", "nan", "inf", "1e9"})
-    EXPECT_THAT(ErrorOf("[surface]\nlevel = " + std::string(level) + "\n"),
-                StartsWith("line 2: 'surface.level' is "))
-        << level;
+  EXPECT_EQ(Survey("[surface]\nlevel = -23\nlocated = 'level'\n").surface.level, Level(-23.0));
+  EXPECT_EQ(Survey("[surface]\nlevel = 'level.csv'\n").surface.level, Level("/data/level.csv"));
 }
 
 TEST(SurveySections, TakeWholeNumbersAsNumbers) {
-  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor->lever_arm.value(),
+  EXPECT_THAT(Survey("[sensor]\nlever_arm = [1, 2.5, -3]\n").sensor.lever_arm.value(),
               ElementsAre(1, 2.5, -3));
-  EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma->values.scan, 1);
+  EXPECT_EQ(Survey("[sigma]\nscan = 1\n").sigma.values.scan, 1);
 }
 
 // What stands in the file, and how the message begins and what it says.
@@ -230,40 +220,18 @@ INSTANTIATE_TEST_SUITE_P(
         WrongKey{"[output]\ndetails = 'true'\n", "line 2: 'output.details' is 'true'", "without quotes"},
         WrongKey{"[outputs]\n", "line 1: 'outputs' is no key of a survey file", "did you mean output?"}));
 
-// Each number with a value of another type and beyond its range.
-TEST(SurveySections, RefuseEachWrongNumber) {
-  const auto refuse = [](const std::string& section, std::string_view key, double beyond) {
-    const std::string name(key);
-    for (const std::string& value :
-         {std::string("\"6\""), std::string("true"), std::string("[1]"), std::string("{}"),
-          std::string("nan"), std::string("inf"), std::string("-1e9"), std::to_string(beyond)}) {
-      const std::string error = ErrorOf("[" + section + "]\n" + name + " = " + value + "\n");
-      EXPECT_THAT(error, StartsWith("line 2: '" + section + "." + name + "' is ")) << value;
-      EXPECT_THAT(error, HasSubstr("(expected ")) << value;
-    }
-  };
-  for (const auto& each : kWaterNumbers) refuse("water", each.key, each.greatest * 1.01);
-  for (const auto& each : kDatumNumbers) refuse("datum", each.key, each.greatest * 1.01);
+// Each source of error with values of another type and beyond its range.
+TEST(SurveySections, RefuseEachWrongSourceOfError) {
   for (const ErrorSource& source : kErrorSources) {
-    const std::string key(source.name);
-    if (source.size() == 1) {
-      refuse("sigma", source.name, source.greatest * 1.01);
-      continue;
-    }
-    for (const char* value : {"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]", "[nan, 1, 1]",
-                              "[1, 1, inf]", "[1, 1, 101]", "[1, 1, \"1\"]"}) {
+    const std::string key(source.name), beyond = std::to_string(source.greatest * 1.01);
+    const std::vector<std::string> wrong =
+        source.size() == 1 ? std::vector<std::string>{"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", beyond}
+                           : std::vector<std::string>{"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]",
+                                                      "[nan, 1, 1]", "[1, 1, inf]", "[1, 1, " + beyond + "]"};
+    for (const std::string& value : wrong) {
       const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
       EXPECT_THAT(error, StartsWith("line 2: 'sigma." + key + "' ")) << value;
-      EXPECT_THAT(error, HasSubstr("(expected 3 numbers from 0 to ")) << value;
-    }
-  }
-}
-
-TEST(SurveySections, TakeTheEndsOfEachRange) {
-  for (const auto& each : kWaterNumbers) {
-    for (const double end : {each.least, each.greatest}) {
-      const std::string text = "[water]\n" + std::string(each.key) + " = " + std::to_string(end) + "\n";
-      EXPECT_EQ(Survey(text).water.value().*each.field, end) << text;
+      EXPECT_THAT(error, HasSubstr("(expected ")) << value;
     }
   }
 }
@@ -274,7 +242,8 @@ TEST(SurveySections, TakeEachSourceOfErrorUpToItsEnd) {
       const std::string number = std::to_string(end);
       const std::string value =
           source.size() == 1 ? number : "[" + number + ", " + number + ", " + number + "]";
-      const StatedErrors sigma = Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma.value();
+      const client::StatedErrors sigma =
+          Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma;
       EXPECT_THAT(source.In(sigma.values), ::testing::Each(end)) << source.name;
       EXPECT_EQ(std::ranges::count(sigma.stated, true), 1) << source.name;
     }
@@ -293,15 +262,15 @@ TEST(SurveySections, RefuseAnglesInRadians) {
   EXPECT_TRUE(ParseSurvey("[sigma]\nscan = 0.001\ntime = 1e-7\nindex = 1e-6\n", "").ok());
 }
 
-TEST(SurveySections, LeaveOutTheColumnOfWaterWhereToldSo) {
-  EXPECT_TRUE(Survey("[water]\ncolumn = 'none'\n").water->without_column);
-  EXPECT_FALSE(Survey("[water]\nkd = 0.1\n").water->without_column);
+TEST(SurveySections, LeaveOutTheColumnOfWaterWhereTheySaySo) {
+  EXPECT_TRUE(Survey("[water]\ncolumn = 'none'\n").water.without_column());
+  EXPECT_FALSE(Survey("[water]\nkd = 0.1\n").water.without_column());
 }
 
 TEST(SurveySections, MayBeCutAnywhere) {
   const std::string text = kWhole;
   for (std::size_t size = 0; size < text.size(); ++size) {
-    const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text.substr(0, size), "");
+    const absl::StatusOr<SurveySettings> survey = ParseSurvey(text.substr(0, size), "");
     if (survey.ok()) continue;
     EXPECT_THAT(std::string(survey.status().message()), StartsWith("line ")) << size;
     EXPECT_EQ(survey.status().message().find('\n'), std::string::npos) << size;
@@ -309,4 +278,4 @@ TEST(SurveySections, MayBeCutAnywhere) {
 }
 
 }  // namespace
-}  // namespace albtpu::client
+}  // namespace albtpu::config

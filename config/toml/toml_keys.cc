@@ -1,4 +1,4 @@
-#include "survey/toml/toml_keys.h"
+#include "config/toml/toml_keys.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,7 +11,7 @@
 #include "command_line/near_match.h"
 #include "command_line/one_line.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 namespace {
 
 // The shortest text of the number: 0.3, where toml++ writes 0.29999999999999999.
@@ -40,6 +40,12 @@ std::optional<double> NumberOf(const toml::node& node) {
 }
 
 }  // namespace
+
+std::string WordProblem(const std::string& text, const std::vector<std::string>& words) {
+  if (std::ranges::find(words, text) != words.end()) return "";
+  const std::optional<std::string> near = NearMatch(text, words);
+  return near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them";
+}
 
 void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
   if (!status_.ok()) return;
@@ -72,11 +78,9 @@ std::optional<std::string> TomlKeys::Text(std::string_view key, std::string_view
 std::optional<std::string> TomlKeys::OneOf(std::string_view key, const std::vector<std::string>& words) {
   const std::optional<std::string> text = Text(key, absl::StrJoin(words, ", "));
   if (!text.has_value()) return std::nullopt;
-  for (const std::string& word : words)
-    if (*text == word) return text;
-  const std::optional<std::string> near = NearMatch(*text, words);
-  Wrong(*table_.get(key), key, absl::StrJoin(words, ", "),
-        near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them");
+  const std::string problem = WordProblem(*text, words);
+  if (problem.empty()) return text;
+  Wrong(*table_.get(key), key, absl::StrJoin(words, ", "), problem);
   return std::nullopt;
 }
 
@@ -223,4 +227,4 @@ void TomlKeys::Wrong(const toml::node& node, std::string_view key, const std::st
                                                 "); ", remedy));
 }
 
-}  // namespace albtpu::client
+}  // namespace albtpu::config

@@ -1,4 +1,4 @@
-#include "survey/description/survey_description.h"
+#include "config/survey_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/temporary_folder.h"
 
-namespace albtpu::client {
+namespace albtpu::config {
 namespace {
 
 using ::testing::HasSubstr;
@@ -35,15 +35,15 @@ spread = 18
 )";
 
 std::string ErrorOf(const std::string& text) {
-  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text, "");
+  const absl::StatusOr<SurveySettings> survey = ParseSurvey(text, "");
   EXPECT_FALSE(survey.ok()) << text;
   return std::string(survey.status().message());
 }
 
-TEST(SurveyDescription, HasASea) {
-  const absl::StatusOr<SurveyDescription> survey = ParseSurvey(kTwoWaves, "");
+TEST(SurveyFile, HasASea) {
+  const absl::StatusOr<SurveySettings> survey = ParseSurvey(kTwoWaves, "");
   ASSERT_TRUE(survey.ok()) << survey.status();
-  const ToldSea& sea = survey->sea.value();
+  const SeaSettings& sea = survey->sea;
   EXPECT_EQ(sea.wind_speed, 6.5);
   EXPECT_EQ(sea.wind_from, 225);
   EXPECT_EQ(sea.water_depth, 12);
@@ -60,58 +60,26 @@ TEST(SurveyDescription, HasASea) {
   EXPECT_TRUE(CheckSea(sea).ok());
 }
 
-TEST(SurveyDescription, MayBeEmpty) {
-  EXPECT_FALSE(ParseSurvey("", "").value().sea.has_value());
-  EXPECT_FALSE(ParseSurvey("[sea]\n", "").value().sea->has_waves());
-  EXPECT_EQ(ParseSurvey("[sea]\nwind_speed = 0\n", "").value().sea->wind_speed, 0);
+TEST(SurveyFile, MayBeEmpty) {
+  EXPECT_FALSE(IsAnyGiven(kSeaKeys, ParseSurvey("", "").value().sea));
+  EXPECT_FALSE(ParseSurvey("[sea]\n", "").value().sea.has_waves());
+  EXPECT_EQ(ParseSurvey("[sea]\nwind_speed = 0\n", "").value().sea.wind_speed, 0);
 }
 
-TEST(SurveyDescription, FindsFilesFromItsOwnFolder) {
+TEST(SurveyFile, FindsFilesFromItsOwnFolder) {
   const std::string text =
       "[sea]\nfile = \"41010.data_spec\"\ntime = \"2020-06-08T03:50Z\"\nplace = \"A\"\n"
       "longest_gap = 6\nanemometer_height = 4\n";
-  const ToldSea sea = ParseSurvey(text, "/data").value().sea.value();
+  const SeaSettings sea = ParseSurvey(text, "/data").value().sea;
   EXPECT_EQ(sea.file, "/data/41010.data_spec");
   EXPECT_EQ(sea.time, "2020-06-08T03:50Z");
   EXPECT_EQ(sea.place, "A");
   EXPECT_EQ(sea.longest_gap, 6);
   EXPECT_EQ(sea.anemometer_height, 4);
-  EXPECT_EQ(ParseSurvey("sea.file = '/other/x'", "/data").value().sea->file, "/other/x");
+  EXPECT_EQ(ParseSurvey("sea.file = '/other/x'", "/data").value().sea.file, "/other/x");
 }
 
-// Each key with a value of another type, beyond both ends of its range, and misspelt: one message with the line.
-TEST(SurveyDescription, RefusesEachWrongNumber) {
-  const auto refuse = [](const auto& number, const std::string& before, const std::string& table, int line) {
-    const std::string key(number.key), where = "line " + std::to_string(line) + ": '" + table + key + "' is ";
-    for (const char* value :
-         {"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", "1e9", "2020-06-08", "\"6 m\""}) {
-      const std::string error = ErrorOf(before + key + " = " + value + "\n");
-      EXPECT_THAT(error, StartsWith(where)) << value;
-      EXPECT_THAT(error, HasSubstr("(expected ")) << value;
-      EXPECT_THAT(error, HasSubstr("; give ")) << value;
-    }
-  };
-  for (const auto& number : kSeaNumbers) refuse(number, "[sea]\n", "sea.", 2);
-  for (const auto& number : kWaveNumbers) refuse(number, "\n[[sea.waves]]\n", "sea.waves.", 3);
-}
-
-TEST(SurveyDescription, TakesTheEndsOfEachRange) {
-  for (const auto& number : kSeaNumbers) {
-    for (const double end : {number.least, number.greatest}) {
-      const std::string text = "[sea]\n" + std::string(number.key) + " = " + std::to_string(end) + "\n";
-      EXPECT_EQ(ParseSurvey(text, "").value().sea.value().*number.field, end) << text;
-    }
-  }
-}
-
-TEST(SurveyDescription, RefusesEachWrongText) {
-  for (const char* key : {"tail", "place", "time", "file"}) {
-    for (const char* value : {"5", "true", "[\"relax\"]", "\"\"", "{a = 1}"}) {
-      const std::string error = ErrorOf("[sea]\n" + std::string(key) + " = " + value + "\n");
-      EXPECT_THAT(error, StartsWith("line 2: 'sea." + std::string(key) + "' is ")) << value;
-      EXPECT_THAT(error, HasSubstr("; ")) << value;
-    }
-  }
+TEST(SurveyFile, RefusesWrongTexts) {
   EXPECT_EQ(ErrorOf("[sea]\ntail = \"relaxed\"\n"),
             "line 2: 'sea.tail' is 'relaxed' (expected relax, wind, level, none); did you mean \"relax\"?");
   EXPECT_THAT(ErrorOf("[sea]\ntail = \"up\"\n"), HasSubstr("give one of them"));
@@ -120,7 +88,7 @@ TEST(SurveyDescription, RefusesEachWrongText) {
               StartsWith("line 2: 'sea.waves.spreading' is "));
 }
 
-TEST(SurveyDescription, NamesTheKeyThatIsMissing) {
+TEST(SurveyFile, NamesTheKeyThatIsMissing) {
   for (const char* key : {"hs", "tp", "waves_from"}) {
     std::string text = "[[sea.waves]]\n";
     for (const char* other : {"hs = 1\n", "tp = 5\n", "waves_from = 20\n"})
@@ -132,7 +100,7 @@ TEST(SurveyDescription, NamesTheKeyThatIsMissing) {
               HasSubstr("both say how directions spread"));
 }
 
-TEST(SurveyDescription, NamesTheKeyThatIsMeant) {
+TEST(SurveyFile, NamesTheKeyThatIsMeant) {
   EXPECT_THAT(ErrorOf("[sea]\nwind_sped = 5\n"),
               StartsWith("line 2: 'sea.wind_sped' is no key of a survey file; did you mean wind_speed?"));
   EXPECT_THAT(ErrorOf("[see]\n"), HasSubstr("did you mean sea?"));
@@ -141,7 +109,7 @@ TEST(SurveyDescription, NamesTheKeyThatIsMeant) {
   EXPECT_THAT(ErrorOf("x = 1\n"), HasSubstr("there are datum, output, sea, sensor"));
 }
 
-TEST(SurveyDescription, RefusesTablesThatAreNone) {
+TEST(SurveyFile, RefusesTablesThatAreNone) {
   EXPECT_THAT(ErrorOf("sea = 5\n"), StartsWith("line 1: 'sea' is 5 (expected a table); begin it with [sea]"));
   EXPECT_THAT(ErrorOf("[[sea]]\nwind_speed = 5\n"), HasSubstr("begin it with [sea]"));
   for (const char* waves :
@@ -149,23 +117,23 @@ TEST(SurveyDescription, RefusesTablesThatAreNone) {
     EXPECT_THAT(ErrorOf(waves), HasSubstr("begin each of them with [[sea.waves]]")) << waves;
 }
 
-TEST(SurveyDescription, RefusesWhatIsNoToml) {
+TEST(SurveyFile, RefusesWhatIsNoToml) {
   EXPECT_THAT(ErrorOf("[sea]\nwind_speed = \n"), StartsWith("line 2: is not TOML ("));
   EXPECT_THAT(ErrorOf("[sea]\nwind_speed = 5\nwind_speed = 6\n"), StartsWith("line 3: is not TOML ("));
   EXPECT_THAT(ErrorOf(std::string(40000, ' ')), HasSubstr("has 40000 bytes"));
   EXPECT_THAT(ErrorOf(std::string("\x89HDF\r\n\x1a\n", 8)), HasSubstr("is not TOML"));
 }
 
-TEST(SurveyDescription, AnswersOnOneLineToKeysOfSeveral) {
+TEST(SurveyFile, AnswersOnOneLineToKeysOfSeveral) {
   EXPECT_THAT(ErrorOf("[sea]\n\"wind\\nspeed\" = 5\n"), StartsWith("line 2: 'sea.wind?speed' is no key"));
   EXPECT_EQ(ErrorOf("[sea]\ntail = \"a\\nb\"\n").find('\n'), std::string::npos);
 }
 
 // Whatever is left of a file is the same description without its end, or one message.
-TEST(SurveyDescription, MayBeCutAnywhere) {
+TEST(SurveyFile, MayBeCutAnywhere) {
   const std::string text = kTwoWaves;
   for (std::size_t size = 0; size < text.size(); ++size) {
-    const absl::StatusOr<SurveyDescription> survey = ParseSurvey(text.substr(0, size), "");
+    const absl::StatusOr<SurveySettings> survey = ParseSurvey(text.substr(0, size), "");
     if (survey.ok()) continue;
     EXPECT_THAT(std::string(survey.status().message()), StartsWith("line ")) << size;
     EXPECT_EQ(survey.status().message().find('\n'), std::string::npos) << size;
@@ -183,8 +151,8 @@ TEST(ReadSurvey, NamesTheFile) {
   EXPECT_THAT(std::string(ReadSurvey(path).status().message()),
               StartsWith(path.string() + ": line 2: 'sea.tail'"));
   std::ofstream(path) << "[sea]\nfile = \"a.spec\"\n";
-  EXPECT_EQ(ReadSurvey(path).value().sea->file, (path.parent_path() / "a.spec").string());
+  EXPECT_EQ(ReadSurvey(path).value().sea.file, (path.parent_path() / "a.spec").string());
 }
 
 }  // namespace
-}  // namespace albtpu::client
+}  // namespace albtpu::config

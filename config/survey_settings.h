@@ -1,0 +1,243 @@
+// The settings of a survey: what flags and the survey file give, and the table of the keys of each section. Absent: not
+// given. The sea is in sea_settings.h.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "budget/water/water_share.h"
+#include "config/key.h"
+#include "config/sea_settings.h"
+#include "survey/sensors/stated_errors.h"
+#include "tables/s44.h"
+
+namespace albtpu::config {
+
+struct SensorSettings {             // [sensor]
+  std::optional<std::string> name;  // Of an installed sensor, or the path of a file: FindSensor().
+  std::optional<Triple> lever_arm;  // Forward, right, down, m.
+};
+
+struct TrajectorySettings {                // [trajectory]
+  std::vector<std::string> files, errors;  // Files and folders.
+  std::optional<std::string> time;         // kTrajectoryTimes
+  std::optional<bool> from_returns;
+
+  bool is_given() const { return !files.empty() || from_returns.value_or(false); }
+};
+
+struct SurfaceSettings {               // [surface]
+  std::vector<int> classes;            // Of returns from the surface.
+  std::optional<std::string> located;  // kWaysToLocate
+  std::optional<Level> level;          // In the unit and datum of the points.
+};
+
+// A bias of the water column that was measured against what is known of the bottom.
+struct CalibrationSettings {                   // [water.calibration], or calibration = {...}
+  std::optional<double> depth, offset, sigma;  // m; the offset is positive if the points were too shallow
+};
+
+struct WaterSettings {                                     // [water]
+  std::optional<double> index, kd, temperature, salinity;  // 1, 1/m, degree C, 1
+  std::optional<std::string> column;                       // kColumns
+  // The optics (water_optics.h).
+  std::optional<std::string> kd_kind, jerlov;
+  std::optional<double> kd_sigma, secchi, absorption, scattering;  // 1/m, m, 1/m, 1/m
+  std::optional<double> omega0, omega0_sigma, backscatter_fraction;
+  // The receiver, and what the processing did (water_share.h).
+  std::optional<std::string> detector, bias;
+  std::optional<double> field_of_view, pulse_length, photons;  // m, ns, 1
+  std::optional<double> residual_fraction;
+  std::optional<CalibrationSettings> calibration;
+  std::optional<double> processed_with;  // The index that the ranges were computed with.
+
+  bool without_column() const { return column.has_value(); }  // The share of the water is left out.
+};
+
+struct DatumSettings {                            // [datum]
+  std::optional<double> sigma, geoid_separation;  // m; a sigma of 0 is none.
+};
+
+struct OutputSettings {                  // [output]
+  std::vector<int> classes;              // Of the points that get an uncertainty.
+  std::optional<std::string> coverage;   // kCoverages
+  std::optional<std::string> s44_order;  // kS44OrderNames
+  std::optional<bool> details;
+};
+
+struct SurveySettings {
+  SensorSettings sensor;
+  TrajectorySettings trajectory;
+  SurfaceSettings surface;
+  SeaSettings sea;
+  WaterSettings water;
+  DatumSettings datum;
+  client::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
+  OutputSettings output;
+
+  bool wants_total() const { return sensor.name.has_value(); }
+};
+
+inline constexpr std::array<std::string_view, 2> kTrajectoryTimes = {"gps", "utc"};
+// This pulse's own return; a surface of many returns; a height that is given.
+inline constexpr std::array<std::string_view, 3> kWaysToLocate = {"pulse", "local", "level"};
+inline constexpr std::array<std::string_view, 1> kColumns = {"none"};
+inline constexpr std::array<std::string_view, 3> kCoverages = {"2sigma", "p95", "1sigma"};
+
+// The class of a point in LAS 1.4 is one byte.
+inline constexpr WholeNumbers kClasses = {0, 255};
+// The longest aircraft has 84 m (An-225).
+inline constexpr ThreeNumbers kLeverArm = {-100, 100, "m", "[forward, right, down]", "X,Y,Z"};
+// From the Dead Sea to the highest lakes (6400 m), in metres or in feet.
+inline constexpr NumberOrPath kLevel = {
+    {-2000, 25000, "1"}, "a height, or the path of a file of heights", "Z|FILE.csv"};
+// Fresh water at 30 degrees and 1064 nm has 1.32, cold sea water at 355 nm 1.36.
+inline constexpr Number kWaterIndex = {1.3, 1.4, "1"};
+
+// clang-format off
+inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
+    {{"name", "--sensor", Text{"the name of a sensor, or the path of its file", "NAME|FILE.toml"}, "",
+      "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the location of "
+      "the surface, the water column and the datum, instead of the share of the sea surface"},
+     &SensorSettings::name},
+    {{"lever_arm", "--lever-arm", kLeverArm, "none",
+      "From the trajectory's reference point to the laser, in body axes: forward, right, down"},
+     &SensorSettings::lever_arm},
+}};
+inline constexpr std::array<Key<TrajectorySettings>, 4> kTrajectoryKeys = {{
+    {{"files", "--trajectory", Paths{}, "", "Trajectory of the sensor, SBET or ASCII: files and folders of files"},
+     &TrajectorySettings::files},
+    {{"errors", "--trajectory-errors", Paths{}, "", "Its errors, SMRMSG: files and folders of files"},
+     &TrajectorySettings::errors},
+    {{"time", "--trajectory-time", Word{kTrajectoryTimes}, "gps", "Time scale of the trajectory"},
+     &TrajectorySettings::time},
+    {{"from_returns", "--trajectory-from-returns", YesOrNo{}, "",
+      "Find the trajectory from pulses with two returns under water"},
+     &TrajectorySettings::from_returns},
+}};
+inline constexpr std::array<Key<SurfaceSettings>, 3> kSurfaceKeys = {{
+    {{"classes", "--water-classes", kClasses, "",
+      "The classes of returns from the water surface; they come before its level where there are any"},
+     &SurfaceSettings::classes},
+    {{"located", "--surface-located", Word{kWaysToLocate}, "local with classes of such returns, level without",
+      "How the points' processing found the water surface: by the return of each pulse, a local model of returns or a "
+      "level"},
+     &SurfaceSettings::located},
+    {{"level", "--water-level", kLevel, "",
+      "Height of the water surface, in the unit and datum of the points' heights, or a CSV file of heights by time"},
+     &SurfaceSettings::level},
+}};
+// Pure water attenuates by more than 0.001 1/m at all wavelengths that pass. Natural water is no warmer than 40 degrees
+// and the salt of the ocean 45 at most; it freezes above -2.
+inline constexpr std::array<Key<WaterSettings>, 21> kWaterKeys = {{
+    {{"index", "--water-index", kWaterIndex, "by temperature and salinity, or 1.34", "Refractive index of the water"},
+     &WaterSettings::index},
+    {{"temperature", "", Number{-2, 40, "degree C"}, "", "Temperature of the water, for its index"},
+     &WaterSettings::temperature},
+    {{"salinity", "", Number{0, 45, "1"}, "", "Salinity of the water, for its index"}, &WaterSettings::salinity},
+    {{"processed_with", "", kWaterIndex, "the group index of the water",
+      "The index that the ranges were computed with"},
+     &WaterSettings::processed_with},
+    {{"column", "--water-column", Word{kColumns}, "", "none: leave out the share of the water column"},
+     &WaterSettings::column},
+    {{"kd", "", Number{0.001, 10, "1/m"}, "", "Attenuation of the water, of the kind that kd_kind says"},
+     &WaterSettings::kd},
+    {{"kd_kind", "", Word{kKdKindNames}, "", "Where kd is from"}, &WaterSettings::kd_kind},
+    {{"kd_sigma", "", Number{0, 10, "1/m"}, "by the kind of kd", "Standard deviation of the attenuation"},
+     &WaterSettings::kd_sigma},
+    {{"secchi", "", Number{0.1, 80, "m"}, "", "Secchi depth, in place of kd"}, &WaterSettings::secchi},
+    {{"jerlov", "", Word{kJerlovTypes}, "", "Jerlov's type of the water, in place of kd"}, &WaterSettings::jerlov},
+    {{"absorption", "", Number{0.001, 10, "1/m"}, "", "Absorption at 532 nm, with scattering in place of kd"},
+     &WaterSettings::absorption},
+    {{"scattering", "", Number{0.001, 50, "1/m"}, "", "Scattering at 532 nm"}, &WaterSettings::scattering},
+    {{"omega0", "", Number{0.05, 0.98, "1"}, "0.8", "Single-scattering albedo"}, &WaterSettings::omega0},
+    {{"omega0_sigma", "", Number{0, 0.3, "1"}, "0.1", "Standard deviation of omega0"}, &WaterSettings::omega0_sigma},
+    {{"backscatter_fraction", "", Number{0.005, 0.05, "1"}, "0.01 to 0.03",
+      "Share of scattered light that turns back"},
+     &WaterSettings::backscatter_fraction},
+    {{"detector", "", Word{kEchoDetectorNames}, "", "How the receiver reads the bottom from the echo"},
+     &WaterSettings::detector},
+    {{"field_of_view", "", Number{0.1, 1000, "m"}, "",
+      "Diameter of what the receiver sees on the surface, across the beam"},
+     &WaterSettings::field_of_view},
+    {{"pulse_length", "", Number{0.1, 20, "ns"}, "", "Length of the pulse at half its maximum"},
+     &WaterSettings::pulse_length},
+    {{"photons", "", Number{1, 1e9, "1"}, "their noise is in [sigma] bottom_range", "Photons that an echo counts"},
+     &WaterSettings::photons},
+    {{"bias", "", Word{kBiasHandlingNames}, "",
+      "What the processing did about the bias of scattering: none leaves it in the points, correct took away the mean, "
+      "vendor left a residual_fraction, calibrated took away the mean scaled to a calibration"},
+     &WaterSettings::bias},
+    {{"residual_fraction", "", Number{0, 1, "1"}, "", "The fraction of the bias that a vendor's correction leaves"},
+     &WaterSettings::residual_fraction},
+}};
+// The offset of a calibration may be negative; none that a survey had was beyond metres.
+inline constexpr std::array<Key<CalibrationSettings>, 3> kCalibrationKeys = {{
+    {{"depth", "", Number{0.1, 100, "m"}, "", "Depth at which the bias was measured"}, &CalibrationSettings::depth},
+    {{"offset", "", Number{-10, 10, "m"}, "", "The bias, positive if the points were too shallow"},
+     &CalibrationSettings::offset},
+    {{"sigma", "", Number{0, 10, "m"}, "", "Its standard deviation"}, &CalibrationSettings::sigma},
+}};
+// What EGM2008 has on Earth is -107 to 86 m.
+inline constexpr std::array<Key<DatumSettings>, 2> kDatumKeys = {{
+    {{"sigma", "--datum-sigma", Number{0, 10, "m"}, "",
+      "Standard deviation of the vertical datum; 0 for ellipsoidal heights"},
+     &DatumSettings::sigma},
+    {{"geoid_separation", "--geoid-separation", Number{-120, 100, "m"}, "",
+      "Height of the points' vertical datum above the ellipsoid, where the points are not ellipsoidal"},
+     &DatumSettings::geoid_separation},
+}};
+inline constexpr std::array<Key<OutputSettings>, 4> kOutputKeys = {{
+    {{"classes", "--classes", kClasses, "40; 26 in point formats 0 to 5", "The classes of bathymetric points"},
+     &OutputSettings::classes},
+    {{"coverage", "--coverage", Word{kCoverages}, "2sigma",
+      "2sigma for twice the standard deviation, p95 for 95 %, 1sigma for one standard deviation"},
+     &OutputSettings::coverage},
+    {{"s44_order", "--s44-order", Word{kS44OrderNames}, "", "Compare with this order of IHO S-44"},
+     &OutputSettings::s44_order},
+    {{"details", "--details", YesOrNo{}, "",
+      "Also append the shares, biases and covariance of a total; in LAS files with or without one the geometry of each "
+      "beam: incidence, beam_azimuth, footprint, water_depth, slant_range"},
+     &OutputSettings::details},
+}};
+// clang-format on
+
+// Calls visit(name, keys, section) for each section; section(settings) is its struct. [sigma] has no flags, and its
+// keys are the sources of error.
+template <typename Visit>
+void ForEachSection(const Visit& visit) {
+  visit(
+      "sensor", kSensorKeys, [](auto& all) -> auto& { return all.sensor; });
+  visit(
+      "trajectory", kTrajectoryKeys, [](auto& all) -> auto& { return all.trajectory; });
+  visit(
+      "surface", kSurfaceKeys, [](auto& all) -> auto& { return all.surface; });
+  visit(
+      "sea", kSeaKeys, [](auto& all) -> auto& { return all.sea; });
+  visit(
+      "sea.waves", kWaveKeys, [](auto& all) -> auto& { return all.sea.wave_flags; });
+  visit(
+      "water", kWaterKeys, [](auto& all) -> auto& { return all.water; });
+  visit(
+      "datum", kDatumKeys, [](auto& all) -> auto& { return all.datum; });
+  visit(
+      "output", kOutputKeys, [](auto& all) -> auto& { return all.output; });
+}
+
+// A key by its flag, which must be one of a table, and what puts its value into settings.
+struct FlagKey {
+  const KeyDeclaration* declaration = nullptr;
+  std::function<void(const Value&, SurveySettings&)> put;
+};
+FlagKey FindFlag(std::string_view flag);
+
+// What flags and the survey file give together. A flag overrides the key of the same meaning. Waves that are given by
+// flags, in whatever form, override the sea of the file with all that goes with its waves, and a trajectory of flags
+// that of the file.
+SurveySettings Merge(const SurveySettings& flags, SurveySettings file);
+
+}  // namespace albtpu::config

@@ -1,0 +1,53 @@
+// The flags that stand for keys of the survey file, and the settings that both give together.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "config/survey_settings.h"
+#include "survey/answers/batch.h"
+#include "survey/csv/pulse_inputs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace albtpu::client {
+
+struct SurveyFlags {
+  std::optional<std::string> survey;  // --survey
+  config::SurveySettings settings;    // what the other flags give
+};
+
+// Each adds flags under a heading of --help. `flags` must live as long as `command`.
+void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading,
+              SurveyFlags& flags);
+// --survey and those of [sea] and [[sea.waves]], but for some.
+void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::initializer_list<std::string_view> without);
+// --sensor and those that go with it on all commands.
+void AddTotalFlags(CLI::App& command, SurveyFlags& flags);
+// --coverage, --s44-order and --standard-errors.
+void AddStyleFlags(CLI::App& command, SurveyFlags& flags, AnswerStyle& style);
+
+// The flags of `sea`, `pulse` and `plan` that the survey file has for the other commands.
+inline constexpr std::initializer_list<std::string_view> kRareSeaFlags = {"--gamma", "--tail", "--tail-from",
+                                                                          "--sea-gap", "--anemometer-height"};
+
+// What flags and survey file give together. Fails where what they say of the sea contradicts itself or has no effect.
+absl::StatusOr<config::SurveySettings> SettingsOf(const SurveyFlags& flags);
+
+// UsageError where a flag or [sigma] needs a sensor, and none is named.
+absl::Status CheckTotalFlags(const SurveyFlags& flags, const config::SurveySettings& settings);
+
+// The coverage and the order of the settings.
+void TakeStyle(const config::OutputSettings& output, AnswerStyle& style);
+
+// The wind and the fetch of the settings, if a table of winds answers. With waves the wind is not of the pulses.
+void TakeWind(const config::SeaSettings& sea, FixedInputs& inputs);
+// The same, whatever answers.
+void StateWind(const config::SeaSettings& sea, FixedInputs& inputs);
+
+}  // namespace albtpu::client

@@ -1,0 +1,80 @@
+"""Each key of the survey file, by file and by flag: the same refusal from every command, which names what was used.
+
+Usage: keys_e2e_test.py query=PROGRAM synthetic_table=PROGRAM
+"""
+
+import concurrent.futures
+import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "survey"))
+import programs  # noqa: E402
+from programs import query  # noqa: E402
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/survey.md"
+COMMANDS = {"pulse": (), "csv": ("in.csv", "out.csv"), "las": ("in.las", "out.las"), "plan": (), "sea": ()}
+
+
+def wrong_texts(key):
+    """Texts of flags beyond the range of a key, and of no number or word that it takes."""
+    least, greatest = key["least"], key["greatest"]
+    if key["type"] == "3 numbers":
+        return f"{greatest * 2},0,0", f"0,0,{least * 2}", "0,0"
+    if key["type"] == "list of whole numbers":
+        return str(greatest + 1), str(least - 1), "a"
+    if least is not None:
+        beyond = [least - 0.01 * max(1, abs(least))] + ([greatest + 0.01 * max(1, abs(greatest))] if greatest else [])
+        return *map(str, beyond), *(() if key["type"] == "number or path" else ("much",))
+    return ("no-such-word",) if key["words"] else ()
+
+
+class EachKey(programs.Test):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.keys = json.loads(query("keys", "--json", check=0).stdout)["keys"]
+        cls.helps = {command: query(command, "--help", check=0).stdout for command in COMMANDS}
+
+    def test_is_on_the_page(self):
+        self.assertEqual(query("keys", "--markdown", check=0).stdout, PAGE.read_text(),
+                         "docs/survey.md is the output of `albtpu-query keys --markdown`")
+        self.assertGreater(len(self.keys), 60)
+
+    def messages(self, calls):
+        """The one line on standard error and the exit code of each call."""
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            results = list(pool.map(lambda call: query(*call), calls))
+        return {(result.returncode, result.stderr) for result in results}
+
+    def test_is_refused_in_the_file_by_all_commands_alike(self):
+        for number, key in enumerate(self.keys):
+            head = "[[sea.waves]]" if key["section"] == "sea.waves" else f"[{key['section']}]"
+            name = f"'{key['section']}.{key['key']}' "
+            survey = self.folder / f"{number}.toml"
+            survey.write_text(f"{head}\n{key['key']} = 2020-06-08\n")  # No key takes a date.
+            with self.subTest(key=name):
+                (code, message), = self.messages((command, *files, "--survey", survey)
+                                                 for command, files in COMMANDS.items())
+                self.assertEqual(code, 1)
+                self.assertIn(f"{survey}: line 2: {name}is 2020-06-08 (expected ", message)
+                self.assertEqual(message.count("\n"), 1)
+
+    def test_is_refused_by_its_flag_by_all_commands_alike(self):
+        for key in self.keys:
+            takers = [command for command, text in self.helps.items() if f"{key['flag']} " in text]
+            for text in wrong_texts(key) if key["flag"] else ():
+                with self.subTest(flag=key["flag"], text=text):
+                    (code, message), = self.messages((command, *COMMANDS[command], f"{key['flag']}={text}")
+                                                     for command in takers)
+                    self.assertEqual(code, 2)
+                    self.assertTrue(message.startswith(f"albtpu-query: {key['flag']}: is '{text}' (expected "), message)
+
+    def test_has_its_flag_in_the_help_of_a_command(self):
+        for key in self.keys:
+            if key["flag"]:
+                self.assertTrue(any(f"{key['flag']}" in text for text in self.helps.values()), key["flag"])
+
+
+if __name__ == "__main__":
+    programs.main()
