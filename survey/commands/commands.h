@@ -4,10 +4,7 @@
 #include <functional>
 
 #include "absl/status/status.h"
-
-namespace CLI {
-class App;
-}
+#include "command_line/cli_fwd.h"
 
 namespace albtpu::client {
 

@@ -19,6 +19,7 @@
 #include "survey/files/file_jobs.h"
 #include "survey/number_text.h"
 #include "survey/sensors/installed_sensors.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {

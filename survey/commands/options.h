@@ -7,16 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "command_line/cli_fwd.h"
 #include "survey/answers/batch.h"
 #include "survey/commands/source_options.h"
 #include "survey/csv/pulse_inputs.h"
 #include "survey/files/file_jobs.h"
 #include "tables/file/table_io.h"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 namespace albtpu::client {
 

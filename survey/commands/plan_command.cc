@@ -23,6 +23,7 @@
 #include "survey/report/report_folder.h"
 #include "survey/report/report_page.h"
 #include "survey/sensors/installed_sensors.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {

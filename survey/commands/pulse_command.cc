@@ -14,6 +14,7 @@
 #include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
 #include "survey/sensors/installed_sensors.h"
+#include "survey/totals/plan_total.h"
 #include "survey/totals/pulse_report.h"
 
 namespace albtpu::client {
