@@ -1,8 +1,6 @@
 // Classes of CLI11 for headers that only name them: <CLI/CLI.hpp> takes seconds to compile.
 #pragma once
 
-#include "command_line/cli_fwd.h"
-
 namespace CLI {
 class App;
 class Option;

@@ -6,10 +6,6 @@
 #include "absl/status/status.h"
 #include "command_line/cli_fwd.h"
 
-namespace CLI {
-class App;
-}
-
 namespace albtpu::client {
 
 inline constexpr char kWhereAnswersComeFrom[] =

@@ -17,6 +17,7 @@
 #include "survey/files/annotation_run.h"
 #include "survey/files/file_jobs.h"
 #include "survey/number_text.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {

@@ -12,6 +12,7 @@
 #include "survey/exit_status.h"
 #include "survey/files/annotation_run.h"
 #include "survey/las/las_annotation.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {

@@ -87,7 +87,9 @@ absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
 
 absl::StatusOr<LasAnnotation> Annotation(const LasOptions& options, const config::SurveySettings& settings) {
   if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
-  LasAnnotation annotation{.replace = options.replace, .style = options.style};
+  LasAnnotation annotation;
+  annotation.replace = options.replace;
+  annotation.style = options.style;
   TakeStyle(settings.output, annotation.style);
   annotation.details = settings.output.details.value_or(false);
   if (!settings.output.classes.empty())

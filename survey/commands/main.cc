@@ -49,7 +49,7 @@ int Main(int argc, char** argv) {
     program.exit(help, std::cout, std::cerr);
     return Report(albtpu::FlushStandardOutput());
   } catch (const CLI::ParseError& error) {
-    return Report(UsageError(albtpu::UsageMessage(program, error)));
+    return Report(albtpu::UsageError(albtpu::UsageMessage(program, error)));
   }
   return Report(run());
 }

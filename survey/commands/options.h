@@ -14,11 +14,6 @@
 #include "survey/files/file_jobs.h"
 #include "tables/file/table_io.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace albtpu::client {
 
 // The headings under which --help lists options.

@@ -21,6 +21,7 @@
 #include "survey/planning/survey_plan.h"
 #include "survey/report/report_folder.h"
 #include "survey/report/report_page.h"
+#include "survey/totals/plan_total.h"
 
 namespace albtpu::client {
 namespace {

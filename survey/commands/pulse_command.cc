@@ -12,6 +12,7 @@
 #include "survey/commands/pulse_text.h"
 #include "survey/commands/survey_flags.h"
 #include "survey/exit_status.h"
+#include "survey/totals/plan_total.h"
 #include "survey/totals/pulse_report.h"
 
 namespace albtpu::client {

@@ -32,6 +32,8 @@ struct SeaCommandOptions {
   bool json = false;
 };
 
+constexpr std::array<std::string_view, 1> kFlagsOfWinds = {"--fetch"};
+
 constexpr char kHeading[] =
     "time                    Hs     Tp  axis   wind    mss  mss<11  mss<20   share   "
     "2 sigma of the refraction at nadir [degree], along/across\n"
@@ -124,7 +126,7 @@ void AddSeaCommand(CLI::App& program, Run& run) {
       ->add_option("file", options->flags.settings.sea.file,
                    "Spectra or heights of waves; or give --survey or --hs")
       ->type_name("FILE");
-  AddSeaFlags(*command, options->flags, {"--fetch"});
+  AddSeaFlags(*command, options->flags, kFlagsOfWinds);
   command->add_flag("--json", options->json, "Print one JSON object with an array `records`")
       ->group(group::kOutput);
   command->add_option("--output", options->output, "Write the table of the sea, of one instant, to this file")

@@ -87,7 +87,7 @@ void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const
   for (const char* name : names) AddFlag(command, name, heading, flags.settings);
 }
 
-void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::initializer_list<std::string_view> without) {
+void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without) {
   command
       .add_option(
           "--survey", flags.survey,

@@ -1,19 +1,18 @@
 // The flags that stand for keys of the survey file, and the settings that both give together.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "command_line/cli_fwd.h"
 #include "config/survey_settings.h"
 #include "survey/answers/batch.h"
 #include "survey/csv/pulse_inputs.h"
-
-namespace CLI {
-class App;
-}
 
 namespace albtpu::client {
 
@@ -26,15 +25,15 @@ struct SurveyFlags {
 void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading,
               SurveyFlags& flags);
 // --survey and those of [sea] and [[sea.waves]], but for some.
-void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::initializer_list<std::string_view> without);
+void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without);
 // --sensor and those that go with it on all commands.
 void AddTotalFlags(CLI::App& command, SurveyFlags& flags);
 // --coverage, --s44-order and --standard-errors.
 void AddStyleFlags(CLI::App& command, SurveyFlags& flags, AnswerStyle& style);
 
 // The flags of `sea`, `pulse` and `plan` that the survey file has for the other commands.
-inline constexpr std::initializer_list<std::string_view> kRareSeaFlags = {"--gamma", "--tail", "--tail-from",
-                                                                          "--sea-gap", "--anemometer-height"};
+inline constexpr std::array<std::string_view, 5> kRareSeaFlags = {"--gamma", "--tail", "--tail-from",
+                                                                  "--sea-gap", "--anemometer-height"};
 
 // What flags and survey file give together. Fails where what they say of the sea contradicts itself or has no effect.
 absl::StatusOr<config::SurveySettings> SettingsOf(const SurveyFlags& flags);

@@ -99,7 +99,10 @@ TEST(SeaSettings, RefusesATimeThatIsNone) {
 }
 
 SeaSettings Merged(const SeaSettings& flags, const SeaSettings& file) {
-  return Merge({.sea = flags}, {.sea = file}).sea;
+  SurveySettings of_flags, of_file;
+  of_flags.sea = flags;
+  of_file.sea = file;
+  return Merge(of_flags, of_file).sea;
 }
 
 TEST(FlagsAndSurveyFile, CompleteEachOther) {

@@ -116,12 +116,12 @@ class CommandLineTest(programs.Test):
 
     def test_misspelt_words_get_a_suggestion(self):
         for arguments, *expected in ((["foo"], "'foo' is not a command", "pulse, csv, las, plan, report, crosscheck, "
-                                      "trajectory, sea, sensors, tables, health"),
+                                      "trajectory, sea, sensors, keys, tables, health"),
                                      (["plus"], "'plus' is not a command", "did you mean pulse?"),
                                      (["pulse", "--wind-sped", 5], "did you mean --wind-speed?"),
                                      (["tables", "--server=a:1", "--tls-kye=x"], "did you mean --tls-key?"),
                                      (["csv", "a.csv", "b.csv", "--overwrit"], "did you mean --overwrite?"),
-                                     (["pulse", *PULSE, "--coverage", "2sigm"], "did you mean 2sigma?"),
+                                     (["pulse", *PULSE, "--coverage", "2sigm"], 'did you mean "2sigma"?'),
                                      (["--depth", 3, "pulse"], "put it after the command"),
                                      (["pulse", "words"], "'words'"), ([], "no command is given")):
             with self.subTest(arguments=arguments):

@@ -7,10 +7,6 @@
 #include "absl/status/status.h"
 #include "command_line/cli_fwd.h"
 
-namespace CLI {
-class App;
-}
-
 namespace albtpu::client {
 
 void AddReportCommand(CLI::App& program, std::function<absl::Status()>& run);
