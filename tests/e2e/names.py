@@ -9,16 +9,16 @@ import tempfile
 CLONE_NEWNS, CLONE_NEWUSER, MS_REC, MS_PRIVATE, MS_BIND = 0x20000, 0x10000000, 0x4000, 1 << 18, 0x1000
 
 
-def _enter(libc):
-    """Moves this process, which must not have threads yet, into its own mount namespace."""
+def unshare(libc, namespace):
+    """Moves this process, which must not have threads yet, into its own namespace. False if that is impossible."""
     user, group = os.geteuid(), os.getegid()
-    if libc.unshare(CLONE_NEWNS) != 0:
-        if libc.unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0:
+    if libc.unshare(namespace) != 0:
+        if libc.unshare(CLONE_NEWUSER | namespace) != 0:
             return False
         pathlib.Path("/proc/self/setgroups").write_text("deny")
         pathlib.Path("/proc/self/uid_map").write_text(f"0 {user} 1")
         pathlib.Path("/proc/self/gid_map").write_text(f"0 {group} 1")
-    return libc.mount(None, b"/", None, MS_REC | MS_PRIVATE, None) == 0
+    return True
 
 
 def give(names):
@@ -30,7 +30,7 @@ def give(names):
     files = {"/etc/hosts": "127.0.0.1 localhost\n" + "".join(line + "\n" for line in lines),
              "/etc/resolv.conf": "nameserver 127.0.0.1\noptions timeout:1 attempts:1\n"}
     with tempfile.TemporaryDirectory() as folder:
-        ready = _enter(libc)
+        ready = unshare(libc, CLONE_NEWNS) and libc.mount(None, b"/", None, MS_REC | MS_PRIVATE, None) == 0
         for path, text in files.items():
             source = pathlib.Path(folder, pathlib.Path(path).name)
             source.write_text(text)

@@ -92,8 +92,7 @@ class Plan(programs.Test):
         self.assertIn("boresight", text)
 
     def test_varies_the_water_and_the_waves(self):
-        survey = self.folder / "survey.toml"
-        survey.write_text(WATER)
+        survey = self.toml(WATER)
         plan = self.plan("--survey", survey, "--order", "special", "--kds", "0.06,0.2", "--winds", "3,8")
         water = next(axis for axis in plan["axes"] if axis["name"] == "kd")
         self.assertEqual(water["values"], [0.06, 0.2])

@@ -58,6 +58,11 @@ class Test(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.table = make_table(self.folder / "quick.h5")
 
+    def toml(self, text, name="survey.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
 

@@ -48,8 +48,3 @@ class Test(programs.Test):
         path = self.folder / name
         path.write_text("\n".join(lines) + "\n")
         return path
-
-    def toml(self, text, name="survey.toml"):
-        path = self.folder / name
-        path.write_text(text)
-        return path

@@ -54,16 +54,11 @@ class TotalsTest(programs.Test):
         super().setUp()
         os.environ["ALBTPU_SENSORS"] = str(SHIPPED)
 
-    def survey(self, text, name="survey.toml"):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
     def pulse(self, text, *flags):
         turn = math.radians(30)
         velocity = f"{70 * math.cos(turn) - 2 * math.sin(turn)},{70 * math.sin(turn) + 2 * math.cos(turn)},0"
         rates = ",".join(str(math.degrees(rate)) for rate in (0.01, 0.02, 0.03))
-        return query("pulse", "--survey", self.survey(text), "--table", self.table, "--incidence", 20,
+        return query("pulse", "--survey", self.toml(text), "--table", self.table, "--incidence", 20,
                      "--beam-azimuth", 90, "--altitude", 400, "--depth", 10, "--attitude", "3,4,30", "--velocity",
                      velocity, "--rates", rates, "--json", *flags)
 
@@ -100,7 +95,7 @@ class TotalsTest(programs.Test):
                 "[surface]\nclasses = [41]\n" + WIND + DECIDED +
                 "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\ns44_order = '1a'\n")
         out = self.folder / "out.las"
-        arguments = ("las", "--survey", self.survey(text), "--table", self.table, flight / "flight.las")
+        arguments = ("las", "--survey", self.toml(text), "--table", self.table, flight / "flight.las")
         query(*arguments, out, check=0)
         las = LasFile(out)
         names = las.extra_dimensions()
@@ -140,7 +135,7 @@ class TotalsTest(programs.Test):
                 "[sea]\nwind_speed = {wind}\nwind_from = 100\n[output]\nclasses = [40]\n")
 
         def annotate(source, name, wind, *flags, code=0):
-            survey = self.survey(text.format(wind=wind), f"wind_{wind}.toml")
+            survey = self.toml(text.format(wind=wind), f"wind_{wind}.toml")
             result = query("las", "--survey", survey, "--table", self.table, source, self.folder / name, *flags)
             self.assertEqual(result.returncode, code, result.stderr)
             return result.stderr if code else self.folder / name
@@ -173,7 +168,7 @@ class TotalsTest(programs.Test):
     def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n"):
         path, out = self.folder / "pulses.csv", self.folder / "totals.csv"
         path.write_text(rows)
-        result = query("csv", path, out, "--survey", self.survey(text), "--table", self.table, "--overwrite", *flags)
+        result = query("csv", path, out, "--survey", self.toml(text), "--table", self.table, "--overwrite", *flags)
         return result, [line.split(",") for line in out.read_text().splitlines()] if out.exists() else None
 
     def test_csv_has_the_bits_of_one_pulse(self):
@@ -185,7 +180,7 @@ class TotalsTest(programs.Test):
         self.assertEqual(lines[0][7:], ["total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea",
                                         *(f"covariance_{entry}" for entry in ("NN", "EE", "DD", "NE", "ND", "ED")),
                                         "bias_along_beam", "bias_vertical", "outcome", "s44_order_met"])
-        survey = self.survey(SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n")
+        survey = self.toml(SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n")
         for pulse, line in zip(pulses, lines[1:]):
             answer = json.loads(query(
                 "pulse", "--survey", survey, "--table", self.table, "--json", "--divergence", 1,
@@ -235,7 +230,7 @@ class TotalsTest(programs.Test):
         out = self.folder / "out.las"
 
         def refused(text, *parts, flags=()):
-            result = query("las", las, out, "--survey", self.survey(text), "--table", self.table, "--water-level", -23,
+            result = query("las", las, out, "--survey", self.toml(text), "--table", self.table, "--water-level", -23,
                            "--incidence", 20, "--altitude", 400, "--divergence", 1, "--wind-speed", 5, *flags)
             self.assert_fails(result, 2, *parts)
             self.assertFalse(out.exists())

@@ -27,13 +27,8 @@ class WaterTest(programs.Test):
         os.environ["ALBTPU_SENSORS"] = str(SOURCE / "survey/sensors/shipped")
         os.environ["ALBTPU_WATER_TABLE"] = str(SOURCE / "tables/water/shipped/water_column.h5")
 
-    def survey(self, text, name="survey.toml"):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
     def pulse(self, water, *flags, depth=10):
-        return query("pulse", "--survey", self.survey(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + water),
+        return query("pulse", "--survey", self.toml(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + water),
                      "--table", self.table, "--incidence", 15, "--beam-azimuth", 90, "--altitude", 400,
                      "--depth", depth, "--footprint", 0.5, "--json", *flags)
 
@@ -90,7 +85,7 @@ class WaterTest(programs.Test):
         text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + WIND + WATER +
                 "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\n")
         out = self.folder / "out.las"
-        query("las", "--survey", self.survey(text), "--table", self.table, flight / "flight.las", out, check=0)
+        query("las", "--survey", self.toml(text), "--table", self.table, flight / "flight.las", out, check=0)
         las = LasFile(out)
         number = {name: las.field(where[0], "<f4").astype(float) for name, where in las.extra_dimensions().items()}
         answered = number["total_thu"] >= 0
@@ -109,7 +104,7 @@ class WaterTest(programs.Test):
 
         csv = self.folder / "pulses.csv"
         csv.write_text("incidence,beam_azimuth,depth,altitude,footprint\n15,90,10,400,0.5\n15,90,19,400,0.5\n")
-        survey = self.survey(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + WATER)
+        survey = self.toml(SENSOR + WIND + "[surface]\nlocated = 'local'\n" + WATER)
         result = query("csv", csv, self.folder / "out.csv", "--survey", survey, "--table", self.table, "--details")
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = [line.split(",") for line in (self.folder / "out.csv").read_text().splitlines()]
