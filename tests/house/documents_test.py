@@ -309,6 +309,18 @@ class Documents(unittest.TestCase):
                 if "://" not in link:
                     self.assertTrue((SOURCE / name).parent.joinpath(link).exists(), f"{name}: {link}")
 
+    def test_name_files_that_exist(self):
+        skipped = ("build", "out")
+        files = [path for path in SOURCE.rglob("*.*") if path.relative_to(SOURCE).parts[0] not in skipped]
+        names = {path.name for path in files}
+        for page in (path for path in files if path.suffix == ".md"):
+            prose = BLOCK.sub("", page.read_text())
+            for name in set(re.findall(r"`([\w./-]+\.(?:cc|cmake|h|md|proto|py|sh|yaml))`", prose)):
+                with self.subTest(page=page.relative_to(SOURCE), name=name):
+                    folders = (SOURCE, page.parent, page.parent.parent)
+                    self.assertTrue(any((folder / name).exists() for folder in folders)
+                                    or "/" not in name and name in names)
+
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
