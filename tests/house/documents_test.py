@@ -122,6 +122,12 @@ def blocks(text):
     return BLOCK.findall(text)
 
 
+def headings(page):
+    """The names by which links reach the headings of a page."""
+    found = re.findall(r"^#+ (.+)$", BLOCK.sub("", page.read_text()), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in found}
+
+
 def commands_of(content):
     """The commands of an ```sh block, without comments; lines that end in a backslash joined."""
     for line in content.replace("\\\n", " ").splitlines():
@@ -303,11 +309,16 @@ class Documents(unittest.TestCase):
                 with self.subTest(page=name, command=span):
                     self.assertLessEqual(set(re.findall(r"(?<!\S)--[a-z][\w-]*", span)), known)
 
-    def test_link_to_files_that_exist(self):
+    def test_link_to_files_and_headings_that_exist(self):
         for name in PAGES:
-            for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", BLOCK.sub("", (SOURCE / name).read_text())):
+            page = SOURCE / name
+            for link in re.findall(r"\]\(([^)\s]+)\)", BLOCK.sub("", page.read_text())):
+                path, _, heading = link.partition("#")
                 if "://" not in link:
-                    self.assertTrue((SOURCE / name).parent.joinpath(link).exists(), f"{name}: {link}")
+                    with self.subTest(page=name, link=link):
+                        target = page.parent / path if path else page
+                        self.assertTrue(target.exists())
+                        self.assertTrue(not heading or heading in headings(target))
 
     def test_name_files_that_exist(self):
         skipped = ("build", "out")
