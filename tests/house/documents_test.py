@@ -153,8 +153,10 @@ class Documents(unittest.TestCase):
         folder = self.folder / name.replace("/", "_")
         folder.mkdir()
         page = Page(folder, self.folder / "inputs")
-        self.addCleanup(page.close)
-        return checked(page, (SOURCE / name).read_text(), fail)
+        try:
+            return checked(page, (SOURCE / name).read_text(), fail)
+        finally:
+            page.close()
 
     def test_show_what_their_commands_print(self):
         for name in documents.pages(SOURCE):
