@@ -32,6 +32,7 @@ PROGRAMS = {pathlib.Path(path).name: pathlib.Path(path).resolve() for path in sy
 ADDRESS = "127.0.0.1:50051"
 PATIENCE = 300  # seconds
 MARK = "..."    # Something is left out.
+PROGRESS = re.compile(r" %, .*/s, \d+ s left$")  # On a busy machine, a line every ten seconds.
 
 
 def matches(expected, printed):
@@ -102,7 +103,8 @@ class Page:
         result = subprocess.run([argument.replace(ADDRESS, address) for argument in arguments], cwd=self.folder,
                                 env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
-        return result.returncode, result.stdout.replace(address, ADDRESS).splitlines()
+        lines = result.stdout.replace(address, ADDRESS).splitlines()
+        return result.returncode, [line for line in lines if not PROGRESS.search(line)]
 
 
 def checked(page, text, fail):
