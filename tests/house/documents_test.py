@@ -32,7 +32,7 @@ PROGRAMS = {pathlib.Path(path).name: pathlib.Path(path).resolve() for path in sy
 ADDRESS = "127.0.0.1:50051"
 PATIENCE = 300  # seconds
 MARK = "..."    # Something is left out.
-PROGRESS = re.compile(r" %, .*/s, \d+ s left$")  # On a busy machine, a line every ten seconds.
+PROGRESS = re.compile(r" %, .*/s, \d+ s left$|: \d+ \w+ in [\d.]+ s: .*/s$")  # Printed where a command takes long.
 
 
 def matches(expected, printed):
