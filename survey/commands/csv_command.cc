@@ -42,7 +42,7 @@ nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSe
     json[std::string(Name(input))] = value.has_value() ? JsonNumber(*value) : nlohmann::ordered_json();
   }
   if (sea.has_waves()) json["sea"] = Parameters(sea);
-  json.update(Parameters(options.style));
+  json.update(client::Parameters(options.style));
   return json;
 }
 

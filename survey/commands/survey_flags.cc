@@ -140,7 +140,7 @@ absl::Status CheckTotalFlags(const SurveyFlags& flags, const SurveySettings& set
   for (const auto& [flag, is_given] : flags_of_total)
     if (is_given)
       return UsageError(absl::StrCat(flag, " has no effect without --sensor; give both or none of them"));
-  if (settings.sigma.has_value())
+  if (settings.sigma.any())
     return UsageError("[sigma] has no effect without a sensor; give [sensor] name, or --sensor");
   return absl::OkStatus();
 }

@@ -2,6 +2,7 @@
 // [sigma] of a survey file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@ struct StatedErrors {
   AirErrors values;
   std::array<bool, kErrorSourceCount> stated = {};  // In the order of kErrorSources.
 
+  bool any() const { return std::ranges::find(stated, true) != stated.end(); }
   template <typename Member>
   bool Has(Member AirErrors::*source) const {
     return stated[Index(source)];
