@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "tests/instruction_sets.h"
+#include "tests/tables/query/asked_columns.h"
 #include "tests/tables/query/table_kinds.h"
 
 namespace albtpu {
@@ -21,8 +21,6 @@ using ::albtpu::testing::kOneAxis;
 using ::albtpu::testing::kThreeAxes;
 using ::albtpu::testing::RandomTable;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 // The error of single precision: relative, and where corners cancel, relative to the largest value, which is 1.
 constexpr double kTolerance = 1e-5, kCancelled = 4e-7;
 
@@ -34,23 +32,12 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
-// Uniform in the domain and a little beyond, in half a turn some turns beyond; one in eight on a node; a few NaN or
-// infinite.
 Columns RandomColumns(const Table& table, std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
   Columns columns;
   for (std::size_t axis = 0; axis < table.axes().size(); ++axis) {
-    const std::vector<double>& nodes = table.axes()[axis].nodes();
     const bool turns = table.schema().axes[axis].fold == Fold::kHalfTurn;
-    const double beyond = (turns ? 4 : 0.01) * (nodes.back() - nodes.front());
-    std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
-    for (std::size_t i = 0; i < size; ++i) {
-      double x = nodes.size() == 1 ? nodes[0] : coordinate(random);
-      if (random() % 8 == 0) x = nodes[random() % nodes.size()];
-      if (random() % 400 == 0) x = kNaN;
-      if (random() % 400 == 0) x = kInfinity;
-      columns[axis].push_back(static_cast<float>(x));
-    }
+    columns[axis] = albtpu::testing::RandomColumn(table.axes()[axis].nodes(), turns, size, random);
   }
   return columns;
 }
