@@ -87,7 +87,8 @@ class FullDisk(faults.FaultTest):
         self.assertGreater(laz.stat().st_size, 2 * ROOM)
         server = self.serve()
         for source in ("--table", self.tables / "survey.h5"), ("--server", server.address):
-            for command, path, flags in (("las", flight, programs.FLAGS), ("las", laz, programs.FLAGS), ("csv", csv, ())):
+            for command, path, flags in (("las", flight, programs.FLAGS), ("las", laz, programs.FLAGS),
+                                         ("csv", csv, ())):
                 with self.subTest(path.suffix, source=source[0]):
                     name = f"out{path.suffix}"
                     self.assert_writes_nothing(name, programs.PATHS["query"], command, path, self.room / name,

@@ -22,7 +22,7 @@
 #include "survey/laz/laz_points.h"
 #include "tests/survey/laz/laz_bytes.h"
 
-namespace albtpu {
+namespace albtpu::bench {
 namespace {
 
 double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -91,12 +91,12 @@ int Run(const char* path, int runs) {
 }
 
 }  // namespace
-}  // namespace albtpu
+}  // namespace albtpu::bench
 
 int main(int argc, char** argv) {
   if (argc != 3) {
     std::fputs("usage: albtpu_laz_rate IN.laz RUNS\n", stderr);
     return 2;
   }
-  return albtpu::Run(argv[1], std::atoi(argv[2]));
+  return albtpu::bench::Run(argv[1], std::atoi(argv[2]));
 }

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 #include "tests/tables/synthetic_table.h"
@@ -16,20 +15,27 @@ PulseColumns Pulses(const Columns& columns, std::size_t size) {
   return pulses;
 }
 
+std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size,
+                                std::mt19937& random) {
+  const double beyond = (turns ? 4 : 0.01) * (nodes.back() - nodes.front());
+  std::uniform_real_distribution<double> coordinate(nodes.front() - beyond, nodes.back() + beyond);
+  std::vector<float> column;
+  for (std::size_t i = 0; i < size; ++i) {
+    double x = nodes.size() == 1 ? nodes[0] : coordinate(random);
+    if (random() % 8 == 0) x = nodes[random() % nodes.size()];
+    if (random() % 400 == 0) x = std::numeric_limits<float>::quiet_NaN();
+    if (random() % 400 == 0) x = std::numeric_limits<float>::infinity();
+    column.push_back(static_cast<float>(x));
+  }
+  return column;
+}
+
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
   Columns columns;
   for (const Axis& axis : table.axes()) {
-    const double first = axis.nodes().front(), last = axis.nodes().back();
-    const double beyond = (axis.schema().fold == Fold::kHalfTurn ? 4 : 0.01) * (last - first);
-    std::uniform_real_distribution<double> coordinate(first - beyond, last + beyond);
-    for (std::size_t i = 0; i < size; ++i) {
-      double x = axis.size() == 1 ? first : coordinate(random);
-      if (random() % 8 == 0) x = axis.nodes()[random() % axis.size()];
-      if (random() % 400 == 0) x = std::numeric_limits<float>::quiet_NaN();
-      if (random() % 400 == 0) x = std::numeric_limits<float>::infinity();
-      columns[Index(axis.id())].push_back(static_cast<float>(x));
-    }
+    const bool turns = axis.schema().fold == Fold::kHalfTurn;
+    columns[Index(axis.id())] = RandomColumn(axis.nodes(), turns, size, random);
   }
   return columns;
 }

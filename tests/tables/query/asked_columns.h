@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "tables/query/column_query.h"
@@ -13,8 +14,10 @@ using Columns = std::array<std::vector<float>, kAxisCount>;
 
 PulseColumns Pulses(const Columns& columns, std::size_t size);
 
-// Uniform in the domain and a little beyond, in half a turn some turns beyond; one in eight on a node; a few NaN or
-// infinite.
+// Uniform between the first and the last node and a little beyond, where it `turns` some turns beyond; one in eight on
+// a node; a few NaN or infinite.
+std::vector<float> RandomColumn(const std::vector<double>& nodes, bool turns, std::size_t size,
+                                std::mt19937& random);
 Columns RandomColumns(const UncertaintyTable& table, std::size_t size, std::uint32_t seed);
 
 // A flight line, whose pulses often share a cell of the table.
