@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -69,7 +70,7 @@ absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan, const
                      ": no error file of --trajectory-errors covers the times of its points; give those of "
                      "this trajectory"));
   }
-  found.json["sigma"] = {{"horizontal", precision->horizontal}, {"vertical", precision->vertical}};
+  (*found.json)["sigma"] = {{"horizontal", precision->horizontal}, {"vertical", precision->vertical}};
   found.notes.push_back(
       absl::StrFormat("trajectory known to %.3f m horizontally and %.3f m vertically (1 sigma, median)",
                       precision->horizontal, precision->vertical));
@@ -106,7 +107,7 @@ std::string OrWaterLevel(const TrackCheck& check, const BeamPlan& plan) {
 absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, bool utc, FileTrack& found) {
   const double index = plan.refractive_index;
   const TrackCheck check = CheckTrack(file.rays, LocalPositions(*found.track, file.frame), {.index = index});
-  ordered_json& json = found.json["check"];
+  ordered_json& json = (*found.json)["check"];
   json["rays"] = check.rays;
   if (check.verdict == TrackVerdict::kTooFewRays) {
     json["verdict"] = "too few rays";
@@ -189,7 +190,7 @@ absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index
   FileTrack found;
   const double height = statistics->middle.height, speed = statistics->middle.velocity.norm();
   const double sigma = DegreesOfRadians(statistics->sigma);
-  found.json = {
+  *found.json = {
       {"pairs", file.pairs},          {"rays", file.rays.size()}, {"segments", track.segments().size()},
       {"height_above_water", height}, {"speed", speed},           {"incidence_sigma", sigma}};
   found.notes.push_back(

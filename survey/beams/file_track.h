@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "budget/air/sensor_motion.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/sensor_track.h"
+#include "survey/answers/json_box.h"
 #include "survey/beams/beam_plan.h"
 #include "survey/beams/local_frame.h"
 #include "survey/trajectories/map_frame.h"
@@ -35,7 +35,7 @@ struct TrackedFile {
 struct FileTrack {
   std::unique_ptr<const SensorTrack> track;
   std::unique_ptr<const SensorMotions> motions;  // Of the aircraft, along the track.
-  nlohmann::ordered_json json;                   // For a summary.
+  JsonBox json;                                  // For a summary.
   std::vector<std::string> notes;                // For the user, a line each.
 };
 

@@ -34,8 +34,8 @@ nlohmann::ordered_json InputJson(const AnnotatedLas& annotated) {
                                  {"point_format", annotated.point_format},
                                  {"points", annotated.classes.points()},
                                  {"points_by_class", annotated.classes.Json()},
-                                 {"geometry", annotated.geometry}};
-  if (!annotated.sea.is_null()) json["sea"] = annotated.sea;
+                                 {"geometry", *annotated.geometry}};
+  if (!annotated.sea->is_null()) json["sea"] = *annotated.sea;
   if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
   return json;
 }

@@ -1,5 +1,6 @@
 #include "survey/files/annotation_run.h"
 
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 

@@ -24,9 +24,9 @@ struct AnnotatedFile {
 };
 
 struct AnnotationRun {
-  std::string command;                // "las"
-  std::string records, record;        // What the files contain, for the user: "points", "chosen point".
-  nlohmann::ordered_json parameters;  // Everything that determines the output, apart from input and table.
+  std::string command;          // "las"
+  std::string records, record;  // What the files contain, for the user: "points", "chosen point".
+  JsonBox parameters;           // Everything that determines the output, apart from input and table.
   std::vector<std::filesystem::path> files = {};  // Read beside the inputs.
   bool resume = false;                            // Keep outputs that are already complete.
   Existing existing = Existing::kKeep;

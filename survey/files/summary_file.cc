@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
@@ -52,13 +53,13 @@ std::string SummaryText(const OutputSettings& settings, const Job& job, const Fi
   json["program"] = kProgram;
   json["program_version"] = std::string(Version());
   json["command"] = settings.command;
-  json["parameters"] = settings.parameters;
+  json["parameters"] = *settings.parameters;
   json["table"] = TableJson(settings.table);
   json["input"] = {{"name", job.input.filename().string()}, {"bytes", findings.input_bytes}};
-  json["input"].update(findings.input);
+  json["input"].update(*findings.input);
   json["output"] = {{"name", job.output.filename().string()}, {"bytes", output_bytes}};
-  json["output"].update(findings.output);
-  json["answers"] = findings.answers;
+  json["output"].update(*findings.output);
+  json["answers"] = *findings.answers;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -72,7 +73,7 @@ absl::Status CheckComplete(const OutputSettings& settings, const Job& job) {
   const Json json = ReadSummary(summary);
   if (json.empty()) return differs(absl::StrCat("without a summary ", summary, " that says how it was made"));
   const Json here = {{"command", settings.command},
-                     {"parameters", settings.parameters},
+                     {"parameters", *settings.parameters},
                      {"table", TableJson(settings.table)},
                      {"input", {{"name", job.input.filename().string()}, {"bytes", SizeOf(job.input)}}},
                      {"output", {{"bytes", SizeOf(job.output)}}}};

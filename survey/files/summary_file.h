@@ -3,7 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
 #include "survey/answers/answer_tally.h"
+#include "survey/answers/json_box.h"
 #include "survey/files/file_jobs.h"
 #include "survey/files/output_file.h"
 
@@ -21,8 +22,8 @@ std::filesystem::path SummaryPath(const std::filesystem::path& output);
 
 // Everything that determines the output, apart from the input.
 struct OutputSettings {
-  std::string command;                // "las"
-  nlohmann::ordered_json parameters;  // The flags, including defaults.
+  std::string command;  // "las"
+  JsonBox parameters;   // The flags, including defaults.
   TableSummary table;
   std::vector<std::filesystem::path> files = {};  // Read beside the input, such as trajectories.
 };
@@ -30,10 +31,10 @@ struct OutputSettings {
 // The results of a run over one file.
 struct Findings {
   std::uint64_t input_bytes = 0;
-  nlohmann::ordered_json input;                                      // Further properties: points, classes.
-  nlohmann::ordered_json output = nlohmann::ordered_json::object();  // Further properties: format.
-  nlohmann::ordered_json answers;                                    // UncertaintySummary::Json().
-  AnswerTally tally = {};                                            // The same, for the verdict.
+  JsonBox input;                       // Further properties: points, classes.
+  JsonBox output = JsonBox::Object();  // Further properties: format.
+  JsonBox answers;                     // UncertaintySummary::Json().
+  AnswerTally tally = {};              // The same, for the verdict.
 };
 
 // The text of a summary. It states no time, host or path, so that equal runs give equal bytes.

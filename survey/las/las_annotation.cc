@@ -158,11 +158,11 @@ absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
   annotated.notes = (*beams)->Notes();
   if (annotated.incidence.count() > 0) {
     const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
-    annotated.geometry["incidence"] = {{"least", JsonNumber(least)}, {"greatest", JsonNumber(greatest)}};
+    (*annotated.geometry)["incidence"] = {{"least", JsonNumber(least)}, {"greatest", JsonNumber(greatest)}};
     annotated.notes.push_back(absl::StrFormat("incidence %.2f to %.2f degrees", least, greatest));
   }
   if (!annotation.plan.water_classes.empty()) {
-    annotated.geometry["water_surface"] = annotated.surface.Json();
+    (*annotated.geometry)["water_surface"] = annotated.surface.Json();
     annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
   }
   if (annotated.sigmas_assumed > 0) {

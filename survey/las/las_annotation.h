@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "service/client/uncertainty_source.h"
+#include "survey/answers/json_box.h"
 #include "survey/answers/uncertainty_summary.h"
 #include "survey/files/file_progress.h"
 #include "survey/files/output_file.h"
@@ -32,11 +32,11 @@ struct AnnotatedLas {
   std::map<int, TotalSummary> totals_by_line;
   std::uint64_t sigmas_assumed = 0;
   SurfaceCounts surface;
-  CoordinateSpread incidence;       // degree
-  nlohmann::ordered_json geometry;  // The determination of the beams, for a summary.
-  nlohmann::ordered_json sea;       // The same for the sea; null where a table of winds answers.
-  std::vector<std::string> notes;   // For the user, a line each.
-  OutputFile file;                  // Complete; Commit() gives it its name.
+  CoordinateSpread incidence;      // degree
+  JsonBox geometry;                // The determination of the beams, for a summary.
+  JsonBox sea;                     // The same for the sea; null where a table of winds answers.
+  std::vector<std::string> notes;  // For the user, a line each.
+  OutputFile file;                 // Complete; Commit() gives it its name.
 };
 
 // Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.

@@ -84,7 +84,7 @@ absl::Status LasBeams::FindTrack(const LasReader& reader, const BeamPlan& plan, 
   if (!track.ok()) return track.status();
   track_ = std::move(track->track);
   motions_ = std::move(track->motions);
-  (*json_)["trajectory"] = std::move(track->json);
+  (*json_)["trajectory"] = std::move(*track->json);
   notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
   if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
     notes_.push_back(

@@ -121,7 +121,7 @@ absl::Status WriteReport(SurveyReport report, bool with_page, const fs::path& fo
     if (absl::Status status = WriteGrid(grid, report.facts, hidden.path() / kGrid); !status.ok())
       return status;
   }
-  return Finish(hidden, report.json, {kGrid, kJson}, with_page, kPage, folder);
+  return Finish(hidden, *report.json, {kGrid, kJson}, with_page, kPage, folder);
 }
 
 absl::Status WritePlan(const Json& plan, bool with_page, const fs::path& folder) {

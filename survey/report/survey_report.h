@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "survey/annotated/annotated_points.h"
+#include "survey/answers/json_box.h"
 #include "survey/crosscheck/overlap_check.h"
 #include "survey/report/grid_file.h"
 #include "survey/report/point_tally.h"
@@ -34,7 +35,7 @@ struct ReportOptions {
 nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options);
 
 struct SurveyReport {
-  nlohmann::ordered_json json;
+  JsonBox json;
   SurveyGrid grid;
   GridFileFacts facts;
 };

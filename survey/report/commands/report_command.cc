@@ -91,7 +91,7 @@ absl::Status RunReport(const ReportCommandOptions& flags) {
   if (absl::Status status = PrepareFolder(flags.output, existing); !status.ok()) return status;
   absl::StatusOr<SurveyReport> report = MakeReport(*files, *options);
   if (!report.ok()) return report.status();
-  const std::string verdict = ReportText(report->json);
+  const std::string verdict = ReportText(*report->json);
   if (absl::Status status = WriteReport(*std::move(report), !flags.no_page, flags.output); !status.ok())
     return status;
   std::cout << flags.output << "\n  " << verdict;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "tests/temporary_folder.h"
 
@@ -18,7 +19,8 @@ class SummaryFile : public ::testing::Test {
   SummaryFile() {
     folder_.Write("in.las", "input");
     settings_.command = "las";
-    settings_.parameters = {{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
+    settings_.parameters =
+        nlohmann::ordered_json{{"wind_speed", 5}, {"classes", {26, 40}}, {"fetch", nullptr}};
     settings_.table.id = "survey";
     settings_.table.digest = "1234";
   }
@@ -28,7 +30,9 @@ class SummaryFile : public ::testing::Test {
     absl::StatusOr<OutputFile> output = OutputFile::Create(job_.output, existing);
     if (!output.ok()) return output.status();
     EXPECT_TRUE(output->Write("output").ok());
-    const Findings findings{.input_bytes = 5, .input = {{"points", 1}}, .answers = {{"pulses", 1}}};
+    const Findings findings{.input_bytes = 5,
+                            .input = nlohmann::ordered_json{{"points", 1}},
+                            .answers = nlohmann::ordered_json{{"pulses", 1}}};
     const std::string text = SummaryText(settings_, job_, findings, output->size());
     return CommitWithSummary(*std::move(output), job_, text, existing);
   }
