@@ -66,8 +66,8 @@ inline constexpr std::array<Key<SeaSettings>, 11> kSeaKeys = {{
       "The place of the file, if it has several: its name, or the nearest to a latitude and longitude"},
      &SeaSettings::place},
     {{"tail", "--tail", Word{kTailRules}, "relax",
-      "Waves shorter than the file resolves: the wind's, from the level of the resolved ones by relax, wind or level; or "
-      "none"},
+      "Waves shorter than the file resolves: the wind's, from the level of the resolved ones by relax, wind or level; "
+      "or none"},
      &SeaSettings::tail},
     {{"wind_speed", "--wind-speed", Number{0, 100, "m/s"}, "",
       "Wind speed at 10 m above the sea; 0 is a calm"},

@@ -101,8 +101,8 @@ inline constexpr Number kWaterIndex = {1.3, 1.4, "1"};
 // clang-format off
 inline constexpr std::array<Key<SensorSettings>, 2> kSensorKeys = {{
     {{"name", "--sensor", Text{"the name of a sensor, or the path of its file", "NAME|FILE.toml"}, "",
-      "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the location of "
-      "the surface, the water column and the datum, instead of the share of the sea surface"},
+      "The lidar, by name or file (albtpu-query sensors): give the total uncertainty, with the air side, the location "
+      "of the surface, the water column and the datum, instead of the share of the sea surface"},
      &SensorSettings::name},
     {{"lever_arm", "--lever-arm", kLeverArm, "none",
       "From the trajectory's reference point to the laser, in body axes: forward, right, down"},

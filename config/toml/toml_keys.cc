@@ -66,6 +66,16 @@ std::optional<double> TomlKeys::Number(std::string_view key, double least, doubl
   return std::nullopt;
 }
 
+std::optional<std::int64_t> TomlKeys::WholeNumber(std::string_view key, std::int64_t least,
+                                                  std::int64_t greatest) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return std::nullopt;
+  const std::optional<std::int64_t> number = node->value_exact<std::int64_t>();
+  if (number.has_value() && *number >= least && *number <= greatest) return number;
+  Wrong(*node, key, absl::StrCat("a whole number from ", least, " to ", greatest), "correct it");
+  return std::nullopt;
+}
+
 std::optional<std::string> TomlKeys::Text(std::string_view key, std::string_view what) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return std::nullopt;
@@ -113,6 +123,23 @@ std::optional<std::array<double, 3>> TomlKeys::Triple(std::string_view key, doub
     triple[i] = *number;
   }
   return triple;
+}
+
+std::vector<double> TomlKeys::Numbers(std::string_view key) {
+  const std::string expected = "a list of numbers, such as [1, 2, 5]";
+  const toml::node* const node = Find(key);
+  std::vector<double> numbers;
+  if (node == nullptr) return numbers;
+  if (!node->is_array()) {
+    Wrong(*node, key, expected, "correct it");
+    return numbers;
+  }
+  for (const toml::node& element : *node->as_array()) {
+    const std::optional<double> number = NumberOf(element);
+    if (!number.has_value()) WrongElement(element, key, expected);
+    numbers.push_back(number.value_or(0));
+  }
+  return numbers;
 }
 
 std::vector<int> TomlKeys::WholeNumbers(std::string_view key, int least, int greatest) {

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,6 +42,7 @@ class TomlKeys {
 
   // Absent if the key is missing or a problem.
   std::optional<double> Number(std::string_view key, double least, double greatest, std::string_view unit);
+  std::optional<std::int64_t> WholeNumber(std::string_view key, std::int64_t least, std::int64_t greatest);
   std::optional<std::string> Text(std::string_view key, std::string_view what);
   std::optional<std::string> OneOf(std::string_view key, const std::vector<std::string>& words);
   std::optional<bool> Flag(std::string_view key);
@@ -51,6 +53,7 @@ class TomlKeys {
 
   // Lists, each element once. Empty if the key is missing or a problem; an empty list is a problem. `what` is what an
   // element is: "the path of a file".
+  std::vector<double> Numbers(std::string_view key);  // May be empty, and have a number twice.
   std::vector<int> WholeNumbers(std::string_view key, int least, int greatest);
   std::vector<std::string> Texts(std::string_view key, std::string_view what);
 

@@ -1,15 +1,15 @@
 #include "generator/campaign/campaign.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "command_line/one_line.h"
 #include "generator/campaign/campaign_axes.h"
+#include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"
-#include "generator/campaign/toml_reader.h"
 #include "sea/angle.h"
 #include "tables/format.h"
 #include "tables/provenance.h"
@@ -19,62 +19,59 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A campaign of hundreds of nodes has a tenth of this. A longer text could nest keys so deeply ("a.a.a ...") that the
-// TOML parser, which recurses into each level, would overflow the stack.
-constexpr std::size_t kMostBytes = 32768;
-
-WindSea ReadWindSea(TomlReader& toml) {
+WindSea ReadWindSea(CampaignFile& file) {
   WindSea sea;
-  const std::string spectrum = ReadText(toml, campaign_keys::kSpectrum);
+  const std::string spectrum = ReadText(file, campaign_keys::kSpectrum);
   for (const CampaignKey& key : {campaign_keys::kSpectrum, campaign_keys::kSpreading}) {
-    if (toml.Has(campaign_keys::kSeaFile.table, campaign_keys::kSeaFile.name) &&
-        toml.Has(key.table, key.name)) {
-      toml.Fail(absl::StrCat("'", FullName(key), "' has no effect on the sea of 'sea.file': leave it out"));
+    if (file[campaign_keys::kSeaFile.table].Has(campaign_keys::kSeaFile.name) &&
+        file[key.table].Has(key.name)) {
+      file.Fail(key.table, key.name, "has no effect on the sea of 'sea.file'; leave it out");
     }
   }
   if (const SpectrumModel* model = FindSpectrumModel(spectrum)) sea.model = model;
-  const std::optional<double> spreading = ReadNumber(toml, campaign_keys::kSpreading);
+  const std::optional<double> spreading = ReadNumber(file, campaign_keys::kSpreading);
   if (spreading && !sea.model->takes_spreading) {
-    toml.Fail(absl::StrCat("'sea.spreading' is not taken by \"", spectrum,
-                           "\", which has a spreading of its own: leave it out"));
+    file.Fail(
+        "sea", "spreading",
+        absl::StrCat("is not taken by \"", spectrum, "\", which has a spreading of its own; leave it out"));
   }
   sea.spreading = spreading.value_or(sea.spreading);
   return sea;
 }
 
 // Nothing without `sea.file`, which all other keys of that sea need.
-std::optional<SeaOfFile> ReadSeaOfFile(TomlReader& toml) {
+std::optional<SeaOfFile> ReadSeaOfFile(CampaignFile& file) {
   using namespace campaign_keys;
   SeaOfFile sea;
-  sea.file = ReadText(toml, kSeaFile);
-  if (const std::string time = ReadText(toml, kSeaTime); !time.empty()) sea.time = time;
-  sea.water_depth = ReadNumber(toml, kSeaDepth);
-  sea.wind_speed = ReadNumber(toml, kSeaWindSpeed);
-  sea.wind_from = ReadNumber(toml, kSeaWindFrom);
-  sea.tail = FindTailRule(ReadText(toml, kSeaTail)).value_or(sea.tail);
-  sea.tail_from = ReadNumber(toml, kSeaTailFrom);
+  sea.file = ReadText(file, kSeaFile);
+  if (const std::string time = ReadText(file, kSeaTime); !time.empty()) sea.time = time;
+  sea.water_depth = ReadNumber(file, kSeaDepth);
+  sea.wind_speed = ReadNumber(file, kSeaWindSpeed);
+  sea.wind_from = ReadNumber(file, kSeaWindFrom);
+  sea.tail = FindTailRule(ReadText(file, kSeaTail)).value_or(sea.tail);
+  sea.tail_from = ReadNumber(file, kSeaTailFrom);
   if (!sea.file.empty()) return sea;
   for (const CampaignKey& key : {kSeaTime, kSeaDepth, kSeaWindSpeed, kSeaWindFrom, kSeaTail, kSeaTailFrom}) {
-    if (toml.Has(key.table, key.name)) {
-      toml.Fail(
-          absl::StrCat("'", FullName(key), "' goes with 'sea.file' only: add the file, or leave it out"));
+    if (file[key.table].Has(key.name)) {
+      file.Fail(key.table, key.name, "goes with 'sea.file' only; add the file, or leave it out");
     }
   }
   return std::nullopt;
 }
 
-Effort ReadEffort(TomlReader& toml) {
+Effort ReadEffort(CampaignFile& file) {
   using namespace campaign_keys;
   Effort effort;
-  effort.realizations = static_cast<int>(*ReadWhole(toml, kRealizations));
-  effort.relative_error = ReadNumber(toml, kRelativeError).value_or(0);
-  effort.estimator = FindEstimator(ReadText(toml, kEstimator)).value_or(effort.estimator);
+  effort.realizations = static_cast<int>(*ReadWhole(file, kRealizations));
+  effort.relative_error = ReadNumber(file, kRelativeError).value_or(0);
+  effort.estimator = FindEstimator(ReadText(file, kEstimator)).value_or(effort.estimator);
   const int most = effort.relative_error > 0 ? std::max(effort.realizations, kMaxRealizationsUnlessGiven)
                                              : effort.realizations;
   const auto& range = std::get<WholeRange>(kMaxRealizationsOfBeam.values);
   effort.most_realizations =
-      static_cast<int>(toml.Integer(kMaxRealizationsOfBeam.table, kMaxRealizationsOfBeam.name,
-                                    std::max<std::int64_t>(effort.realizations, range.least), range.most)
+      static_cast<int>(file[kMaxRealizationsOfBeam.table]
+                           .WholeNumber(kMaxRealizationsOfBeam.name,
+                                        std::max<std::int64_t>(effort.realizations, range.least), range.most)
                            .value_or(most));
   return effort;
 }
@@ -103,14 +100,14 @@ struct CampaignHead {
   std::uint64_t seed;
 };
 
-absl::StatusOr<Campaign> ParseWater(TomlReader& toml, const CampaignHead& head) {
-  const Nodes nodes = ReadNodesOfWater(toml);
-  const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
-  const std::optional<double> group_index = ReadNumber(toml, campaign_keys::kGroupIndex);
-  const std::optional<std::int64_t> photons = ReadWhole(toml, campaign_keys::kPhotons);
-  const std::optional<std::int64_t> pairs = ReadWhole(toml, campaign_keys::kPairs);
-  const std::optional<std::int64_t> checked = ReadWhole(toml, campaign_keys::kCheckedBeams);
-  if (const absl::Status status = toml.Finish(); !status.ok()) return status;
+absl::StatusOr<Campaign> ParseWater(CampaignFile& file, const CampaignHead& head) {
+  const Nodes nodes = ReadNodesOfWater(file);
+  const std::optional<double> refractive_index = ReadNumber(file, campaign_keys::kRefractiveIndexOfWater);
+  const std::optional<double> group_index = ReadNumber(file, campaign_keys::kGroupIndex);
+  const std::optional<std::int64_t> photons = ReadWhole(file, campaign_keys::kPhotons);
+  const std::optional<std::int64_t> pairs = ReadWhole(file, campaign_keys::kPairs);
+  const std::optional<std::int64_t> checked = ReadWhole(file, campaign_keys::kCheckedBeams);
+  if (const absl::Status status = file.Finish(); !status.ok()) return status;
   absl::StatusOr<UncertaintyTable::Axes> axes = MakeWaterAxes(nodes);
   if (!axes.ok()) return axes.status();
   Campaign campaign{.text = head.text,
@@ -135,34 +132,30 @@ absl::StatusOr<Campaign> ParseWater(TomlReader& toml, const CampaignHead& head) 
 }  // namespace
 
 absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
-  if (text.size() > kMostBytes) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("has ", text.size(), " bytes: a campaign has ", kMostBytes, " at most"));
-  }
-  absl::StatusOr<TomlReader> parsed = TomlReader::Parse(text);
-  if (!parsed.ok()) return parsed.status();
-  TomlReader& toml = *parsed;
+  const absl::StatusOr<toml::table> root = config::ParseToml(text, kCampaignFile);
+  if (!root.ok()) return root.status();
+  CampaignFile file(*root);
 
-  const std::string id = ReadText(toml, campaign_keys::kId);
-  const std::string version = ReadText(toml, campaign_keys::kVersion);
-  const std::string title = ReadText(toml, campaign_keys::kTitle);
-  const std::string kind = ReadText(toml, campaign_keys::kKind);
-  const std::optional<std::int64_t> seed = ReadWhole(toml, campaign_keys::kSeed);
+  const std::string id = ReadText(file, campaign_keys::kId);
+  const std::string version = ReadText(file, campaign_keys::kVersion);
+  const std::string title = ReadText(file, campaign_keys::kTitle);
+  const std::string kind = ReadText(file, campaign_keys::kKind);
+  const std::optional<std::int64_t> seed = ReadWhole(file, campaign_keys::kSeed);
   if (kind == kWaterColumn.name)
-    return ParseWater(toml,
+    return ParseWater(file,
                       {std::string(text), id, version, title, static_cast<std::uint64_t>(seed.value_or(1))});
-  const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(toml);
-  const Nodes nodes = ReadNodesOfSea(toml, sea_of_file.has_value());
-  const std::string profile = ReadText(toml, campaign_keys::kProfile);
-  const std::optional<double> source_height = ReadNumber(toml, campaign_keys::kSourceHeight);
-  const std::optional<double> refractive_index = ReadNumber(toml, campaign_keys::kRefractiveIndexOfWater);
-  const WindSea wind_sea = ReadWindSea(toml);
-  const std::optional<double> corrected_above = ReadNumber(toml, campaign_keys::kCorrectedAbove);
-  const Effort effort = ReadEffort(toml);
-  const std::optional<std::int64_t> rays = ReadWhole(toml, campaign_keys::kRays);
-  const std::string node_values = ReadText(toml, campaign_keys::kNodes);
-  const std::optional<std::int64_t> checked_pulses = ReadWhole(toml, campaign_keys::kCheckedPulses);
-  if (const absl::Status status = toml.Finish(); !status.ok()) return status;
+  const std::optional<SeaOfFile> sea_of_file = ReadSeaOfFile(file);
+  const Nodes nodes = ReadNodesOfSea(file, sea_of_file.has_value());
+  const std::string profile = ReadText(file, campaign_keys::kProfile);
+  const std::optional<double> source_height = ReadNumber(file, campaign_keys::kSourceHeight);
+  const std::optional<double> refractive_index = ReadNumber(file, campaign_keys::kRefractiveIndexOfWater);
+  const WindSea wind_sea = ReadWindSea(file);
+  const std::optional<double> corrected_above = ReadNumber(file, campaign_keys::kCorrectedAbove);
+  const Effort effort = ReadEffort(file);
+  const std::optional<std::int64_t> rays = ReadWhole(file, campaign_keys::kRays);
+  const std::string node_values = ReadText(file, campaign_keys::kNodes);
+  const std::optional<std::int64_t> checked_pulses = ReadWhole(file, campaign_keys::kCheckedPulses);
+  if (const absl::Status status = file.Finish(); !status.ok()) return status;
 
   std::optional<TracedSea> sea;
   if (sea_of_file) {
@@ -195,19 +188,10 @@ absl::StatusOr<Campaign> ParseCampaign(std::string_view text) {
 }
 
 absl::StatusOr<Campaign> ReadCampaign(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is a folder; name a campaign file"));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such campaign file, or it cannot be read"));
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  absl::StatusOr<Campaign> campaign = ParseCampaign(text);
-  if (!campaign.ok()) {
-    return absl::Status(campaign.status().code(),
-                        absl::StrCat(path.string(), ": ", campaign.status().message()));
-  }
+  const absl::StatusOr<std::string> text = config::ReadTomlText(path, kCampaignFile);
+  if (!text.ok()) return text.status();
+  absl::StatusOr<Campaign> campaign = ParseCampaign(*text);
+  if (!campaign.ok()) return config::InFile(path, campaign.status());
   return campaign;
 }
 

@@ -74,24 +74,23 @@ absl::StatusOr<UncertaintyTable::Axes> AxesOfKind(const TableSchema& kind, const
 
 }  // namespace
 
-Nodes ReadNodesOfSea(TomlReader& toml, bool has_sea_file) {
+Nodes ReadNodesOfSea(CampaignFile& file, bool has_sea_file) {
   Nodes nodes;
   for (const AxisId axis : kAxes) {
     const CampaignKey& key = kAxisKeys[Index(axis)];
     if (!has_sea_file || !IsOfWindSea(axis)) {
-      nodes[Index(axis)] = InSinglePrecision(ReadNodes(toml, key));
-    } else if (toml.Has(key.table, key.name)) {
-      toml.Fail(absl::StrCat("'", FullName(key),
-                             "' has no place beside 'sea.file', which is one sea: leave it out"));
+      nodes[Index(axis)] = InSinglePrecision(ReadNodes(file, key));
+    } else if (file[key.table].Has(key.name)) {
+      file.Fail(key.table, key.name, "has no place beside 'sea.file', which is one sea; leave it out");
     }
   }
   return nodes;
 }
 
-Nodes ReadNodesOfWater(TomlReader& toml) {
+Nodes ReadNodesOfWater(CampaignFile& file) {
   Nodes nodes;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis)
-    nodes[axis] = InSinglePrecision(ReadNodes(toml, kWaterAxisKeys[axis]));
+    nodes[axis] = InSinglePrecision(ReadNodes(file, kWaterAxisKeys[axis]));
   return nodes;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "generator/campaign/toml_reader.h"
+#include "generator/campaign/campaign_file.h"
 #include "generator/campaign/traced_sea.h"
 #include "sea/wave_state.h"
 #include "tables/uncertainty_table.h"
@@ -16,8 +16,8 @@ namespace albtpu {
 using Nodes = std::array<std::vector<double>, kAxisCount>;
 
 // The sea of a file has no axes of wind and fetch. Problems are remembered by `toml`.
-Nodes ReadNodesOfSea(TomlReader& toml, bool has_sea_file);
-Nodes ReadNodesOfWater(TomlReader& toml);
+Nodes ReadNodesOfSea(CampaignFile& file, bool has_sea_file);
+Nodes ReadNodesOfWater(CampaignFile& file);
 
 // Checks the rules for a sea that can be simulated, and then those of all axes. InvalidArgument with the key.
 absl::StatusOr<UncertaintyTable::Axes> MakeAxes(const SpectrumModel& model, Nodes nodes);

@@ -1,69 +1,47 @@
-// Reads the keys of a TOML file one by one and remembers the first problem, so that code that reads many keys needs to
-// check for errors only once.
+// The tables of a campaign file, key by key. The first problem is remembered with its line.
 #pragma once
 
-#include <toml++/toml.h>
-
-#include <cstdint>
-#include <optional>
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "absl/status/status.h"
-#include "absl/status/statusor.h"
+#include "config/toml/toml_keys.h"
 
 namespace albtpu {
 
 // "axes.depth": the name of a key in messages; the table is empty for keys at the top level.
 std::string FullName(std::string_view table, std::string_view key);
 
-// Keys are named by their table ("" for the root) and their own name. A key that is missing, of another type or out of
-// range yields an empty value; `Finish` then returns an error with the key, its line and the values that it takes.
-class TomlReader {
+inline constexpr config::TomlKind kCampaignFile = {"a campaign file", "the campaign",
+                                                   "the path of --campaign"};
+
+class CampaignFile {
  public:
-  // InvalidArgument with the line if `text` is not TOML.
-  static absl::StatusOr<TomlReader> Parse(std::string_view text);
+  explicit CampaignFile(const toml::table& root) : problem_(kCampaignFile), root_(root, "", problem_) {}
+  CampaignFile(const CampaignFile&) = delete;
 
-  bool Has(std::string_view table, std::string_view key) { return Find(table, key) != nullptr; }
+  // The keys of a table, "" for those at the top level; of one that the file does not have, an empty table.
+  config::TomlKeys& operator[](std::string_view table);
 
-  // A text; `absent` if the key is missing, which is a problem without an `absent`.
-  std::string Text(std::string_view table, std::string_view key,
-                   std::optional<std::string_view> absent = std::nullopt);
+  // A problem of a key that the file has.
+  void Fail(std::string_view table, std::string_view key, const std::string& message) {
+    (*this)[table].Fail(key, message);
+  }
 
-  // A number in [least, most]; `absent` if the key is missing.
-  double Number(std::string_view table, std::string_view key, double least, double most, double absent);
+  // Remembers that a key is missing. `right` is what to give: "a list of numbers".
+  void Miss(std::string_view table, std::string_view key, std::string_view right);
 
-  // A whole number in [least, most]; nothing if the key is missing.
-  std::optional<std::int64_t> Integer(std::string_view table, std::string_view key, std::int64_t least,
-                                      std::int64_t most);
-
-  // A list of numbers; it is a problem if the key is missing.
-  std::vector<double> Numbers(std::string_view table, std::string_view key);
-
-  // Remembers a problem that the caller found.
-  void Fail(std::string_view problem);
-
-  // The first problem, otherwise a key that was not read. Such a key comes first if a key is missing of which it may be
-  // a misspelling.
+  // The first problem, otherwise a key that was not asked for, which may be a missing one, misspelt; otherwise what is
+  // missing.
   absl::Status Finish();
 
  private:
-  explicit TomlReader(toml::table root) : root_(std::move(root)) {}
-
-  const toml::node* Find(std::string_view table, std::string_view key);
-  template <typename T>
-  T Missing(std::string_view table, std::string_view key, std::string_view right);
-  template <typename T>
-  T Wrong(const toml::node& node, std::string_view table, std::string_view key, std::string_view right);
-  void CheckForUnknownKeys(const toml::table& table, const std::string& prefix);
-  std::optional<std::string> NearestKnown(const std::string& name) const;
-
-  toml::table root_;
-  std::set<std::string> known_;        // the keys that were read
-  absl::Status error_;                 // the first problem
-  bool something_is_missing_ = false;  // that is the first problem
+  const toml::table none_;
+  config::TomlProblem problem_;
+  config::TomlKeys root_;
+  std::map<std::string, config::TomlKeys, std::less<>> tables_;
+  std::string missing_;
 };
 
 }  // namespace albtpu

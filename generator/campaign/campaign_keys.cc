@@ -1,49 +1,42 @@
 #include "generator/campaign/campaign_keys.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 
 namespace albtpu {
 
-std::string ReadText(TomlReader& toml, const CampaignKey& key) {
-  const auto* absent = std::get_if<std::string_view>(&key.absent);
-  const bool may_be_absent = !std::holds_alternative<Required>(key.absent);
-  const std::string text = toml.Text(
-      key.table, key.name,
-      may_be_absent ? std::optional<std::string_view>(absent != nullptr ? *absent : "") : std::nullopt);
-  if (const auto* choice = std::get_if<Choice>(&key.values)) {
-    if (std::find(choice->words.begin(), choice->words.end(), text) == choice->words.end()) {
-      const std::string words =
-          absl::StrJoin(choice->words, " or ", [](std::string* joined, std::string_view word) {
-            absl::StrAppend(joined, "\"", std::string(word), "\"");
-          });
-      toml.Fail(absl::StrCat("'", FullName(key), "' must be ", words));
-    }
+std::string ReadText(CampaignFile& file, const CampaignKey& key) {
+  const auto* const choice = std::get_if<Choice>(&key.values);
+  std::optional<std::string> text;
+  if (choice != nullptr) {
+    text = file[key.table].OneOf(key.name, {choice->words.begin(), choice->words.end()});
+  } else {
+    text = file[key.table].Text(key.name, std::get<AnyText>(key.values).rule);
   }
-  return text;
+  if (text.has_value()) return *text;
+  if (std::holds_alternative<Required>(key.absent) && !file[key.table].Has(key.name))
+    file.Miss(key.table, key.name, "a text in quotes");
+  const auto* const absent = std::get_if<std::string_view>(&key.absent);
+  return absent != nullptr ? std::string(*absent) : "";
 }
 
-std::optional<double> ReadNumber(TomlReader& toml, const CampaignKey& key) {
+std::optional<double> ReadNumber(CampaignFile& file, const CampaignKey& key) {
   const auto& range = std::get<NumberRange>(key.values);
-  const double number = toml.Number(key.table, key.name, range.least, range.most, std::nan(""));
-  if (!std::isnan(number)) return number;
-  const auto* absent = std::get_if<double>(&key.absent);
-  return absent != nullptr ? std::optional<double>(*absent) : std::nullopt;
+  const std::optional<double> number =
+      file[key.table].Number(key.name, range.least, range.most, key.unit.empty() ? "1" : key.unit);
+  const auto* const absent = std::get_if<double>(&key.absent);
+  return number.has_value() || absent == nullptr ? number : *absent;
 }
 
-std::optional<std::int64_t> ReadWhole(TomlReader& toml, const CampaignKey& key) {
+std::optional<std::int64_t> ReadWhole(CampaignFile& file, const CampaignKey& key) {
   const auto& range = std::get<WholeRange>(key.values);
-  const std::optional<std::int64_t> number = toml.Integer(key.table, key.name, range.least, range.most);
-  if (number) return number;
-  const auto* absent = std::get_if<std::int64_t>(&key.absent);
-  return absent != nullptr ? std::optional<std::int64_t>(*absent) : std::nullopt;
+  const std::optional<std::int64_t> number = file[key.table].WholeNumber(key.name, range.least, range.most);
+  const auto* const absent = std::get_if<std::int64_t>(&key.absent);
+  return number.has_value() || absent == nullptr ? number : *absent;
 }
 
-std::vector<double> ReadNodes(TomlReader& toml, const CampaignKey& key) {
-  return toml.Numbers(key.table, key.name);
+std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key) {
+  if (!file[key.table].Has(key.name)) file.Miss(key.table, key.name, "a list of numbers, such as [1, 2, 5]");
+  return file[key.table].Numbers(key.name);
 }
 
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes) {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "generator/campaign/toml_reader.h"
+#include "generator/campaign/campaign_file.h"
 #include "generator/surface/discretization.h"
 #include "sea/response/refraction.h"
 #include "sea/wave_state.h"
@@ -270,11 +270,11 @@ inline constexpr std::array kWaterCampaignKeys = {
 };
 
 // Each reads a key of one kind of values, checks its range, and returns its default where it is missing, or nothing (an
-// empty text) if the default is Derived. TomlReader::Finish returns the problem, if there is one.
-std::string ReadText(TomlReader& toml, const CampaignKey& key);  // AnyText or Choice
-std::optional<double> ReadNumber(TomlReader& toml, const CampaignKey& key);
-std::optional<std::int64_t> ReadWhole(TomlReader& toml, const CampaignKey& key);
-std::vector<double> ReadNodes(TomlReader& toml, const CampaignKey& key);  // see NodesProblem
+// empty text) if the default is Derived. CampaignFile::Finish returns the problem, if there is one.
+std::string ReadText(CampaignFile& file, const CampaignKey& key);  // AnyText or Choice
+std::optional<double> ReadNumber(CampaignFile& file, const CampaignKey& key);
+std::optional<std::int64_t> ReadWhole(CampaignFile& file, const CampaignKey& key);
+std::vector<double> ReadNodes(CampaignFile& file, const CampaignKey& key);  // see NodesProblem
 
 // The problem of nodes from ReadNodes; empty if there is none. Their order is checked by Axis::Create.
 std::string NodesProblem(const CampaignKey& key, const std::vector<double>& nodes);

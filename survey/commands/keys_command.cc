@@ -19,53 +19,33 @@ namespace {
 using config::ListedKey;
 using nlohmann::ordered_json;
 
-struct KeysOptions {
-  bool json = false, markdown = false;
-};
-
 constexpr char kIntroduction[] = R"(# Keys of the survey file
 
-A survey file is TOML and says what is known of a survey beside its points: `albtpu-query las`, `csv`, `pulse`, `plan` and
-`sea` take it by `--survey FILE.toml`. A flag overrides the key of the same meaning. Paths count from the folder of the
-survey file. Waves are any number of tables `[[sea.waves]]`. This page is the output of `albtpu-query keys --markdown`; a
-test compares them.
+A survey file is TOML and says what is known of a survey beside its points: `albtpu-query las`, `csv`, `pulse`, `plan`
+and `sea` take it by `--survey FILE.toml`. A flag overrides the key of the same meaning. Paths count from the folder of
+the survey file. Waves are any number of tables `[[sea.waves]]`. This page is the output of `albtpu-query keys`; a test
+compares them.
 )";
 
 std::string TypeText(const ListedKey& key) {
   return absl::StrCat(key.values.type, key.values.unit.empty() ? "" : ", ", key.values.unit);
 }
 
-std::string Heading(const std::string& section) {
-  return section == "sea.waves" ? "[[sea.waves]]" : absl::StrCat("[", section, "]");
-}
-
 std::string Markdown(const std::vector<ListedKey>& keys) {
   std::string page = kIntroduction, section;
   for (const ListedKey& key : keys) {
-    if (key.section != section)
+    if (key.section != section) {
+      const bool many = key.section == "sea.waves";
       absl::StrAppend(
-          &page, "\n## ", Heading(key.section),
+          &page, "\n## ", many ? "[[" : "[", key.section, many ? "]]" : "]",
           "\n\n| key | type, unit | range | default | flag | meaning |\n|---|---|---|---|---|---|\n");
+    }
     section = key.section;
     absl::StrAppend(&page, "| `", key.key, "` | ", TypeText(key), " | ", RangeText(key.values), " | ",
                     key.absent, " | ", key.flag.empty() ? "" : absl::StrCat("`", key.flag, "`"), " | ",
                     key.help, " |\n");
   }
   return page;
-}
-
-std::string PlainText(const std::vector<ListedKey>& keys) {
-  std::string text, section;
-  for (const ListedKey& key : keys) {
-    if (key.section != section)
-      absl::StrAppend(&text, section.empty() ? "" : "\n", Heading(key.section), "\n");
-    section = key.section;
-    const std::string range = RangeText(key.values);
-    absl::StrAppend(&text, "  ", key.key, ": ", TypeText(key), range.empty() ? "" : ": ", range,
-                    key.flag.empty() ? "" : absl::StrCat("; ", key.flag), "\n      ", key.help,
-                    key.absent.empty() ? "" : absl::StrCat(" (default: ", key.absent, ")"), "\n");
-  }
-  return text;
 }
 
 ordered_json Json(const std::vector<ListedKey>& keys) {
@@ -90,27 +70,21 @@ ordered_json Json(const std::vector<ListedKey>& keys) {
   return json;
 }
 
-absl::Status RunKeys(const KeysOptions& options) {
+absl::Status RunKeys(bool json) {
   const std::vector<ListedKey> keys = config::ListKeys();
-  std::cout << (options.markdown ? Markdown(keys)
-                : options.json   ? Json(keys).dump(2) + "\n"
-                                 : PlainText(keys));
+  std::cout << (json ? Json(keys).dump(2) + "\n" : Markdown(keys));
   return FlushStandardOutput();
 }
 
 }  // namespace
 
 void AddKeysCommand(CLI::App& program, Run& run) {
-  const auto options = std::make_shared<KeysOptions>();
+  const auto json = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand(
       "keys", "List the keys of the survey file: type, unit, range, default, flag, meaning");
-  CLI::Option* json = command->add_flag("--json", options->json, "Print one JSON object with an array `keys`")
-                          ->group(group::kOutput);
-  command->add_flag("--markdown", options->markdown, "Print the page docs/survey.md")
-      ->excludes(json)
-      ->group(group::kOutput);
+  command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
   EndHelp(*command, "", "", "--json");
-  command->callback([options, &run] { run = [options] { return RunKeys(*options); }; });
+  command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
 }
 
 }  // namespace albtpu::client

@@ -37,8 +37,8 @@ class EachKey(programs.Test):
         cls.helps = {command: query(command, "--help", check=0).stdout for command in COMMANDS}
 
     def test_is_on_the_page(self):
-        self.assertEqual(query("keys", "--markdown", check=0).stdout, PAGE.read_text(),
-                         "docs/survey.md is the output of `albtpu-query keys --markdown`")
+        self.assertEqual(query("keys", check=0).stdout, PAGE.read_text(),
+                         "docs/survey.md is the output of `albtpu-query keys`")
         self.assertGreater(len(self.keys), 60)
 
     def messages(self, calls):

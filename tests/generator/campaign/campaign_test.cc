@@ -87,16 +87,16 @@ TEST(Campaign, CanAskForRayTracingAlone) {
   EXPECT_EQ(campaign->effort.estimator, Estimator::kPlain);
   EXPECT_EQ(ParseCampaign(kSmall)->effort.estimator, Estimator::kControlVariate);
   EXPECT_THAT(ErrorOf(std::string(kSmall) + "estimator = \"none\"\n"),
-              HasSubstr("'effort.estimator' must be \"control_variate\" or \"plain\""));
+              HasSubstr("'effort.estimator' is 'none' (expected control_variate, plain)"));
 }
 
 TEST(Campaign, RefusesWrongKeysOfTheSea) {
   const auto with_sea = [](const std::string& keys) { return std::string(kSmall) + "[sea]\n" + keys; };
   EXPECT_THAT(ErrorOf(with_sea("spectrum = \"phillips\"\n")),
-              HasSubstr("'sea.spectrum' must be \"apel\" or \"elfouhaily\""));
-  EXPECT_THAT(ErrorOf(with_sea("spectrum = 3\n")), HasSubstr("'sea.spectrum' in line 15 must be a text"));
+              HasSubstr("'sea.spectrum' is 'phillips' (expected apel, elfouhaily)"));
+  EXPECT_THAT(ErrorOf(with_sea("spectrum = 3\n")), HasSubstr("line 15: 'sea.spectrum' is 3"));
   EXPECT_THAT(ErrorOf(with_sea("corrected_above = 0\n")),
-              HasSubstr("'sea.corrected_above' in line 15 must be"));
+              HasSubstr("line 15: 'sea.corrected_above' is 0 (expected 0.1 to inf m)"));
   EXPECT_THAT(ErrorOf(with_sea("spectrum = \"elfouhaily\"\nspreading = 2\n")),
               HasSubstr("'sea.spreading' is not taken by \"elfouhaily\""));
 }
@@ -114,7 +114,7 @@ TEST(Campaign, OrdersSeaCasesByWindFetchAndFootprint) {
 }
 
 TEST(Campaign, StatesTheLineThatIsNotToml) {
-  EXPECT_THAT(ErrorOf("id = \"x\"\nversion = = 2\n"), StartsWith("line 2 is not TOML"));
+  EXPECT_THAT(ErrorOf("id = \"x\"\nversion = = 2\n"), StartsWith("line 2: is not TOML"));
 }
 
 TEST(Campaign, NamesAMissingKey) {
@@ -125,24 +125,22 @@ TEST(Campaign, NamesAMissingKey) {
 TEST(Campaign, NamesAnUnknownKeyAndItsNearMatch) {
   EXPECT_EQ(
       ErrorOf(Replaced(kSmall, "realizations", "realisations")),
-      "'effort.realisations' in line 13 is not a key of a campaign; did you mean 'effort.realizations'?");
-  EXPECT_EQ(ErrorOf(std::string(kSmall) + "seed = 2\n"),  // in [effort]
-            "'effort.seed' in line 14 is not a key of a campaign; did you mean 'seed'?");
+      "line 13: 'effort.realisations' is no key of a campaign file; did you mean realizations?");
   EXPECT_THAT(ErrorOf(std::string(kSmall) + "color = 2\n"),
-              HasSubstr("'effort.color' in line 14 is not a key of a campaign; there are axes.azimuth, "));
+              HasSubstr("line 14: 'effort.color' is no key of a campaign file; there are estimator, "));
 }
 
 TEST(Campaign, NamesAMisspeltKeyRatherThanTheOneThatIsMissing) {
   EXPECT_EQ(ErrorOf(Replaced(kSmall, "depth", "deph")),
-            "'axes.deph' in line 11 is not a key of a campaign; did you mean 'axes.depth'?");
-  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth", "colors")), HasSubstr("'axes.depth' is missing"));
+            "line 11: 'axes.deph' is no key of a campaign file; did you mean depth?");
+  EXPECT_THAT(ErrorOf(Replaced(kSmall, "depth", "colors")), HasSubstr("'axes.colors' is no key"));
 }
 
 TEST(Campaign, RefusesAValueOfTheWrongType) {
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "[3, 6]", "\"strong\"")),
-              HasSubstr("'axes.wind_speed' in line 6 must be a list of numbers"));
+              HasSubstr("line 6: 'axes.wind_speed' is 'strong' (expected a list of numbers"));
   EXPECT_THAT(ErrorOf(Replaced(kSmall, "realizations = 50", "realizations = 1")),
-              HasSubstr("'effort.realizations' in line 13 must be a whole number from 2"));
+              HasSubstr("line 13: 'effort.realizations' is 1 (expected a whole number from 2"));
 }
 
 TEST(Campaign, RefusesNodesOutOfOrder) {
@@ -178,9 +176,9 @@ TEST(Campaign, RefusesMoreCellsThanATableHolds) {
 TEST(Campaign, RefusesATextThatCouldNestTooDeeply) {
   std::string key = "a";
   while (key.size() < 32000) key += ".a";
-  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("'id' is missing"));
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("'a' is no key of a campaign file"));
   for (int i = 0; i < 500; ++i) key += std::string(1000, 'a');
-  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("a campaign has 32768 at most"));
+  EXPECT_THAT(ErrorOf(key + " = 1\n"), HasSubstr("a campaign file has at most 32768"));
 }
 
 TEST(Campaign, BeginsErrorsOfAFileWithItsPath) {
@@ -188,7 +186,7 @@ TEST(Campaign, BeginsErrorsOfAFileWithItsPath) {
   const std::filesystem::path path = folder.path() / "bad.toml";
   std::ofstream(path) << "id = 3\n";
   EXPECT_THAT(std::string(ReadCampaign(path).status().message()),
-              StartsWith(path.string() + ": 'id' in line 1"));
+              StartsWith(path.string() + ": line 1: 'id' is 3"));
   EXPECT_TRUE(absl::IsNotFound(ReadCampaign(folder.path() / "absent.toml").status()));
 }
 

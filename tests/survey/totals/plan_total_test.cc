@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "config/survey_file.h"
 #include "survey/exit_status.h"
 
 namespace albtpu::client {
