@@ -1,6 +1,6 @@
 #include "service/error_message.h"
 
-#include <cassert>
+#include <array>
 #include <string>
 
 namespace albtpu {
@@ -9,20 +9,24 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// Null for a source that the message lacks, which a test excludes.
-const FieldDescriptor* FieldOf(const ErrorSource& source) {
-  const FieldDescriptor* field = v1::AirErrors::descriptor()->FindFieldByName(std::string(source.name));
-  assert(field != nullptr && (source.size() == 1) == (field->message_type() == nullptr));
-  return field;
+// The field of each source, which a test holds to be there.
+const FieldDescriptor* FieldOf(std::size_t i) {
+  static const std::array<const FieldDescriptor*, kErrorSourceCount> fields = [] {
+    std::array<const FieldDescriptor*, kErrorSourceCount> found = {};
+    for (std::size_t k = 0; k < kErrorSourceCount; ++k)
+      found[k] = v1::AirErrors::descriptor()->FindFieldByName(std::string(kErrorSources[k].name));
+    return found;
+  }();
+  return fields[i];
 }
 
 }  // namespace
 
 v1::AirErrors ToMessage(const AirErrors& errors) {
   v1::AirErrors message;
-  for (const ErrorSource& source : kErrorSources) {
-    const FieldDescriptor* const field = FieldOf(source);
-    const std::span<const double> numbers = source.In(errors);
+  for (std::size_t k = 0; k < kErrorSourceCount; ++k) {
+    const FieldDescriptor* const field = FieldOf(k);
+    const std::span<const double> numbers = kErrorSources[k].In(errors);
     if (numbers.size() == 1) {
       message.GetReflection()->SetDouble(&message, field, numbers[0]);
       continue;
@@ -36,9 +40,9 @@ v1::AirErrors ToMessage(const AirErrors& errors) {
 
 AirErrors FromMessage(const v1::AirErrors& message) {
   AirErrors errors;
-  for (const ErrorSource& source : kErrorSources) {
-    const FieldDescriptor* const field = FieldOf(source);
-    const std::span<double> numbers = source.In(errors);
+  for (std::size_t k = 0; k < kErrorSourceCount; ++k) {
+    const FieldDescriptor* const field = FieldOf(k);
+    const std::span<double> numbers = kErrorSources[k].In(errors);
     if (numbers.size() == 1) {
       numbers[0] = message.GetReflection()->GetDouble(message, field);
       continue;

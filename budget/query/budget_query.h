@@ -79,30 +79,14 @@ struct BudgetPulses {
 };
 
 // The inputs that are the aircraft's and the water's, in the order of the wire. Altitude and beam azimuth are required.
-inline constexpr std::array<BudgetInput, 24> kAircraftInputs = {BudgetInput::kAltitude,
-                                                                BudgetInput::kBeamAzimuth,
-                                                                BudgetInput::kRoll,
-                                                                BudgetInput::kPitch,
-                                                                BudgetInput::kHeading,
-                                                                BudgetInput::kVelocityNorth,
-                                                                BudgetInput::kVelocityEast,
-                                                                BudgetInput::kVelocityDown,
-                                                                BudgetInput::kRollRate,
-                                                                BudgetInput::kPitchRate,
-                                                                BudgetInput::kYawRate,
-                                                                BudgetInput::kPositionSigmaNorth,
-                                                                BudgetInput::kPositionSigmaEast,
-                                                                BudgetInput::kPositionSigmaDown,
-                                                                BudgetInput::kRollSigma,
-                                                                BudgetInput::kPitchSigma,
-                                                                BudgetInput::kHeadingSigma,
-                                                                BudgetInput::kWaveHeight,
-                                                                BudgetInput::kWaterSigmaAlong,
-                                                                BudgetInput::kWaterSigmaVertical,
-                                                                BudgetInput::kWaterCorrelation,
-                                                                BudgetInput::kWaterNoise,
-                                                                BudgetInput::kWaterBiasAlong,
-                                                                BudgetInput::kWaterBiasVertical};
+inline constexpr std::array<BudgetInput, 24> kAircraftInputs = [] {
+  std::array<BudgetInput, 24> inputs = {BudgetInput::kAltitude, BudgetInput::kBeamAzimuth};
+  for (std::size_t i = 0; i < kMotionInputs; ++i) inputs[2 + i] = BudgetInput::kRoll + i;
+  for (std::size_t i = 2 + kMotionInputs; i < inputs.size(); ++i)
+    inputs[i] = BudgetInput::kWaveHeight + (i - 2 - kMotionInputs);
+  return inputs;
+}();
+static_assert(kAircraftInputs.back() == BudgetInput::kWaterBiasVertical);
 constexpr bool IsRequired(BudgetInput input) {
   return input == BudgetInput::kAltitude || input == BudgetInput::kBeamAzimuth;
 }

@@ -16,8 +16,8 @@ namespace albtpu::client {
 struct TotalBatch {
   std::vector<float> thu, tvu;  // m, at the coverage of the plan.
   std::vector<float> thu_air, tvu_air, thu_sea, tvu_sea, thu_water, tvu_water;  // The same of shares.
-  // m^2, 1 sigma: the entries kCovarianceNames of the total, of shares and of what averages out alike. Of the latter two
-  // only the variances (NN EE DD), unless they are wanted whole.
+  // m^2, 1 sigma, the entries kCovarianceNames: of the total, of shares and of groups. Of shares and groups only the
+  // variances (NN EE DD), unless they are wanted whole.
   using Covariance = std::array<std::vector<float>, 6>;
   Covariance covariance, air, sea, of_water;
   std::array<Covariance, kErrorGroups> groups;
@@ -33,8 +33,8 @@ struct TotalBatch {
 // What the answers of the sea must have, at 2 sigma.
 void SelectForTotals(AnswerSelection& selection);
 
-// `aircraft` has altitudes, azimuths (none: not known) and motions. It is changed: sigmas that are not known, or not wanted by pulse, become those of the plan. `totals.water` is
-// taken, and `sea` has its biases.
+// `aircraft` has altitudes, azimuths (none: not known) and motions. It is changed: sigmas that are not known, or not
+// wanted by pulse, become those of the plan. `totals.water` is taken, and `sea` has its biases.
 void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
                    AircraftColumns& aircraft, TotalBatch& totals);
 

@@ -23,7 +23,8 @@ SEA = "[sea]\nwind_speed = 6.5\nwind_from = 100\n"
 PULSE = SENSOR + DECIDED + SEA + "[surface]\nclasses = [41]\nlocated = 'pulse'\n"
 LOCAL, LEVEL = PULSE.replace("'pulse'", "'local'"), PULSE.replace("classes = [41]\nlocated = 'pulse'", "level = 0")
 # Every source of error that the wire knows, each as [sigma] states it.
-SOURCES = {field.name: "[0.003, 0.004, 0.005]" if field.message_type else "0.0015" for field in AirErrors.DESCRIPTOR.fields}
+SOURCES = {field.name: "[0.003, 0.004, 0.005]" if field.message_type else "0.0015"
+           for field in AirErrors.DESCRIPTOR.fields}
 SETTINGS = {
     **{f"{located} and {name}": f"{text}[sigma]\n{name} = {value}\n"
        for located, text in (("pulse", PULSE), ("local", LOCAL), ("level", LEVEL)) for name, value in SOURCES.items()
@@ -91,7 +92,8 @@ class SameTotals(programs.Test):
         stated = {name: [float(part.split(" ")[0]) for part in number["value"].split(", ")]
                   for name, number in total["plan"]["numbers"].items()
                   if name in SOURCES or name in ("datum", "refractive_index", "lever_arm_vector")}
-        errors = {name: stated[name] if len(stated[name]) > 1 else stated[name][0] for name in SOURCES if name in stated}
+        errors = {name: stated[name] if len(stated[name]) > 1 else stated[name][0]
+                  for name in SOURCES if name in stated}
         return service.query_budget(
             wind_speed=6.5, incidence=20, azimuth=90 - 280, footprint=0.5, depth=10, altitude=400, beam_azimuth=90,
             sea_axis=280, located=total["plan"]["located"], coverage=total["coverage"], aircraft=MOTION,
@@ -111,7 +113,8 @@ class SameTotals(programs.Test):
                     expected = {number: np.float32(total[number]) for number in NUMBERS}
                     for source in (("--table", self.table), ("--server", address)):
                         _, columns = self.ask_csv(self.pulses, *source)
-                        self.assertEqual({key: value[0] for key, value in self.numbers_of_csv(columns).items()}, expected)
+                        found = {key: value[0] for key, value in self.numbers_of_csv(columns).items()}
+                        self.assertEqual(found, expected)
                     budget = self.budget_of_server(service, total)
                     # The height of the waves that a location does not see is not among the stated numbers.
                     same = NUMBERS if total["plan"]["located"] == "pulse" else ("thu_air", "tvu_air")
@@ -122,8 +125,9 @@ class SameTotals(programs.Test):
 
     def test_points_have_the_totals_of_their_pulses(self):
         programs.make_flight(self.folder / "line.las")
-        for name, text in {"level": LEVEL, "local": LOCAL, "pulse": PULSE,
-                           "index": LEVEL + "[sigma]\nindex = 0.01\n", "p95": LEVEL + "[output]\ncoverage = 'p95'\n"}.items():
+        settings = {"level": LEVEL, "local": LOCAL, "pulse": PULSE, "index": LEVEL + "[sigma]\nindex = 0.01\n",
+                    "p95": LEVEL + "[output]\ncoverage = 'p95'\n"}
+        for name, text in settings.items():
             with self.subTest(name):
                 self.settings.write_text(text)
                 result, out = self.ask_las()
@@ -152,7 +156,8 @@ class SameTotals(programs.Test):
                 self.assertFalse((self.folder / "out.csv").exists() or (self.folder / "out.las").exists())
 
     def test_a_server_refuses_what_is_no_standard_deviation(self):
-        pulse = dict(wind_speed=6.5, incidence=20, footprint=0.5, depth=10, altitude=400, beam_azimuth=90, located="pulse")
+        pulse = dict(wind_speed=6.5, incidence=20, footprint=0.5, depth=10, altitude=400, beam_azimuth=90,
+                     located="pulse")
         with programs.server(self.folder) as address, albtpu.connect(address) as service:
             for field in AirErrors.DESCRIPTOR.fields:
                 wrong = [0, -1, 0] if field.message_type else -1

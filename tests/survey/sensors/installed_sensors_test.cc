@@ -51,9 +51,13 @@ TEST(ShippedSensors, HaveASourceForEachNumber) {
   const auto names_a_source = ::testing::ContainsRegex("[A-Za-z]+ .*[A-Za-z]");
   const std::vector<Sensor> sensors = ListSensors().value();
   for (const Sensor& sensor : sensors) {
-    for (std::size_t i = 0; i < kErrorSourceCount; ++i)
-      if (sensor.errors.stated[i]) EXPECT_THAT(sensor.origins[i], names_a_source) << sensor.name;
-    if (sensor.divergence.has_value()) EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
+    for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+      if (!sensor.errors.stated[i]) continue;
+      EXPECT_THAT(sensor.origins[i], names_a_source) << sensor.name;
+    }
+    if (sensor.divergence.has_value()) {
+      EXPECT_THAT(sensor.divergence->source, names_a_source) << sensor.name;
+    }
     EXPECT_LT(UnknownOf(sensor).size(), 10u) << sensor.name << " has no number";
   }
 }

@@ -108,6 +108,22 @@ TEST(PlanTotal, ErrsByTheRangeOfTheOwnReturn) {
   EXPECT_FALSE(plan->waves_unseen());
 }
 
+TEST(PlanTotal, TakesTheRangeToTheSurfaceForThatOfItsReturns) {
+  const auto errors = [](const std::string& located) {
+    const absl::StatusOr<TotalPlan> plan = PlanTotal(
+        Survey(Decided() + "[surface]\nlocated = \"" + located + "\"\n[sigma]\nsurface_range = 0.04\n"),
+        {.has_surface_returns = true});
+    EXPECT_TRUE(plan.ok()) << plan.status();
+    return plan->options.errors;
+  };
+  EXPECT_EQ(errors("pulse").surface_range, 0.04);
+  EXPECT_EQ(errors("pulse").surface_height, 0);
+  EXPECT_EQ(errors("local").surface_range, 0);
+  EXPECT_EQ(errors("local").surface_height, 0.04);
+  EXPECT_THAT(ProblemOf(Decided() + "[sigma]\nsurface_range = 0.04\n"),
+              HasSubstr("has no effect where a level"));
+}
+
 TEST(PlanTotal, CallsNothingTotalBeforeDatumAndWaterAreDecided) {
   const std::string sensor = "[sensor]\nname = \"" + Sensor("riegl-vq-880-g") + "\"\n";
   EXPECT_THAT(ProblemOf(sensor), HasSubstr("the vertical datum is not decided"));
