@@ -60,7 +60,7 @@ else
   conditions+=(--trajectory $simulated/sbet.out --lever-arm 0.3,-0.2,0.5 --water-classes 41 --water-level -25
                --wind-from 250)
   mkdir -p "$simulated"
-  build/release/tests/survey/albtpu_simulated_survey "$simulated"
+  build/release/tests/flights/albtpu_simulated_survey "$simulated"
 fi
 echo "albtpu-query las $input $annotated --server $address ${conditions[*]}"
 out/bin/albtpu-query las "$input" "$annotated" --server "$address" "${conditions[@]}" --overwrite

@@ -130,3 +130,15 @@ function(albtpu_test name label)
     set_tests_properties(${name} PROPERTIES LABELS ${label})
   endif()
 endfunction()
+
+# Sets `variable` to the sources in `folders` of the current folder, without those of programs (main.cc, *_main.cc): a
+# new file needs no line in a list.
+function(albtpu_sources variable)
+  set(sources "")
+  foreach(folder IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS ${folder}/*.cc)
+    list(APPEND sources ${found})
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "(^|/|_)main\\.cc$")
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()

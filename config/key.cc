@@ -7,13 +7,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
-#include "survey/number_text.h"
+#include "formats/text/number_text.h"
 
 namespace albtpu::config {
 namespace {
 
 namespace fs = std::filesystem;
-using client::ParseDouble;
+using formats::ParseDouble;
 
 std::vector<std::string> Texts(const Word& word) { return {word.words.begin(), word.words.end()}; }
 

@@ -48,10 +48,14 @@ void AddTable(const char* section, const Table& table, std::vector<ListedKey>& l
 void AddSigma(std::vector<ListedKey>& list) {
   for (const ErrorSource& source : kErrorSources) {
     const bool one = source.size() == 1;
-    list.push_back({"sigma", std::string(source.name), "", "of the error files, the sensor, or assumed",
-                    absl::StrCat("Standard deviation", one ? ": " : absl::StrCat("s ", client::PartsText(source), ": "),
-                                 std::string(source.doc)),
-                    {one ? "number" : "3 numbers", UnitText(source.unit), 0, source.greatest, {}, ""}});
+    list.push_back(
+        {"sigma",
+         std::string(source.name),
+         "",
+         "of the error files, the sensor, or assumed",
+         absl::StrCat("Standard deviation", one ? ": " : absl::StrCat("s ", config::PartsText(source), ": "),
+                      std::string(source.doc)),
+         {one ? "number" : "3 numbers", UnitText(source.unit), 0, source.greatest, {}, ""}});
   }
 }
 

@@ -10,11 +10,11 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
-#include "command_line/exit_codes.h"
+#include "formats/text/number_text.h"
+#include "formats/text/usage_error.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"
 #include "sea/spectra/dispersion.h"
-#include "survey/number_text.h"
 
 namespace albtpu::config {
 namespace {
@@ -31,8 +31,8 @@ absl::Status CheckEffect(const SeaSettings& sea, const Key<SeaSettings>& key) {
   if (!IsGiven(key, sea)) return absl::OkStatus();
   const KeyDeclaration& declared = key.declaration;
   const auto no_effect = [&](const char* why) {
-    return UsageError(absl::StrCat(std::string(declared.flag), " (", std::string(declared.key),
-                                   " in a survey file) has no effect ", why, ", or leave it out"));
+    return formats::UsageError(absl::StrCat(std::string(declared.flag), " (", std::string(declared.key),
+                                            " in a survey file) has no effect ", why, ", or leave it out"));
   };
   const auto is_one_of = [&](const auto& keys) {
     return std::ranges::find(keys, declared.key) != std::end(keys);
@@ -52,7 +52,7 @@ absl::Status CheckBreaking(const JonswapWaves& waves, double depth) {
   const double k = WavenumberOfFrequency(1 / waves.peak_period, depth);
   const double highest = 0.142 * 2 * std::numbers::pi / k * std::tanh(k * depth);
   if (!(waves.significant_wave_height > highest)) return absl::OkStatus();
-  return UsageError(absl::StrFormat(
+  return formats::UsageError(absl::StrFormat(
       "waves of %g m and %g s are higher than waves can be (they break above %.2g m%s); correct the height "
       "or the period",
       waves.significant_wave_height, waves.peak_period, highest,
@@ -126,7 +126,7 @@ absl::StatusOr<JonswapWaves> ParseSwell(std::string_view text) {
 absl::Status CompleteWaves(SeaSettings& flags) {
   if (!IsAnyGiven(kWaveKeys, flags.wave_flags)) return absl::OkStatus();
   if (const std::string problem = ProblemOf(flags.wave_flags, true); !problem.empty())
-    return UsageError(problem);
+    return formats::UsageError(problem);
   flags.waves.insert(flags.waves.begin(), WavesOf(flags.wave_flags));
   flags.wave_flags = {};
   return absl::OkStatus();
@@ -134,7 +134,7 @@ absl::Status CompleteWaves(SeaSettings& flags) {
 
 absl::Status CheckSea(const SeaSettings& sea) {
   if (sea.file.has_value() && !sea.waves.empty()) {
-    return UsageError(
+    return formats::UsageError(
         "--sea (file in a survey file) and --hs, --swell or [[sea.waves]] both say which waves there are; "
         "give one "
         "of them");
@@ -146,7 +146,7 @@ absl::Status CheckSea(const SeaSettings& sea) {
     if (absl::Status status = CheckBreaking(waves, depth); !status.ok()) return status;
   }
   if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value()) {
-    return UsageError(
+    return formats::UsageError(
         absl::StrCat("--sea-time: '", *sea.time, "' is no time; give UTC as 2020-06-08T03:50Z"));
   }
   return absl::OkStatus();

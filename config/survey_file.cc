@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "config/sensors/installed_sensors.h"
 #include "config/toml/toml_file.h"
 #include "config/toml/toml_keys.h"
 #include "sea/sea_time.h"
-#include "survey/sensors/installed_sensors.h"
 
 namespace albtpu::config {
 namespace {
@@ -73,13 +73,13 @@ absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const fs::path
   });
   for (TomlKeys& section : keys.Table("sigma")) {
     for (std::size_t i = 0; i < kErrorSourceCount; ++i)
-      client::ReadErrors(section, kErrorSources[i].name, i, survey.sigma);
+      config::ReadErrors(section, kErrorSources[i].name, i, survey.sigma);
     section.Finish();
   }
   keys.Finish();
   if (!problem.status().ok()) return problem.status();
   std::optional<std::string>& sensor = survey.sensor.name;
-  if (sensor.has_value() && client::IsSensorFile(*sensor)) sensor = (folder / *sensor).string();
+  if (sensor.has_value() && config::IsSensorFile(*sensor)) sensor = (folder / *sensor).string();
   return survey;
 }
 

@@ -12,7 +12,7 @@
 #include "budget/water/water_share.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
-#include "survey/sensors/stated_errors.h"
+#include "config/sensors/stated_errors.h"
 #include "tables/s44.h"
 
 namespace albtpu::config {
@@ -76,7 +76,7 @@ struct SurveySettings {
   SeaSettings sea;
   WaterSettings water;
   DatumSettings datum;
-  client::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
+  config::StatedErrors sigma;  // [sigma], 1 sigma, of the sources in budget/air/air_errors.h
   OutputSettings output;
 
   bool wants_total() const { return sensor.name.has_value(); }

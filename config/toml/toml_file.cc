@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
-#include "command_line/one_line.h"
+#include "formats/text/one_line.h"
 
 namespace albtpu::config {
 namespace {
@@ -27,7 +27,7 @@ absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kin
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     return absl::InvalidArgumentError(absl::StrCat("line ", error.source().begin.line, ": is not TOML (",
-                                                   OneLine(std::string(error.description())),
+                                                   formats::OneLine(std::string(error.description())),
                                                    "); correct it"));
   }
 }

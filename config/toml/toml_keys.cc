@@ -8,8 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "command_line/near_match.h"
-#include "command_line/one_line.h"
+#include "formats/text/near_match.h"
+#include "formats/text/one_line.h"
 
 namespace albtpu::config {
 namespace {
@@ -43,13 +43,14 @@ std::optional<double> NumberOf(const toml::node& node) {
 
 std::string WordProblem(const std::string& text, const std::vector<std::string>& words) {
   if (std::ranges::find(words, text) != words.end()) return "";
-  const std::optional<std::string> near = NearMatch(text, words);
+  const std::optional<std::string> near = formats::NearMatch(text, words);
   return near.has_value() ? absl::StrCat("did you mean \"", *near, "\"?") : "give one of them";
 }
 
 void TomlProblem::Remember(const toml::source_region& source, const std::string& message) {
   if (!status_.ok()) return;
-  status_ = absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", OneLine(message)));
+  status_ =
+      absl::InvalidArgumentError(absl::StrCat("line ", source.begin.line, ": ", formats::OneLine(message)));
 }
 
 std::optional<double> TomlKeys::Number(std::string_view key, double least, double greatest,
@@ -208,10 +209,10 @@ void TomlKeys::Finish() {
   for (const auto& [key, node] : table_) {
     if (known_.contains(key.str())) continue;
     const std::string name(key.str());
-    problem_.Remember(
-        key.source(),
-        absl::StrCat(Quoted(name), "is no key of ", problem_.kind(),
-                     Suggestion(name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
+    problem_.Remember(key.source(),
+                      absl::StrCat(Quoted(name), "is no key of ", problem_.kind(),
+                                   formats::Suggestion(
+                                       name, known, absl::StrCat("there are ", absl::StrJoin(known, ", ")))));
   }
 }
 

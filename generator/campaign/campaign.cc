@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "command_line/one_line.h"
+#include "formats/text/one_line.h"
 #include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"
@@ -91,7 +91,7 @@ absl::Status CheckTable(const Campaign& campaign) {
   provenance.campaign = campaign.text;
   // It quotes texts of the file, which may have line breaks.
   const absl::Status status = CheckProvenance(provenance);
-  return status.ok() ? status : absl::InvalidArgumentError(OneLine(std::string(status.message())));
+  return status.ok() ? status : absl::InvalidArgumentError(formats::OneLine(std::string(status.message())));
 }
 
 // The keys of all kinds.

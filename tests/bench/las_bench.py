@@ -124,7 +124,7 @@ def main():
         folder = pathlib.Path(folder)
         sample, flags = options.sample, options.flags.split()
         if sample is None:
-            simulate = options.build / "tests/survey/albtpu_simulated_survey"
+            simulate = options.build / "tests/flights/albtpu_simulated_survey"
             subprocess.run([simulate, folder, "--seconds", "60"], check=True)
             sample = folder / "flight.las"
             flags += ["--trajectory", folder / "sbet.out", "--lever-arm", "0.3,-0.2,0.5", "--water-classes", "41"]

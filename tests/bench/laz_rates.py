@@ -20,7 +20,7 @@ import tempfile
 import numpy as np
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests" / "survey" / "laz"))
+sys.path.insert(0, str(SOURCE / "tests" / "formats" / "laz"))
 import independent_decoders  # noqa: E402
 
 ROUNDS = 3  # In which the programs take turns.
@@ -51,7 +51,7 @@ def repeat(source, target, points):
 
 def make_files(options, folder):
     """The LAZ files, by what they are."""
-    programs = options.build / "tests" / "survey"
+    programs = options.build / "tests" / "formats"
     points = int(options.millions * 1e6)
     subprocess.run([programs / "albtpu_simulated_survey", folder, "--seconds", "60"], check=True)
     sources = {"simulated survey, format 6": folder / "flight.las"}
@@ -94,7 +94,7 @@ def main():
     parser.add_argument("--samples", type=pathlib.Path, default=SOURCE.parent / "shared" / "data" / "laz")
     parser.add_argument("--decoders", type=pathlib.Path, help="folder that keeps the peers")
     options = parser.parse_args()
-    options.decoders = options.decoders or options.build / "tests" / "survey" / "laz_decoders"
+    options.decoders = options.decoders or options.build / "tests" / "formats" / "laz_decoders"
     peers = list(independent_decoders.PACKAGES)
     try:
         independent_decoders.fetch(options.decoders)

@@ -8,7 +8,7 @@ import json
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "survey"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "programs/query"))
 import programs  # noqa: E402
 from programs import query  # noqa: E402
 

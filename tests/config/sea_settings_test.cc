@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "command_line/exit_codes.h"
 #include "config/survey_settings.h"
+#include "formats/text/usage_error.h"
 
 namespace albtpu::config {
 namespace {
@@ -20,7 +20,7 @@ SeaSettings OneWave() {
 }
 
 void ExpectUsageError(const absl::Status& status, const std::string& part) {
-  EXPECT_TRUE(IsUsageError(status)) << status;
+  EXPECT_TRUE(formats::IsUsageError(status)) << status;
   EXPECT_THAT(std::string(status.message()), HasSubstr(part));
   EXPECT_THAT(std::string(status.message()), HasSubstr("; "));
 }

@@ -81,7 +81,7 @@ TEST(SurveySections, SayAllOfASurvey) {
   EXPECT_FALSE(survey.water.without_column());
   EXPECT_EQ(survey.datum.sigma, 0.08);
   EXPECT_EQ(survey.datum.geoid_separation, -25.1);
-  const client::StatedErrors& sigma = survey.sigma;
+  const config::StatedErrors& sigma = survey.sigma;
   EXPECT_THAT(sigma.values.position, ElementsAre(0.02, 0.02, 0.06));
   EXPECT_THAT(sigma.values.attitude, ElementsAre(0.005, 0, 0.008));
   EXPECT_EQ(sigma.values.scan, 0.02);
@@ -225,9 +225,16 @@ TEST(SurveySections, RefuseEachWrongSourceOfError) {
   for (const ErrorSource& source : kErrorSources) {
     const std::string key(source.name), beyond = std::to_string(source.greatest * 1.01);
     const std::vector<std::string> wrong =
-        source.size() == 1 ? std::vector<std::string>{"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", beyond}
-                           : std::vector<std::string>{"1", "[]", "[1, 1]", "[1, 1, 1, 1]", "[1, -0.1, 1]",
-                                                      "[nan, 1, 1]", "[1, 1, inf]", "[1, 1, " + beyond + "]"};
+        source.size() == 1
+            ? std::vector<std::string>{"\"6\"", "true", "[1]", "{}", "nan", "inf", "-1e9", beyond}
+            : std::vector<std::string>{"1",
+                                       "[]",
+                                       "[1, 1]",
+                                       "[1, 1, 1, 1]",
+                                       "[1, -0.1, 1]",
+                                       "[nan, 1, 1]",
+                                       "[1, 1, inf]",
+                                       "[1, 1, " + beyond + "]"};
     for (const std::string& value : wrong) {
       const std::string error = ErrorOf("[sigma]\n" + key + " = " + value + "\n");
       EXPECT_THAT(error, StartsWith("line 2: 'sigma." + key + "' ")) << value;
@@ -242,8 +249,7 @@ TEST(SurveySections, TakeEachSourceOfErrorUpToItsEnd) {
       const std::string number = std::to_string(end);
       const std::string value =
           source.size() == 1 ? number : "[" + number + ", " + number + ", " + number + "]";
-      const client::StatedErrors sigma =
-          Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma;
+      const config::StatedErrors sigma = Survey("[sigma]\n" + std::string(source.name) + " = " + value).sigma;
       EXPECT_THAT(source.In(sigma.values), ::testing::Each(end)) << source.name;
       EXPECT_EQ(std::ranges::count(sigma.stated, true), 1) << source.name;
     }

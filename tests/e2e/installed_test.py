@@ -66,7 +66,7 @@ class Installation(unittest.TestCase):
 
     def test_the_client_knows_the_installed_sensors(self):
         sensors = json.loads(self.run_program("albtpu-query", "sensors", "--json"))["sensors"]
-        shipped = pathlib.Path(__file__).resolve().parents[2] / "survey/sensors/shipped"
+        shipped = pathlib.Path(__file__).resolve().parents[2] / "config/sensors/shipped"
         self.assertEqual([sensor["name"] for sensor in sensors], sorted(path.stem for path in shipped.glob("*.toml")))
 
     def test_the_client_finds_the_installed_table_of_the_water_column(self):

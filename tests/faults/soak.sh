@@ -5,8 +5,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 build=build/release
-PYTHONPATH=tests/e2e:tests/survey:clients/python/src \
+PYTHONPATH=tests/e2e:tests/programs/query:clients/python/src \
   /usr/bin/python3 -B tests/faults/mixed_load.py --minutes 30 \
   query="$build/bin/albtpu-query" serve="$build/bin/albtpu-serve" \
   synthetic_table="$build/tests/tables/albtpu_synthetic_table" \
-  simulated_flight="$build/tests/survey/albtpu_simulated_flight"
+  simulated_flight="$build/tests/formats/albtpu_simulated_flight"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "survey/trajectories/formats/ascii_trajectory.h"
+#include "formats/trajectories/ascii_trajectory.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/trajectory_promises.h"
 

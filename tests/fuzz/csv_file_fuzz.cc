@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "absl/strings/match.h"
+#include "annotate/answers/answer_cells.h"
+#include "annotate/csv/csv_annotation.h"
+#include "formats/csv/csv_reader.h"
 #include "service/client/local_source.h"
-#include "survey/answers/answer_cells.h"
-#include "survey/csv/csv_annotation.h"
-#include "survey/csv/csv_reader.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/tables/synthetic_table.h"

@@ -9,9 +9,9 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
-#include "survey/csv/csv_pulses.h"
-#include "survey/csv/csv_reader.h"
-#include "survey/number_text.h"
+#include "annotate/csv/csv_pulses.h"
+#include "formats/csv/csv_reader.h"
+#include "formats/text/number_text.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

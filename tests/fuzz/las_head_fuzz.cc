@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "survey/las/las_crs.h"
-#include "survey/las/las_extra_bytes.h"
-#include "survey/las/las_header.h"
-#include "survey/las/las_vlr.h"
+#include "formats/las/las_crs.h"
+#include "formats/las/las_extra_bytes.h"
+#include "formats/las/las_header.h"
+#include "formats/las/las_vlr.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "survey/trajectories/formats/mapped_file.h"
-#include "survey/trajectories/formats/sbet_file.h"
-#include "survey/trajectories/formats/velocity_check.h"
+#include "formats/files/mapped_file.h"
+#include "formats/trajectories/sbet_file.h"
+#include "formats/trajectories/velocity_check.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/trajectory_promises.h"
 

@@ -18,11 +18,11 @@
 #include "tables/file/seal.h"
 #include "tables/file/table_encoding.h"
 #include "tables/water/water_schema.h"
+#include "tests/formats/las/las_builder.h"
+#include "tests/formats/trajectories/flight_text.h"
 #include "tests/fuzz/laz/laz_seeds.h"
 #include "tests/fuzz/sea/sea_seeds.h"
 #include "tests/service/known_seas.h"
-#include "tests/survey/las/las_builder.h"
-#include "tests/survey/trajectories/formats/flight_text.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace {

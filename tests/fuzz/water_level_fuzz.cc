@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "survey/trajectories/water_level_file.h"
+#include "formats/trajectories/water_level_file.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/trajectory_promises.h"
 

@@ -1,7 +1,7 @@
 #include "service/server/calls/answer_sources.h"
 
+#include "service/server/calls/sea_request.h"
 #include "service/server/ground/errors.h"
-#include "service/server/seas/sea_request.h"
 
 namespace albtpu::server {
 

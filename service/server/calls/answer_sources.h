@@ -8,7 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "albtpu/v1/sea.pb.h"
-#include "service/server/seas/sea_tables.h"
+#include "service/server/calls/sea_tables.h"
 #include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {

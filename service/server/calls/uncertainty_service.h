@@ -7,10 +7,10 @@
 
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "service/server/calls/message_handlers.h"
+#include "service/server/calls/sea_tables.h"
 #include "service/server/calls/unread_answers.h"
 #include "service/server/ground/workers.h"
 #include "service/server/observe/records.h"
-#include "service/server/seas/sea_tables.h"
 #include "service/server/tables/live_tables.h"
 
 namespace albtpu::server {

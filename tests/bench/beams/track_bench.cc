@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "survey/beams/point_beams.h"
-#include "survey/trajectories/formats/sbet_file.h"
-#include "survey/trajectories/projected_track.h"
-#include "tests/survey/trajectories/sbet_flight.h"
+#include "annotate/beams/point_beams.h"
+#include "annotate/beams/projected_track.h"
+#include "formats/trajectories/sbet_file.h"
+#include "tests/formats/trajectories/sbet_flight.h"
 
 namespace albtpu::bench {
 namespace {

@@ -18,9 +18,9 @@
 #include <thread>
 #include <vector>
 
-#include "survey/laz/items/chunk_encoder.h"
-#include "survey/laz/laz_points.h"
-#include "tests/survey/laz/laz_bytes.h"
+#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/laz_points.h"
+#include "tests/formats/laz/laz_bytes.h"
 
 namespace albtpu::bench {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "survey/answers/uncertainty_summary.h"
-#include "survey/files/ordered_pipeline.h"
-#include "survey/seas/sea_answers.h"
-#include "tests/survey/seas/sea_series_text.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "annotate/seas/sea_answers.h"
+#include "formats/files/ordered_pipeline.h"
+#include "tests/annotate/seas/sea_series_text.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::bench {

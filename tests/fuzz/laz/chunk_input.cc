@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "absl/status/statusor.h"
+#include "tests/formats/las/las_builder.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/survey/las/las_builder.h"
 
 namespace albtpu::fuzz {
 namespace {

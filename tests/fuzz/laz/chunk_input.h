@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "survey/laz/items/chunk_decoder.h"
-#include "survey/laz/items/chunk_encoder.h"
-#include "survey/laz/items/laszip_record.h"
+#include "formats/laz/items/chunk_decoder.h"
+#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/items/laszip_record.h"
 
 namespace albtpu::fuzz {
 

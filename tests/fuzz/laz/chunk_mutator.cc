@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "survey/laz/coding/little_endian.h"
+#include "formats/laz/coding/little_endian.h"
 #include "tests/fuzz/laz/chunk_decoding.h"
 #include "tests/fuzz/laz/chunk_input.h"
 #include "tests/fuzz/laz/record_mutation.h"

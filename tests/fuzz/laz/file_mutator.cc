@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "survey/laz/chunk_table.h"
-#include "survey/laz/coding/byte_source.h"
-#include "survey/laz/items/laszip_record.h"
+#include "formats/laz/chunk_table.h"
+#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/items/laszip_record.h"
 #include "tests/fuzz/mutation.h"
 
 namespace {

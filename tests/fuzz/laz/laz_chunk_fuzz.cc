@@ -3,7 +3,7 @@
 #include <functional>
 #include <string_view>
 
-#include "survey/laz/items/layers/point14_fields.h"
+#include "formats/laz/items/point14_fields.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/laz/chunk_decoding.h"
 #include "tests/fuzz/laz/chunk_input.h"

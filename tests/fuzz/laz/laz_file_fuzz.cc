@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "survey/las/las_reader.h"
-#include "survey/laz/chunk_table.h"
-#include "survey/laz/items/chunk_decoder.h"
-#include "survey/laz/laz_points.h"
+#include "formats/las/las_reader.h"
+#include "formats/laz/chunk_table.h"
+#include "formats/laz/items/chunk_decoder.h"
+#include "formats/laz/laz_points.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/memory_file.h"
 

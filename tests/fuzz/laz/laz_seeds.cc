@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include "survey/laz/coding/little_endian.h"
+#include "formats/laz/coding/little_endian.h"
+#include "tests/formats/las/las_builder.h"
+#include "tests/formats/laz/laz_bytes.h"
 #include "tests/fuzz/laz/chunk_input.h"
-#include "tests/survey/las/las_builder.h"
-#include "tests/survey/laz/laz_bytes.h"
 
 namespace albtpu::fuzz {
 namespace {

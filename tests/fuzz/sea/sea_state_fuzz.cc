@@ -7,7 +7,7 @@
 #include "sea/table/sea_table.h"
 #include "service/client/sea_wire.h"
 #include "service/seas/sea_summary.h"
-#include "service/server/seas/sea_request.h"
+#include "service/server/calls/sea_request.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/sea/sea_promises.h"
 

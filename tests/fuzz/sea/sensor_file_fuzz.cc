@@ -2,7 +2,7 @@
 // above 0, in range, and has a source.
 #include <string_view>
 
-#include "survey/sensors/sensor.h"
+#include "config/sensors/sensor.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "survey/report/specification.h"
+#include "quality/report/specification.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -34,13 +34,13 @@ void CheckWaves(const SeaSettings& sea) {
   ALBTPU_MUST(status.ok() || absl::IsInvalidArgument(status));
 }
 
-void CheckSigmasAreInRange(const client::StatedErrors& sigma) {
+void CheckSigmasAreInRange(const config::StatedErrors& sigma) {
   for (std::size_t i = 0; i < albtpu::kErrorSourceCount; ++i) {
     const albtpu::ErrorSource& source = albtpu::kErrorSources[i];
     if (!sigma.stated[i]) continue;
     for (const double number : source.In(sigma.values)) {
       ALBTPU_MUST(number >= 0 && number <= source.greatest);
-      ALBTPU_MUST(source.unit != "degree" || number == 0 || number >= client::kLeastAngle);
+      ALBTPU_MUST(source.unit != "degree" || number == 0 || number >= config::kLeastAngle);
     }
   }
 }

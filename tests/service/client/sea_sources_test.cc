@@ -7,7 +7,7 @@
 
 #include "sea/table/sea_table.h"
 #include "service/client/sea_wire.h"
-#include "service/server/seas/sea_request.h"
+#include "service/server/calls/sea_request.h"
 #include "tests/service/client/column_memory.h"
 #include "tests/service/client/running_server.h"
 #include "tests/service/known_seas.h"

@@ -1,0 +1,84 @@
+// A summary of all answers in a file, accumulated in one pass: outcomes, and uncertainty by depth band compared with
+// the S-44 limits. It is printed as text and stored as JSON.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "annotate/answers/answer_tally.h"
+#include "annotate/answers/batch.h"
+#include "annotate/answers/coordinate_spread.h"
+#include "annotate/answers/outcome_counts.h"
+
+namespace albtpu::annotate {
+
+// The last bits of the sums depend on how the pulses were divided into batches and on the order in which the
+// batches were merged.
+class UncertaintySummary {
+ public:
+  explicit UncertaintySummary(AnswerStyle style) : style_(style) {}
+
+  // Adds the columns that a summary needs to a selection.
+  static void Select(AnswerSelection& selection);
+
+  // Pulses that were queried.
+  void Add(const PulseBatch& pulses, const AnswerBatch& answers);
+  // Chosen points without a query; those above the water by the next function.
+  void Add(NoPulse why, std::uint64_t count = 1) { outcomes_.Add(why, count); }
+  // A chosen point above the water surface, at this negative depth [m].
+  void AddAboveWater(float depth);
+  void Merge(const UncertaintySummary& other);
+
+  const OutcomeCounts& outcomes() const { return outcomes_; }
+  AnswerTally Tally() const;
+
+  // Several lines: the outcomes, then a table of depth bands.
+  std::string Text(std::string_view without_azimuth = kWorseOfTheWind) const;
+
+  // `outcomes`; `outside`, by outcome the least, median (to 1/16) and greatest of the coordinate that caused it, for
+  // ABOVE_WATER the depth; `depth`, `s44_best_order` (number of pulses by the strictest order that the sea surface
+  // alone leaves open) and `depth_bands` with `thu` and `tvu` in m.
+  nlohmann::ordered_json Json() const;
+
+ private:
+  // Upper ends of the depth bands, m; the last band has no end.
+  static constexpr std::array<float, 9> kBandEnds = {0.25, 1, 2, 5, 10, 15, 20, 30, 50};
+
+  struct Range {
+    double sum = 0, standard_error_sum = 0;
+    float least = std::numeric_limits<float>::infinity(), greatest = -least;
+
+    void Add(float value, float standard_error);
+    void Merge(const Range& other);
+    nlohmann::ordered_json Json(std::uint64_t count, bool standard_errors) const;
+  };
+
+  struct Band {
+    std::uint64_t count = 0;
+    // By the strictest open order; element 0 counts pulses for which none is open.
+    std::array<std::uint64_t, kS44Orders.size() + 1> best_orders = {};
+    Range thu, tvu;
+
+    std::uint64_t Within(S44Order order) const;  // Pulses that leave this order open.
+    void Merge(const Band& other);
+  };
+
+  S44Order order() const { return style_.s44_order.value_or(S44Order::k1b); }
+  std::string BandText(std::size_t band) const;
+  nlohmann::ordered_json BandJson(std::size_t band) const;
+  nlohmann::ordered_json OutsideJson() const;
+
+  AnswerStyle style_;
+  OutcomeCounts outcomes_;
+  std::array<CoordinateSpread, OutcomeCounts::kAskedCount> outside_;  // By OutcomeCounts::Number.
+  CoordinateSpread above_water_;                                      // Depths.
+  std::array<Band, kBandEnds.size() + 1> bands_ = {};
+  float min_depth_ = std::numeric_limits<float>::infinity();  // m, of interpolated pulses.
+  float max_depth_ = -std::numeric_limits<float>::infinity();
+};
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,100 @@
+// How the user describes the beams of a survey: the source of their incidence, their width, and the water surface.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "annotate/beams/trajectory_errors.h"
+#include "budget/beams/refracted_path.h"
+#include "formats/trajectories/trajectory_set.h"
+
+namespace albtpu::annotate {
+
+// One incidence for all pulses, as of a cone around the vertical.
+struct ConstantIncidence {
+  double incidence = 0;                // degree
+  std::optional<double> beam_azimuth;  // degree, true
+  std::optional<double> altitude;      // m above the water
+};
+
+// The scanner swings across the track: the incidence is |scan angle|.
+struct AcrossTrackScan {
+  std::optional<double> flight_direction;  // degree, true
+  std::optional<double> altitude;          // m above the water
+};
+
+// The position of the sensor, from the files of its trajectory.
+struct TrajectoryFromFiles {
+  std::vector<std::string> paths;          // Files and folders.
+  std::vector<std::string> errors;         // Error files of these, and folders of them.
+  bool utc = false;                        // Times are UTC, not GPS.
+  std::optional<double> geoid_separation;  // m
+  std::array<double, 3> lever_arm = {};    // m; forward, right, down
+  std::optional<std::string> crs;          // Of points whose file does not state it.
+};
+
+// The position of the sensor, from returns under water.
+struct TrajectoryFromReturns {
+  std::optional<std::string> crs;
+};
+
+using BeamSource =
+    std::variant<ConstantIncidence, AcrossTrackScan, TrajectoryFromFiles, TrajectoryFromReturns>;
+
+// The alternatives of BeamSource, as summaries name them in `incidence_from`.
+inline constexpr std::array<std::string_view, std::variant_size_v<BeamSource>> kIncidenceSources = {
+    "one angle", "scan angle", "trajectory", "returns"};
+
+// Whether beams of this source are known without a water surface.
+constexpr bool IsByAngle(std::string_view incidence_from) {
+  return incidence_from == kIncidenceSources[0] || incidence_from == kIncidenceSources[1];
+}
+
+struct DivergingBeam {
+  double divergence = 0;  // mrad, full angle
+  double aperture = 0;    // m
+};
+
+struct BeamPlan {
+  BeamSource source = ConstantIncidence();
+  std::variant<float, DivergingBeam> footprint;  // m, or computed for each pulse.
+  bool any_aircraft = false;                     // Also compute the motion of the aircraft.
+  bool any_sea = false;                          // Not a table of winds: azimuths count from north.
+  std::optional<float> azimuth;                  // degree from downwind, of all beams.
+  std::optional<double> wind_from;               // degree, true
+  float wind_speed = 0;                          // m/s at 10 m
+  std::optional<float> fetch;                    // m; absent: fully developed sea.
+  double refractive_index = kSeaWaterIndex;      // Of the water.
+
+  // The files of TrajectoryFromFiles, opened and checked.
+  std::shared_ptr<const formats::TrajectoryFiles> trajectories;
+  TrajectoryErrors trajectory_errors;
+
+  // The source of the water surface: at least one of the three.
+  std::optional<double> water_level;            // In the vertical unit and datum of the points.
+  std::optional<std::string> water_level_file;  // Levels by time.
+  std::set<int> water_classes;                  // Of returns from the surface.
+  std::optional<double> metres_per_unit;        // Of heights; absent: as the coordinate system states.
+
+  bool has_track() const {
+    return std::holds_alternative<TrajectoryFromFiles>(source) ||
+           std::holds_alternative<TrajectoryFromReturns>(source);
+  }
+  // Whether the true direction of each beam is known.
+  bool has_direction() const;
+};
+
+// The files that the plan reads: trajectories, their errors, water levels.
+std::vector<std::string> FilesOf(const BeamPlan& plan);
+
+// The plan as JSON for a summary.
+nlohmann::ordered_json Parameters(const BeamPlan& plan);
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,209 @@
+#include "annotate/beams/file_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "annotate/beams/fitted_track.h"
+#include "annotate/beams/projected_track.h"
+#include "annotate/beams/track_motions.h"
+#include "budget/beams/ray_track.h"
+#include "budget/beams/return_pair.h"
+#include "budget/beams/track_check.h"
+#include "formats/trajectories/trajectory_timeline.h"
+#include "sea/angle.h"
+
+namespace albtpu::annotate {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Height and speed in the middle of the longest segment, where they do not depend on how many rays each of its parts
+// has, and the uncertainty at the times of the rays.
+struct TrackStatistics {
+  TrackEstimate middle;
+  double sigma = 0;  // rad, median
+};
+
+std::optional<TrackStatistics> StatisticsOf(const RayTrack& track, std::span<const AirRay> rays) {
+  std::vector<double> sigmas;
+  for (const AirRay& ray : rays) {
+    const std::optional<TrackEstimate> estimate = track.At(ray.time);
+    if (estimate.has_value()) sigmas.push_back(estimate->incidence_sigma);
+  }
+  if (sigmas.empty()) return std::nullopt;
+  const RaySegment& longest = *std::max_element(
+      track.segments().begin(), track.segments().end(),
+      [](const RaySegment& a, const RaySegment& b) { return a.end - a.start < b.end - b.start; });
+  return TrackStatistics{.middle = *track.At((longest.start + longest.end) / 2),
+                         .sigma = Median(std::move(sigmas))};
+}
+
+// Positions of `track` in the local frame, `shift` [s] after the given times.
+TrackPositions LocalPositions(const SensorTrack& track, const LocalFrame& frame, double shift = 0) {
+  return [&track, &frame, shift](std::span<const double> times, std::span<Eigen::Vector3d> positions) {
+    std::vector<double> shifted(times.begin(), times.end());
+    for (double& time : shifted) time += shift;
+    std::vector<SensorPosition> sensors(times.size());
+    std::vector<TrackOutcome> outcomes(times.size());
+    track.PositionsAt(shifted, sensors, outcomes);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (outcomes[i] == TrackOutcome::kKnown) {
+        positions[i] = {frame.X(sensors[i].x), frame.Y(sensors[i].y), sensors[i].z};
+      } else {
+        positions[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+  };
+}
+
+absl::Status StatePrecision(const TrackedFile& file, const BeamPlan& plan,
+                            const formats::TrajectoryTimeline& timeline, FileTrack& found) {
+  const std::optional<TrajectoryPrecision> precision = PrecisionOf(plan.trajectory_errors, timeline);
+  if (!precision.has_value()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(file.name,
+                     ": no error file of --trajectory-errors covers the times of its points; give those of "
+                     "this trajectory"));
+  }
+  (*found.json)["sigma"] = {{"horizontal", precision->horizontal}, {"vertical", precision->vertical}};
+  found.notes.push_back(
+      absl::StrFormat("trajectory known to %.3f m horizontally and %.3f m vertically (1 sigma, median)",
+                      precision->horizontal, precision->vertical));
+  return absl::OkStatus();
+}
+
+// If the track agrees with the rays on the other time scale, a hint with the flag that selects it; otherwise empty.
+std::optional<std::string> FlagOfOtherClock(const TrackedFile& file, const SensorTrack& track, bool utc,
+                                            double index) {
+  // GPS - UTC since July 2012. Times in UTC that are taken for GPS put a position so many seconds too early.
+  for (const int seconds : {18, 17, 16}) {
+    const double shift = utc ? seconds : -seconds;
+    const TrackCheck check =
+        CheckTrack(file.rays, LocalPositions(track, file.frame, shift), {.index = index});
+    if (check.verdict != TrackVerdict::kAgrees) continue;
+    return absl::StrCat("its times are ", utc ? "GPS" : "UTC", ", ", seconds, " s ",
+                        utc ? "after UTC" : "behind GPS", "); give --trajectory-time ", utc ? "gps" : "utc");
+  }
+  return std::nullopt;
+}
+
+// A water level that is too high by h puts the sensor too high by h (1 - tan(w) / tan(a)), with the angles w and a of
+// the ray in water and in air, because rays are refracted at the wrong height. Near the vertical that is h (1 - 1/n),
+// and up to 25 degrees at most 1.2 times as much. The returns cannot distinguish it from a trajectory that is too low.
+// Empty where the level does not come from --water-level.
+std::string OrWaterLevel(const TrackCheck& check, const BeamPlan& plan) {
+  if (check.verdict != TrackVerdict::kHeightOffset || !plan.water_classes.empty()) return "";
+  const double error = check.up.value / (1 - 1 / plan.refractive_index);
+  return absl::StrFormat(", or --water-level is about %.2g m too %s", std::abs(error),
+                         error < 0 ? "low" : "high");
+}
+
+// Compares the track with the rays of pairs of returns.
+absl::Status CheckAgainstReturns(const TrackedFile& file, const BeamPlan& plan, bool utc, FileTrack& found) {
+  const double index = plan.refractive_index;
+  const TrackCheck check = CheckTrack(file.rays, LocalPositions(*found.track, file.frame), {.index = index});
+  ordered_json& json = (*found.json)["check"];
+  json["rays"] = check.rays;
+  if (check.verdict == TrackVerdict::kTooFewRays) {
+    json["verdict"] = "too few rays";
+    found.notes.push_back(absl::StrCat("trajectory not compared with the returns (", check.rays,
+                                       " pulses with two returns under water are too few",
+                                       file.remark.empty() ? "" : "; ", file.remark, ")"));
+    return absl::OkStatus();
+  }
+  if (Disagrees(check.verdict)) {
+    const std::string problem = absl::StrCat(file.name, ": its returns contradict the trajectory (");
+    const std::optional<std::string> flag = FlagOfOtherClock(file, *found.track, utc, index);
+    if (flag.has_value()) return absl::FailedPreconditionError(absl::StrCat(problem, *flag));
+    return absl::FailedPreconditionError(absl::StrCat(
+        problem, Describe(check), OrWaterLevel(check, plan), "; the median angle between beams is ",
+        absl::StrFormat("%.2g", DegreesOfRadians(check.median_angle)),
+        " degrees); correct the flags that say how to read the trajectory, or give the right one if this "
+        "is that of another flight"));
+  }
+  const double difference = DegreesOfRadians(check.mean_difference.value);
+  const double sigma = DegreesOfRadians(check.mean_difference.sigma);
+  json["verdict"] = "agrees";
+  json["mean_incidence_difference"] = difference;
+  json["mean_incidence_difference_sigma"] = sigma;
+  found.notes.push_back(
+      absl::StrFormat("trajectory agrees with %d pulses that have two returns under water: incidence differs "
+                      "by %.3f degrees in the "
+                      "mean",
+                      check.rays, difference));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan& plan) {
+  const TrajectoryFromFiles& source = std::get<TrajectoryFromFiles>(plan.source);
+  absl::StatusOr<formats::TrajectoryTimeline> timeline = formats::TrajectoryTimeline::Create(
+      *plan.trajectories, source.utc ? formats::TrajectoryClock::kUtc : formats::TrajectoryClock::kGps,
+      file.times);
+  if (!timeline.ok()) {
+    return absl::Status(timeline.status().code(),
+                        absl::StrCat(file.name, ": ", std::string(timeline.status().message())));
+  }
+  FileTrack found;
+  if (!plan.trajectory_errors.empty()) {
+    if (absl::Status known = StatePrecision(file, plan, *timeline, found); !known.ok()) return known;
+  }
+  absl::Status near = CheckNearPoints(file.name, *timeline, *file.map, file.extent);
+  if (!near.ok()) return near;
+  found.motions = std::make_unique<TrajectoryMotions>(*timeline, plan.trajectory_errors);
+  absl::StatusOr<std::unique_ptr<ProjectedTrack>> track =
+      ProjectedTrack::Create(*std::move(timeline), file.map,
+                             {.lever_arm = {source.lever_arm[0], source.lever_arm[1], source.lever_arm[2]},
+                              .geoid_separation = source.geoid_separation.value_or(0)});
+  if (!track.ok()) return track.status();
+  found.track = *std::move(track);
+  if (absl::Status agrees = CheckAgainstReturns(file, plan, source.utc, found); !agrees.ok()) return agrees;
+  return found;
+}
+
+absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index) {
+  const auto too_few = [&](const std::string& why) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        file.name, ": the position of the sensor cannot be derived from its returns (", why,
+        file.remark.empty() ? "" : "; ", file.remark,
+        "); check --water-level or --water-classes and --classes, or give a trajectory by --trajectory"));
+  };
+  if (file.rays.empty()) {
+    return too_few(absl::StrCat(file.pairs,
+                                " pairs of returns of one pulse at least 1 m apart, of which none lies "
+                                "below the water surface"));
+  }
+  RayTrackOptions options;
+  options.index = index;
+  RayTrack track = FitTrack(file.rays, options);
+  const std::optional<TrackStatistics> statistics = StatisticsOf(track, file.rays);
+  if (!statistics.has_value()) {
+    return too_few(absl::StrCat(file.rays.size(),
+                                " pulses with two returns under water are too few, or contradict "
+                                "each other"));
+  }
+  FileTrack found;
+  const double height = statistics->middle.height, speed = statistics->middle.velocity.norm();
+  const double sigma = DegreesOfRadians(statistics->sigma);
+  *found.json = {
+      {"pairs", file.pairs},          {"rays", file.rays.size()}, {"segments", track.segments().size()},
+      {"height_above_water", height}, {"speed", speed},           {"incidence_sigma", sigma}};
+  found.notes.push_back(
+      absl::StrFormat("trajectory from %d pulses with two returns under water: in the middle of its longest "
+                      "part %.1f m above the water at %.1f m/s; incidence known to %.2g degrees (1 sigma)",
+                      file.rays.size(), height, speed, sigma));
+  if (file.map == nullptr) {
+    found.notes.push_back("coordinate system not known: directions are from grid north");
+  }
+  found.track = std::make_unique<FittedTrack>(std::move(track), file.frame, file.map.get());
+  found.motions = std::make_unique<CourseMotions>(*found.track);
+  return found;
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,59 @@
+#include "annotate/beams/water_heights.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::annotate {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void SurfaceCounts::Merge(const SurfaceCounts& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+}
+
+nlohmann::ordered_json SurfaceCounts::Json() const {
+  return {{"pulse", (*this)[SurfaceFrom::kPulse]},
+          {"local", (*this)[SurfaceFrom::kLocal]},
+          {"level", (*this)[SurfaceFrom::kLevel]}};
+}
+
+std::string SurfaceCounts::Text() const {
+  return absl::StrCat("from a return of the same pulse at ", (*this)[SurfaceFrom::kPulse],
+                      " points, from returns nearby at ", (*this)[SurfaceFrom::kLocal],
+                      ", from the level at ", (*this)[SurfaceFrom::kLevel]);
+}
+
+void WaterHeights::At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
+                      SurfaceCounts& counts) const {
+  heights.assign(points.size(), level.has_value() ? frame.Z(*level) : kNan);
+  if (levels != nullptr) {
+    levels->LevelsAt(points.times, heights);
+    for (double& height : heights) height = frame.Z(height);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double own = points.pulse_surface.empty() ? kNan : frame.Z(points.pulse_surface[i]);
+    if (std::isfinite(own)) {
+      heights[i] = own;
+      counts.Add(SurfaceFrom::kPulse);
+      continue;
+    }
+    const std::optional<double> local = surface == nullptr
+                                            ? std::nullopt
+                                            : surface->HeightAt(frame.X(points.x[i]), frame.Y(points.y[i]),
+                                                                points.times.empty() ? 0 : points.times[i]);
+    if (local.has_value()) {
+      heights[i] = *local;
+      counts.Add(SurfaceFrom::kLocal);
+    } else if (std::isfinite(heights[i])) {
+      counts.Add(SurfaceFrom::kLevel);
+    }
+  }
+}
+
+}  // namespace albtpu::annotate

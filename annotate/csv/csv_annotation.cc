@@ -1,0 +1,317 @@
+#include "annotate/csv/csv_annotation.h"
+
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "annotate/answers/answer_cells.h"
+#include "annotate/csv/csv_aircraft.h"
+#include "formats/csv/csv_reader.h"
+#include "formats/files/ordered_pipeline.h"
+#include "formats/text/number_text.h"
+
+namespace albtpu::annotate {
+namespace {
+
+// Memory that is reused from block to block.
+struct Chunk {
+  explicit Chunk(AnswerStyle style) : summary(style) {}
+
+  // The sizes of a record in the block. Blank records have no pulse.
+  struct Row {
+    std::uint32_t text_size, ending_size;
+    bool blank, has_azimuth;
+  };
+
+  formats::CsvBlock block;  // Input.
+  std::string annotated;    // Output.
+  std::uint64_t bytes_read = 0;
+  std::uint64_t pulse_count = 0;
+  UncertaintySummary summary;
+
+  std::vector<Row> rows;
+  CsvPulseBatches pulses;
+  AnswerBatch with_azimuth, without_azimuth;
+  CsvAircraftBatch aircraft_with_azimuth, aircraft_without_azimuth;  // Of totals; so are the next two.
+  TotalBatch totals_with_azimuth, totals_without_azimuth;
+  TotalSummary totals;
+};
+
+// Annotates the records of a block.
+class BlockWork {
+ public:
+  // `total` and `aircraft` are null without a total.
+  BlockWork(const formats::CsvReader& reader, const CsvPulses& columns, AnswerStyle style,
+            std::string default_ending, const AnswerSource& source, const CsvTotal* total,
+            const CsvAircraft* aircraft)
+      : total_(total),
+        aircraft_(aircraft),
+        name_(reader.name()),
+        columns_(columns),
+        style_(style),
+        cells_(style),
+        selection_(cells_.selection()),
+        default_ending_(std::move(default_ending)),
+        source_(source) {
+    UncertaintySummary::Select(selection_);
+    if (total_ != nullptr) SelectForTotals(selection_);
+  }
+
+  absl::Status operator()(Chunk& chunk) const {
+    if (absl::Status status = Decode(chunk); !status.ok()) return status;
+    chunk.summary = UncertaintySummary(style_);
+    absl::Status status = QueryPulses(chunk.pulses.with_azimuth, chunk.with_azimuth,
+                                      chunk.totals_with_azimuth.water, chunk.summary);
+    if (status.ok())
+      status = QueryPulses(chunk.pulses.without_azimuth, chunk.without_azimuth,
+                           chunk.totals_without_azimuth.water, chunk.summary);
+    if (status.ok() && total_ != nullptr) {
+      chunk.totals = {};
+      FindTotals(chunk.pulses.with_azimuth, chunk.with_azimuth, chunk.aircraft_with_azimuth,
+                 chunk.totals_with_azimuth, chunk.totals);
+      FindTotals(chunk.pulses.without_azimuth, chunk.without_azimuth, chunk.aircraft_without_azimuth,
+                 chunk.totals_without_azimuth, chunk.totals);
+    }
+    if (status.ok()) Encode(chunk);
+    return status;
+  }
+
+ private:
+  absl::Status Decode(Chunk& chunk) const {
+    formats::CsvRecords records(name_, chunk.block);
+    formats::CsvRecord record;
+    columns_.Clear(chunk.pulses);
+    if (aircraft_ != nullptr) {
+      aircraft_->Clear(chunk.aircraft_with_azimuth);
+      aircraft_->Clear(chunk.aircraft_without_azimuth);
+    }
+    chunk.rows.clear();
+    while (true) {
+      const absl::StatusOr<bool> more = records.Next(record);
+      if (!more.ok()) return more.status();
+      if (!*more) break;
+      bool has_azimuth = false;
+      if (!record.blank()) {
+        const absl::StatusOr<bool> appended = columns_.Append(record, chunk.pulses);
+        if (!appended.ok()) return appended.status();
+        has_azimuth = *appended;
+        if (aircraft_ != nullptr) {
+          absl::Status status = aircraft_->Append(
+              record, has_azimuth ? chunk.aircraft_with_azimuth : chunk.aircraft_without_azimuth);
+          if (!status.ok()) return status;
+        }
+      }
+      chunk.rows.push_back({static_cast<std::uint32_t>(record.text.size()),
+                            static_cast<std::uint32_t>(record.line_ending.size()), record.blank(),
+                            has_azimuth});
+    }
+    chunk.pulse_count = chunk.pulses.with_azimuth.size + chunk.pulses.without_azimuth.size;
+    return absl::OkStatus();
+  }
+
+  absl::Status QueryPulses(const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water,
+                           UncertaintySummary& summary) const {
+    absl::Status status = AnswerPulses(source_, style_.query(), pulses, selection_, answers);
+    if (status.ok() && total_ != nullptr) AddWater(total_->plan.water, pulses, answers, water);
+    if (status.ok() && pulses.size > 0) summary.Add(pulses, answers);
+    return status;
+  }
+
+  void FindTotals(const PulseBatch& pulses, AnswerBatch& answers, CsvAircraftBatch& aircraft,
+                  TotalBatch& totals, TotalSummary& summary) const {
+    if (pulses.size == 0) return;
+    if (!total_->wind_spectrum.empty()) {
+      answers.sea_axes = aircraft.sea_axes;
+      if (total_->plan.waves_unseen())
+        WaveHeightsOfWinds(pulses, total_->wind_spectrum, answers.wave_heights);
+    }
+    ComputeTotals(total_->plan, pulses, answers, aircraft.columns, totals);
+    for (std::size_t i = 0; i < pulses.size; ++i) {
+      if (!aircraft.undirected[i]) continue;
+      for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry][i] = NAN;
+    }
+    summary.Add(pulses, answers, totals);
+  }
+
+  void AppendTotal(const AnswerBatch& answers, const TotalBatch& totals, std::size_t i,
+                   std::string& to) const {
+    const auto number = [&to](float value) {
+      to += ',';
+      if (std::isfinite(value)) formats::AppendFloat(value, to);
+    };
+    number(totals.thu[i]);
+    number(totals.tvu[i]);
+    if (total_->details) {
+      for (const auto* column : {&totals.thu_air, &totals.tvu_air, &totals.thu_sea, &totals.tvu_sea})
+        number((*column)[i]);
+      if (total_->plan.water.share != nullptr) {
+        number(totals.thu_water[i]);
+        number(totals.tvu_water[i]);
+      }
+      const bool answered = std::isfinite(totals.thu[i]);
+      for (const std::vector<float>& entry : totals.covariance) number(answered ? entry[i] : NAN);
+    }
+    number(answers[Quantity::kBiasAlongBeam][i]);
+    number(answers[Quantity::kBiasVertical][i]);
+    (to += ',') += OutcomeName(answers, i);
+    if (!style_.s44_order.has_value()) return;
+    to += ',';
+    if (totals.best_orders[i] > 0) to += Name(kS44Orders[totals.best_orders[i] - 1]);
+  }
+
+  void Encode(Chunk& chunk) const {
+    std::string_view rest = chunk.block.text;
+    std::string& to = chunk.annotated;
+    to.clear();
+    std::size_t with = 0, without = 0;
+    for (const Chunk::Row& row : chunk.rows) {
+      to.append(rest.substr(0, row.text_size));
+      if (!row.blank) {
+        const AnswerBatch& answers = row.has_azimuth ? chunk.with_azimuth : chunk.without_azimuth;
+        const std::size_t i = row.has_azimuth ? with++ : without++;
+        if (total_ != nullptr) {
+          AppendTotal(answers, row.has_azimuth ? chunk.totals_with_azimuth : chunk.totals_without_azimuth, i,
+                      to);
+        } else {
+          cells_.Visit(
+              answers, i,
+              [&to](float number) {
+                to += ',';
+                formats::AppendFloat(number, to);
+              },
+              [&to](std::string_view text) { (to += ',') += text; }, [&to] { to += ','; });
+        }
+      }
+      const std::string_view ending = rest.substr(row.text_size, row.ending_size);
+      to.append(ending.empty() ? std::string_view(default_ending_) : ending);
+      rest.remove_prefix(row.text_size + row.ending_size);
+    }
+  }
+
+  const CsvTotal* total_;
+  const CsvAircraft* aircraft_;
+  std::string name_;
+  const CsvPulses& columns_;
+  AnswerStyle style_;
+  AnswerCells cells_;
+  AnswerSelection selection_;
+  std::string default_ending_;
+  AnswerSource source_;
+};
+
+// The flags of a total. A flag determines an axis only together with the other input of its way. The divergence of the
+// sensor is used where a file has neither footprints nor divergences.
+FixedInputs OfTotal(FixedInputs fixed, const CsvTotal& total, const formats::CsvRecord& header,
+                    bool& took_divergence) {
+  const auto is_known = [&](PulseInput input) {
+    if (fixed[input].has_value()) return true;
+    for (std::size_t i = 0; i < header.cell_count(); ++i) {
+      std::string name = header.Cell(i);
+      absl::StripAsciiWhitespace(&name);
+      if (name == Name(input)) return true;
+    }
+    return false;
+  };
+  took_divergence = total.plan.divergence.has_value() && !is_known(PulseInput::kDivergence) &&
+                    !is_known(PulseInput::kFootprint);
+  if (took_divergence) fixed[PulseInput::kDivergence] = static_cast<float>(*total.plan.divergence);
+  if (!is_known(PulseInput::kDivergence) || is_known(PulseInput::kFootprint))
+    fixed[PulseInput::kAltitude].reset();
+  if (!is_known(PulseInput::kWindFrom) && !fixed.any_sea) fixed[PulseInput::kBeamAzimuth].reset();
+  return fixed;
+}
+
+std::string AnnotatedHeader(const formats::CsvRecord& header, const std::string& ending,
+                            const std::vector<std::string>& names) {
+  std::string text(header.text);
+  for (const std::string& name : names) absl::StrAppend(&text, ",", name);
+  return text + ending;
+}
+
+// Copies all records after the header from `reader` to the file of `annotated`, with their answers.
+absl::Status AnnotateRecords(formats::CsvReader& reader, const BlockWork& work, AnswerStyle style,
+                             FileProgress::File& progress, AnnotatedCsv& annotated) {
+  std::uint64_t written_pulses = 0;
+  return formats::RunOrderedPipeline([&] { return Chunk(style); },
+                                     [&](Chunk& chunk) {
+                                       absl::StatusOr<bool> more = reader.Read(chunk.block);
+                                       chunk.bytes_read = reader.bytes_read();
+                                       return more;
+                                     },
+                                     [&](Chunk& chunk) { return work(chunk); },
+                                     [&](Chunk& chunk) {
+                                       annotated.summary.Merge(chunk.summary);
+                                       annotated.totals.Merge(chunk.totals);
+                                       annotated.input_bytes = chunk.bytes_read;
+                                       written_pulses += chunk.pulse_count;
+                                       progress.Reach(chunk.bytes_read, written_pulses);
+                                       return annotated.file.Write(chunk.annotated);
+                                     });
+}
+
+}  // namespace
+
+std::vector<std::string> TotalCells(const CsvTotal& total, const AnswerStyle& style) {
+  std::vector<std::string> names = {"total_thu", "total_tvu"};
+  if (total.details) {
+    names.insert(names.end(), {"thu_air", "tvu_air", "thu_sea", "tvu_sea"});
+    if (total.plan.water.share != nullptr) names.insert(names.end(), {"thu_water", "tvu_water"});
+    for (const std::string_view entry : kCovarianceNames)
+      names.push_back(absl::StrCat("covariance_", std::string(entry)));
+  }
+  names.insert(names.end(), {"bias_along_beam", "bias_vertical", "outcome"});
+  if (style.s44_order.has_value()) names.push_back("s44_order_met");
+  return names;
+}
+
+absl::StatusOr<AnnotatedCsv> AnnotateCsv(const std::filesystem::path& input,
+                                         const std::filesystem::path& output, Existing existing,
+                                         const FixedInputs& fixed, AnswerStyle style,
+                                         const AnswerSource& source, FileProgress& progress,
+                                         const CsvTotal* total) {
+  if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
+  absl::StatusOr<formats::CsvReader> reader = formats::CsvReader::Open(input);
+  if (!reader.ok()) return reader.status();
+  const absl::StatusOr<formats::CsvBlock> header_block = reader->ReadHeader();
+  if (!header_block.ok()) return header_block.status();
+  formats::CsvRecord header;
+  const absl::StatusOr<bool> has_header = formats::CsvRecords(reader->name(), *header_block).Next(header);
+  if (!has_header.ok()) return has_header.status();
+  if (!*has_header || header.blank()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        input.string(), " line 1: is empty; begin the file with a header that names the columns"));
+  }
+  const std::vector<std::string> appended =
+      total != nullptr ? TotalCells(*total, style) : AnswerCells(style).names();
+  bool took_divergence = false;
+  const absl::StatusOr<CsvPulses> columns =
+      CsvPulses::Bind(input.string(), header,
+                      total != nullptr ? OfTotal(fixed, *total, header, took_divergence) : fixed, appended);
+  if (!columns.ok()) return columns.status();
+  std::optional<CsvAircraft> aircraft;
+  if (total != nullptr) {
+    absl::StatusOr<CsvAircraft> bound = CsvAircraft::Bind(input.string(), header, fixed);
+    if (!bound.ok()) return bound.status();
+    aircraft = *std::move(bound);
+  }
+  absl::StatusOr<OutputFile> file = OutputFile::Create(output, existing);
+  if (!file.ok()) return file.status();
+
+  AnnotatedCsv annotated{.input_bytes = reader->bytes_read(),
+                         .summary = UncertaintySummary(style),
+                         .totals = {},
+                         .took_divergence = took_divergence,
+                         .file = *std::move(file)};
+  FileProgress::File file_progress(progress, input.filename().string());
+  const std::string ending = header.line_ending.empty() ? "\n" : std::string(header.line_ending);
+  absl::Status status = annotated.file.Write(AnnotatedHeader(header, ending, appended));
+  const BlockWork work(*reader, *columns, style, ending, source, total,
+                       aircraft.has_value() ? &*aircraft : nullptr);
+  if (status.ok()) status = AnnotateRecords(*reader, work, style, file_progress, annotated);
+  if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
+  if (!status.ok()) return status;
+  return annotated;
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,214 @@
+#include "annotate/csv/csv_pulses.h"
+
+#include <limits>
+#include <set>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "annotate/run/exit_status.h"
+#include "formats/text/number_text.h"
+
+namespace albtpu::annotate {
+namespace {
+
+std::string Trimmed(std::string cell) {
+  absl::StripAsciiWhitespace(&cell);
+  return cell;
+}
+
+std::vector<std::string> ColumnNames(const formats::CsvRecord& header) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < header.cell_count(); ++i) names.push_back(Trimmed(header.Cell(i)));
+  return names;
+}
+
+absl::Status CheckUnique(const std::string& file, const std::vector<std::string>& names,
+                         const std::vector<std::string>& appended) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty() && !seen.insert(names[i]).second) {
+      return absl::InvalidArgumentError(absl::StrCat(file, " line 1, column ", i + 1, ": '", names[i],
+                                                     "' occurs twice; rename one of the columns"));
+    }
+  }
+  for (const std::string& name : appended) {
+    if (seen.count(name) > 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(file, " line 1: column '", name,
+                       "' exists already and would be appended again; rename it, "
+                       "or start from the file without results"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+std::string MissingAdvice(AxisId axis, const InputOrigins& origins) {
+  for (const OtherWay& way : kOtherWays) {
+    if (way.axis != axis) continue;
+    const std::string first(Name(way.first)), second(Name(way.second));
+    if (origins[Index(way.first)] != InputOrigin::kNone)
+      return absl::StrCat(", or add ", second, " to ", first);
+    if (origins[Index(way.second)] != InputOrigin::kNone)
+      return absl::StrCat(", or add ", first, " to ", second);
+    return absl::StrCat(", or give ", first, " and ", second);
+  }
+  return "";
+}
+
+absl::Status MissingColumn(const std::string& file, AxisId axis, const std::vector<std::string>& names,
+                           const InputOrigins& origins) {
+  const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
+  return absl::InvalidArgumentError(
+      absl::StrCat(file, " line 1: no column '", std::string(Describe(axis).name),
+                   "' (columns found: ", absl::StrJoin(names, ", "), "); ",
+                   other_separator ? std::string("separate the columns by commas")
+                                   : absl::StrCat("add it, or give one value for all pulses by ",
+                                                  FlagName(axis), MissingAdvice(axis, origins))));
+}
+
+bool MayBeEmpty(PulseInput input) {
+  if (input == PulseInput::kBeamAzimuth || input == PulseInput::kWindFrom) return true;
+  return Index(input) < kAxisCount && MayBeAbsent(kAxes[Index(input)]);
+}
+
+}  // namespace
+
+PulseBatch OnePulse(const FixedCoordinates& fixed) {
+  PulseBatch pulse{.size = 1, .axis = {}};
+  for (const AxisId axis : kAxes) {
+    if (fixed[Index(axis)].has_value()) pulse[axis].assign(1, *fixed[Index(axis)]);
+  }
+  return pulse;
+}
+
+absl::StatusOr<CsvPulses> CsvPulses::Bind(const std::string& name, const formats::CsvRecord& header,
+                                          const FixedInputs& fixed,
+                                          const std::vector<std::string>& appended) {
+  const std::vector<std::string> names = ColumnNames(header);
+  if (absl::Status status = CheckUnique(name, names, appended); !status.ok()) return status;
+  CsvPulses pulses;
+  pulses.name_ = name;
+  pulses.column_count_ = names.size();
+  std::array<std::size_t, kPulseInputCount> column_of = {};
+  InputOrigins origins = {};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::optional<PulseInput> input = FindInput(names[i]);
+    if (!input.has_value()) continue;
+    if (fixed.any_sea && IsOfSea(*input)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(name, " line 1: column '", names[i],
+                       "' contradicts the given sea (which has a wind of its own); leave "
+                       "out the column, or the sea"));
+    }
+    column_of[Index(*input)] = i;
+    origins[Index(*input)] = InputOrigin::kColumn;
+  }
+  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
+    const auto input = static_cast<PulseInput>(i);
+    if (!fixed[input].has_value()) continue;
+    if (origins[i] == InputOrigin::kColumn) {
+      return formats::UsageError(absl::StrCat(FlagName(input), ": ", name, " also has the column '",
+                                              std::string(Name(input)), "'; leave out one of them"));
+    }
+    origins[i] = InputOrigin::kFlag;
+    pulses.fixed_[i] = *fixed[input];
+  }
+  if (fixed.any_sea && origins[Index(PulseInput::kBeamAzimuth)] != InputOrigin::kNone) {
+    origins[Index(PulseInput::kWindFrom)] = InputOrigin::kFlag;
+    pulses.fixed_[Index(PulseInput::kWindFrom)] = kWindForNorth;
+    pulses.azimuths_from_north_ = true;
+  }
+  if (absl::Status status = CheckWays(origins, absl::StrCat(name, " line 1")); !status.ok()) return status;
+  for (const AxisId axis : kAxes) {
+    const bool given = origins[Index(axis)] != InputOrigin::kNone || IsGivenByOtherWay(axis, origins);
+    if (fixed.any_sea && IsOfSea(InputOf(axis))) continue;
+    if (!given && !MayBeAbsent(axis)) return MissingColumn(name, axis, names, origins);
+  }
+  for (const OtherWay& way : kOtherWays) {  // Half of a way is like any other column.
+    if (IsGivenByOtherWay(way.axis, origins)) continue;
+    origins[Index(way.first)] = origins[Index(way.second)] = InputOrigin::kNone;
+  }
+  for (std::size_t i = 0; i < kPulseInputCount; ++i) {
+    if (origins[i] == InputOrigin::kColumn) {
+      pulses.columns_.push_back({static_cast<PulseInput>(i), column_of[i]});
+    }
+  }
+  pulses.FindCoordinates(fixed, origins);
+  return pulses;
+}
+
+void CsvPulses::FindCoordinates(const FixedInputs& fixed, const InputOrigins& origins) {
+  const auto is_column = [&](PulseInput input) { return origins[Index(input)] == InputOrigin::kColumn; };
+  constant_ = fixed.coordinates;
+  for (const AxisId axis : kAxes) {
+    if (is_column(InputOf(axis))) varying_.push_back(axis);
+  }
+  for (const OtherWay& way : kOtherWays) {
+    if (!IsGivenByOtherWay(way.axis, origins)) continue;
+    const bool of_incidence = way.axis == AxisId::kFootprint && is_column(PulseInput::kIncidence);
+    if (is_column(way.first) || is_column(way.second) || of_incidence) {
+      varying_.push_back(way.axis);
+      from_other_way_.push_back(way.axis);
+    } else {
+      constant_[Index(way.axis)] = FromOtherWay(way.axis, fixed_);
+    }
+  }
+  may_have_azimuth_ =
+      origins[Index(AxisId::kAzimuth)] != InputOrigin::kNone || IsGivenByOtherWay(AxisId::kAzimuth, origins);
+}
+
+void CsvPulses::Clear(CsvPulseBatches& batches) const {
+  for (PulseBatch* batch : {&batches.with_azimuth, &batches.without_azimuth}) {
+    batch->size = 0;
+    batch->azimuths_from_north = azimuths_from_north_;
+    for (const AxisId axis : kAxes) {
+      (*batch)[axis].clear();
+      if (constant_[Index(axis)].has_value()) (*batch)[axis].push_back(*constant_[Index(axis)]);
+    }
+  }
+}
+
+absl::StatusOr<std::optional<float>> NumberOf(const std::string& file, const formats::CsvRecord& record,
+                                              std::size_t index, std::string_view column,
+                                              std::string_view units, bool may_be_empty) {
+  const std::string_view raw = record.RawCell(index);
+  const bool quoted = !raw.empty() && raw.front() == '"';
+  const std::string unquoted = quoted ? record.Cell(index) : "";
+  const absl::string_view cell = absl::StripAsciiWhitespace(
+      quoted ? absl::string_view(unquoted) : absl::string_view(raw.data(), raw.size()));
+  if (cell.empty() && may_be_empty) return std::nullopt;
+  const std::optional<float> value = formats::ParseFloat(std::string_view(cell.data(), cell.size()));
+  if (value.has_value()) return value;
+  return absl::InvalidArgumentError(absl::StrCat(
+      file, " line ", record.line, ", column '", std::string(column),
+      "': ", cell.empty() ? std::string("is empty") : absl::StrCat("'", cell, "' is not a number"),
+      "; write a number in ", std::string(units), ", such as 12.5"));
+}
+
+absl::StatusOr<bool> CsvPulses::Append(const formats::CsvRecord& record, CsvPulseBatches& batches) const {
+  if (record.cell_count() != column_count_) {
+    return absl::InvalidArgumentError(absl::StrCat(name_, " line ", record.line, ": ", record.cell_count(),
+                                                   " cells, but the header has ", column_count_,
+                                                   "; write one cell for each column"));
+  }
+  bool has_azimuth = may_have_azimuth_;
+  PulseNumbers numbers = fixed_;
+  for (const Column& column : columns_) {
+    const absl::StatusOr<std::optional<float>> number = NumberOf(
+        name_, record, column.index, Name(column.input), Units(column.input), MayBeEmpty(column.input));
+    if (!number.ok()) return number.status();
+    // An absent fetch; of the other inputs that may be empty, each makes the azimuth absent.
+    numbers[Index(column.input)] = number->value_or(std::numeric_limits<float>::infinity());
+    if (!number->has_value() && column.input != PulseInput::kFetch) has_azimuth = false;
+  }
+  for (const AxisId axis : from_other_way_) numbers[Index(axis)] = FromOtherWay(axis, numbers);
+  PulseBatch& batch = has_azimuth ? batches.with_azimuth : batches.without_azimuth;
+  ++batch.size;
+  for (const AxisId axis : varying_) {
+    if (axis != AxisId::kAzimuth || has_azimuth) batch[axis].push_back(numbers[Index(axis)]);
+  }
+  return has_azimuth;
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,188 @@
+#include "annotate/las/las_annotation.h"
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "annotate/las/las_beams.h"
+#include "annotate/las/las_prescan.h"
+#include "annotate/seas/sea_facts.h"
+#include "formats/files/ordered_pipeline.h"
+#include "formats/las/las_extra_bytes.h"
+#include "formats/las/las_point_runs.h"
+#include "formats/las/las_reader.h"
+#include "formats/las/las_writer.h"
+#include "formats/laz/items/chunk_encoder.h"
+#include "formats/text/number_text.h"
+
+namespace albtpu::annotate {
+namespace {
+
+// The largest chunk of LAS, in bytes and in records. A server takes no more pulses than this in one message.
+constexpr std::size_t kChunkBytes = 8 << 20;
+constexpr std::size_t kChunkRecords = 65536;
+
+// A chunk on its way from file to file.
+struct Passing {
+  LasChunkWork::Chunk chunk;
+  std::unique_ptr<laz::ChunkEncoder> encoder;  // Null for LAS.
+  std::string compressed;
+
+  std::string_view output() const { return encoder != nullptr ? compressed : chunk.annotated; }
+};
+
+// No bathymetric sensor has a larger median incidence.
+constexpr float kLargestMedianIncidence = 35;  // degree
+
+absl::Status CheckIncidence(const formats::LasReader& reader, const LasAnnotation& annotation,
+                            const CoordinateSpread& incidence) {
+  if (!std::holds_alternative<TrajectoryFromFiles>(annotation.plan.source)) return absl::OkStatus();
+  if (incidence.count() == 0 || incidence.middle() <= kLargestMedianIncidence) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrFormat("%s: the median incidence by the trajectory is %.1f degrees (the sensors of laser "
+                      "bathymetry look at most %g "
+                      "degrees aside; the 18 s between UTC and GPS are 1.1 km); check --trajectory-time, "
+                      "--crs, --geoid-separation and "
+                      "--units, and whether the trajectory is that of this flight",
+                      reader.name(), incidence.middle(), kLargestMedianIncidence));
+}
+
+// The bytes of the file that hold `points` points; compressed points count as equally long.
+std::uint64_t BytesOf(const formats::LasReader& reader, std::uint64_t points) {
+  const formats::LasHeader& header = reader.header();
+  if (reader.kind() == formats::LasKind::kLas) return header.offset_to_points + points * header.record_length;
+  const laz::LazExtent& extent = reader.extent();
+  const double part = static_cast<double>(points) / static_cast<double>(header.point_count);
+  return extent.points_begin +
+         static_cast<std::uint64_t>(part * static_cast<double>(extent.points_end - extent.points_begin));
+}
+
+// Copies the file of `reader` to that of `annotated`, with the uncertainty of its points.
+absl::Status AnnotatePoints(const formats::LasReader& reader, const formats::LasHead& head,
+                            const LasAnnotation& annotation, const LasBeams& beams,
+                            const AnswerSource& source, FileProgress::File& progress,
+                            AnnotatedLas& annotated) {
+  const formats::LasHeader& header = reader.header();
+  const std::uint64_t max_records =
+      head.record.has_value()
+          ? head.record->chunk_size
+          : std::clamp<std::uint64_t>(kChunkBytes / header.record_length, 1, kChunkRecords);
+  formats::LasWriter writer(reader, head, annotated.file);
+  absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader, kPulseReach, kPulseReach);
+  if (!runs.ok()) return runs.status();
+  if (absl::Status status = writer.Begin(); !status.ok()) return status;
+  const LasChunkWork work(header, annotation, head.replaced, beams.geometry(), beams.utc(),
+                          beams.has_surface_returns(), source);
+  std::uint64_t written_records = 0;
+  const absl::Status status = formats::RunOrderedPipeline(
+      [&] {
+        return Passing{.chunk = LasChunkWork::Chunk(annotation.style_of_sea()),
+                       .encoder = head.record.has_value() ? laz::ChunkEncoder::For(*head.record) : nullptr,
+                       .compressed = {}};
+      },
+      [&](Passing& passing) { return runs->Next(max_records, passing.chunk); },
+      [&](Passing& passing) {
+        absl::Status worked = work(passing.chunk);
+        if (worked.ok() && passing.encoder != nullptr) {
+          passing.encoder->Encode(passing.chunk.annotated, passing.compressed);
+        }
+        return worked;
+      },
+      [&](Passing& passing) {
+        const LasChunkWork::Chunk& chunk = passing.chunk;
+        annotated.classes.Merge(chunk.classes);
+        annotated.summary.Merge(chunk.summary);
+        annotated.totals.Merge(chunk.totals);
+        for (const auto& [line, summary] : chunk.totals_by_line)
+          annotated.totals_by_line[line].Merge(summary);
+        annotated.sigmas_assumed += chunk.sigmas_assumed;
+        annotated.surface.Merge(chunk.surface);
+        annotated.incidence.Merge(chunk.incidence);
+        written_records += chunk.own;
+        progress.Reach(BytesOf(reader, written_records), written_records);
+        return writer.Write(passing.output(), chunk.own);
+      });
+  return status.ok() ? writer.End(runs->tail_begin(), runs->tail_end()) : status;
+}
+
+}  // namespace
+
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
+                                         const std::filesystem::path& output, Existing existing,
+                                         const LasAnnotation& annotation, const AnswerSource& source,
+                                         FileProgress& progress, std::optional<formats::LasKind> kind) {
+  if (absl::Status status = formats::CheckNotTheSameFile(input, output); !status.ok()) return status;
+  const absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(input);
+  if (!reader.ok()) return reader.status();
+  const formats::LasKind output_kind = kind.value_or(reader->kind());
+  const absl::StatusOr<formats::LasHead> head = formats::AnnotatedHead(
+      *reader, formats::AppendedFloats(annotation.appended()), output_kind, annotation.replace);
+  if (!head.ok()) return head.status();
+  FileProgress::File file_progress(progress, input.filename().string());
+  const absl::StatusOr<std::unique_ptr<LasBeams>> beams = LasBeams::Find(*reader, annotation);
+  if (!beams.ok()) {
+    // Reading also fails when the input became shorter; the modification is the cause to report.
+    const absl::Status changed = reader->CheckUnchanged();
+    return changed.ok() ? beams.status() : changed;
+  }
+  absl::StatusOr<OutputFile> file = OutputFile::Create(output, existing);
+  if (!file.ok()) return file.status();
+
+  AnnotatedLas annotated{.point_format = reader->header().point_format,
+                         .input_bytes = reader->file_size(),
+                         .input_kind = reader->kind(),
+                         .output_kind = output_kind,
+                         .copc_index_left_out = formats::HasCopcIndex(*reader),
+                         .chosen_classes = annotation.ClassesOf(reader->header().point_format),
+                         .classes = {},
+                         .summary = UncertaintySummary(annotation.style_of_sea()),
+                         .totals = {},
+                         .totals_by_line = {},
+                         .sigmas_assumed = 0,
+                         .surface = {},
+                         .incidence = {},
+                         .geometry = {},
+                         .sea = {},
+                         .notes = {},
+                         .file = *std::move(file)};
+  const absl::Status status =
+      AnnotatePoints(*reader, *head, annotation, **beams, source, file_progress, annotated);
+  if (absl::Status changed = reader->CheckUnchanged(); !changed.ok()) return changed;
+  if (!status.ok()) return status;
+  if (absl::Status plausible = CheckIncidence(*reader, annotation, annotated.incidence); !plausible.ok()) {
+    return plausible;
+  }
+  annotated.geometry = (*beams)->Json();
+  annotated.notes = (*beams)->Notes();
+  if (annotated.incidence.count() > 0) {
+    const auto least = annotated.incidence.least(), greatest = annotated.incidence.greatest();
+    (*annotated.geometry)["incidence"] = {{"least", formats::JsonNumber(least)},
+                                          {"greatest", formats::JsonNumber(greatest)}};
+    annotated.notes.push_back(absl::StrFormat("incidence %.2f to %.2f degrees", least, greatest));
+  }
+  if (!annotation.plan.water_classes.empty()) {
+    (*annotated.geometry)["water_surface"] = annotated.surface.Json();
+    annotated.notes.push_back(absl::StrCat("water surface: ", annotated.surface.Text()));
+  }
+  if (annotated.sigmas_assumed > 0) {
+    annotated.notes.push_back(absl::StrCat("no error file states the errors of the trajectory at ",
+                                           annotated.sigmas_assumed,
+                                           " points; those of a good one are assumed"));
+  }
+  if (annotation.seas != nullptr) {
+    const auto [first, last] = (*beams)->records();
+    annotated.sea = SeasJson(*annotation.seas, first, last);
+    const std::vector<std::string> notes = SeasNotes(*annotation.seas, first, last);
+    annotated.notes.insert(annotated.notes.end(), notes.begin(), notes.end());
+  }
+  if (annotated.copc_index_left_out) {
+    annotated.notes.push_back(
+        "the index of COPC is left out, as it does not know the new bytes: the output is no COPC");
+  }
+  return annotated;
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,52 @@
+// Copies a LAS or LAZ file and appends the uncertainty of each chosen point, and on request the geometry of its beam.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/json_box.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "annotate/las/las_chunk.h"
+#include "annotate/run/file_progress.h"
+#include "formats/files/output_file.h"
+#include "formats/las/las_kind.h"
+#include "formats/las/las_points.h"
+#include "service/client/uncertainty_source.h"
+
+namespace albtpu::annotate {
+
+struct AnnotatedLas {
+  int point_format = 0;
+  std::uint64_t input_bytes = 0;
+  formats::LasKind input_kind = formats::LasKind::kLas, output_kind = formats::LasKind::kLas;
+  bool copc_index_left_out = false;
+  std::set<int> chosen_classes;
+  formats::LasClassCounts classes;
+  UncertaintySummary summary;
+  TotalSummary totals;  // Empty without a total; so are the next two.
+  std::map<int, TotalSummary> totals_by_line;
+  std::uint64_t sigmas_assumed = 0;
+  SurfaceCounts surface;
+  CoordinateSpread incidence;      // degree
+  JsonBox geometry;                // The determination of the beams, for a summary.
+  JsonBox sea;                     // The same for the sea; null where a table of winds answers.
+  std::vector<std::string> notes;  // For the user, a line each.
+  OutputFile file;                 // Complete; Commit() gives it its name.
+};
+
+// Points of the chosen classes with an interpolated answer get their uncertainty, all other points get no-data.
+// `kind` is that of the output; absent: that of the input. Reading, querying and writing overlap; memory does not grow
+// with the file. Fails and leaves no output when LasReader, PlaceOf, the track, AnnotatedHead or the source fails, when
+// the output is the input, and when the input is modified meanwhile.
+absl::StatusOr<AnnotatedLas> AnnotateLas(const std::filesystem::path& input,
+                                         const std::filesystem::path& output, Existing existing,
+                                         const LasAnnotation& annotation, const AnswerSource& source,
+                                         FileProgress& progress,
+                                         std::optional<formats::LasKind> kind = std::nullopt);
+
+}  // namespace albtpu::annotate

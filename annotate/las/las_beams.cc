@@ -1,0 +1,164 @@
+#include "annotate/las/las_beams.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "annotate/beams/file_track.h"
+#include "annotate/beams/pair_rays.h"
+#include "formats/trajectories/point_clock.h"
+
+namespace albtpu::annotate {
+namespace {
+
+bool GoesByTime(const LasAnnotation& annotation) {
+  return annotation.seas != nullptr && annotation.seas->by_time();
+}
+
+formats::PointTimes TimesOf(const formats::LasReader& reader, const LasPrescan& prescan) {
+  return {.span = {prescan.first_time, prescan.last_time},
+          .form = reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
+                                                    : formats::PointTimeForm::kWeekSeconds};
+}
+
+// Times are needed to find the position of the sensor or the water level at a point.
+absl::Status CheckTimes(const formats::LasReader& reader, const LasAnnotation& annotation) {
+  if (formats::HasGpsTime(reader.header().point_format)) return absl::OkStatus();
+  const BeamPlan& plan = annotation.plan;
+  if (GoesByTime(annotation)) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+        "), so that no record of the sea can be assigned to them; choose one of them by --sea-time"));
+  }
+  if (!plan.has_track() && !plan.water_level_file.has_value()) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(
+      reader.name(), ": its points have no GPS time (point format ", reader.header().point_format,
+      "), so neither a trajectory nor water levels by time can be used; give --scanner or --incidence and "
+      "one --water-level, or a file of another point format"));
+}
+
+// The classes that returns from the water surface usually have: ASPRS, LAS Domain Profile for Topo-Bathy Lidar; in
+// older point formats water (9) and what NOAA used before.
+std::set<int> UsualSurfaceClasses(int point_format) {
+  return point_format >= formats::kFirstModernFormat ? std::set<int>{41, 42} : std::set<int>{9, 27};
+}
+
+TrackedFile FileOf(const formats::LasReader& reader, const LasPlace& place, const LasPrescan& prescan,
+                   const WaterHeights& water, double index) {
+  return {.name = reader.name(),
+          .frame = place.frame,
+          .map = place.map,
+          .times = TimesOf(reader, prescan),
+          .extent = {.x_min = prescan.least[0],
+                     .x_max = prescan.greatest[0],
+                     .y_min = prescan.least[1],
+                     .y_max = prescan.greatest[1]},
+          .rays = RaysOfPairs(prescan.pairs, water, place.frame, index),
+          .pairs = prescan.pair_count,
+          .remark = prescan.is_scattered()
+                        ? absl::StrCat(prescan.alone, " of ", prescan.of_several,
+                                       " returns of pulses with several lie alone in the file, whose points "
+                                       "are sorted by place or incomplete")
+                        : ""};
+}
+
+}  // namespace
+
+LasBeams::LasBeams() : json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::object())) {}
+
+LasBeams::~LasBeams() = default;
+
+absl::Status LasBeams::FindTrack(const formats::LasReader& reader, const BeamPlan& plan,
+                                 const WaterHeights& water) {
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a position.
+  const TrackedFile file = FileOf(reader, place_, prescan_, water, plan.refractive_index);
+  const bool all_zero = file.times.span.first == 0 && file.times.span.last == 0;
+  if (all_zero || !(file.times.span.first <= file.times.span.last)) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(reader.name(), ": the GPS times of its points are all ", all_zero ? "0" : "no numbers",
+                     ", so that no position of the sensor belongs to them; "
+                     "take the file as the sensor's software wrote it, or give --scanner or --incidence"));
+  }
+  absl::StatusOr<FileTrack> track = std::holds_alternative<TrajectoryFromFiles>(plan.source)
+                                        ? TrackFromFiles(file, plan)
+                                        : TrackFromReturns(file, plan.refractive_index);
+  if (!track.ok()) return track.status();
+  track_ = std::move(track->track);
+  motions_ = std::move(track->motions);
+  (*json_)["trajectory"] = std::move(*track->json);
+  notes_.insert(notes_.end(), track->notes.begin(), track->notes.end());
+  if (prescan_.is_scattered() && prescan_.surface_returns > 0) {
+    notes_.push_back(
+        "most returns of one pulse do not lie side by side in the file, so that few points have the water "
+        "surface of their own pulse; sort the points by GPS time for that");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status LasBeams::FindSeas(const formats::LasReader& reader, const SeaTimeline& seas) {
+  if (!seas.by_time()) {
+    records_ = {seas.fixed().first, seas.fixed().second};
+    return absl::OkStatus();
+  }
+  if (prescan_.chosen == 0) return absl::OkStatus();  // No point needs a sea.
+  const absl::StatusOr<double> utc = formats::UtcOffset(reader.name(), TimesOf(reader, prescan_),
+                                                        {seas.start(), seas.end()}, *seas.settings().file);
+  if (!utc.ok()) return utc.status();
+  utc_ = *utc;
+  records_ = seas.RecordsWithin(prescan_.first_time + utc_, prescan_.last_time + utc_);
+  return absl::OkStatus();
+}
+
+void LasBeams::NoteLevel() {
+  if (2 * prescan_.off_level <= prescan_.level_returns) return;
+  notes_.push_back(
+      absl::StrFormat("%d of %d returns from the water surface (by their class) lie more than %g m from "
+                      "--water-level, in the mean at "
+                      "%.2f; check the level, its unit and its vertical datum, or give --water-classes",
+                      prescan_.off_level, prescan_.level_returns, kLevelTolerance,
+                      prescan_.off_level_height / place_.frame.metres_per_z));
+}
+
+absl::StatusOr<std::unique_ptr<LasBeams>> LasBeams::Find(const formats::LasReader& reader,
+                                                         const LasAnnotation& annotation) {
+  const BeamPlan& plan = annotation.plan;
+  if (absl::Status status = CheckTimes(reader, annotation); !status.ok()) return status;
+  std::unique_ptr<LasBeams> beams(new LasBeams());
+  absl::StatusOr<LasPlace> place = PlaceOf(reader, plan);
+  if (!place.ok()) return place.status();
+  beams->place_ = *std::move(place);
+  if (plan.has_track() && !beams->place_.remark.empty()) beams->notes_.push_back(beams->place_.remark);
+  if (plan.water_level_file.has_value()) {
+    absl::StatusOr<formats::WaterLevelSeries> levels = formats::ReadWaterLevels(
+        *plan.water_level_file, reader.header().adjusted_gps_time ? formats::PointTimeForm::kAdjustedStandard
+                                                                  : formats::PointTimeForm::kWeekSeconds);
+    if (!levels.ok()) return levels.status();
+    beams->levels_ = *std::move(levels);
+  }
+  if (plan.has_track() || !plan.water_classes.empty() || GoesByTime(annotation)) {
+    absl::StatusOr<LasPrescan> prescan =
+        Prescan(reader, beams->place_.frame,
+                {.classes = annotation.ClassesOf(reader.header().point_format),
+                 .water_classes = plan.water_classes,
+                 .pairs = plan.has_track(),
+                 .water_level = plan.water_classes.empty() ? plan.water_level : std::nullopt,
+                 .level_classes = UsualSurfaceClasses(reader.header().point_format)});
+    if (!prescan.ok()) return prescan.status();
+    beams->prescan_ = *std::move(prescan);
+    beams->NoteLevel();
+  }
+  if (annotation.seas != nullptr) {
+    if (absl::Status status = beams->FindSeas(reader, *annotation.seas); !status.ok()) return status;
+  }
+  const WaterHeights water = {
+      .surface = beams->prescan_.surface.has_value() ? &*beams->prescan_.surface : nullptr,
+      .levels = beams->levels_.has_value() ? &*beams->levels_ : nullptr,
+      .level = plan.water_level};
+  if (plan.has_track()) {
+    if (absl::Status status = beams->FindTrack(reader, plan, water); !status.ok()) return status;
+  }
+  beams->geometry_.emplace(plan, beams->place_.frame, water, beams->track_.get(), beams->motions_.get());
+  return beams;
+}
+
+}  // namespace albtpu::annotate

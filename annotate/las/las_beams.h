@@ -1,0 +1,56 @@
+// The beams of a LAS file: everything that is determined before its points are annotated.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "annotate/beams/point_beams.h"
+#include "annotate/las/las_chunk.h"
+#include "annotate/las/las_place.h"
+#include "annotate/las/las_prescan.h"
+#include "budget/beams/sensor_track.h"
+#include "formats/las/las_reader.h"
+
+namespace albtpu::annotate {
+
+class LasBeams {
+ public:
+  ~LasBeams();
+  // Reads the file once where surface returns or a trajectory are wanted. `annotation` must outlive the result.
+  static absl::StatusOr<std::unique_ptr<LasBeams>> Find(const formats::LasReader& reader,
+                                                        const LasAnnotation& annotation);
+
+  const BeamGeometry& geometry() const { return *geometry_; }
+  bool has_surface_returns() const { return prescan_.surface_returns > 0; }
+  // UTC [s since 1970] = time of a point + it; where the sea goes by time.
+  double utc() const { return utc_; }
+  // The first and the last record of the sea between which the chosen points lie; where there is a sea.
+  const std::pair<std::size_t, std::size_t>& records() const { return records_; }
+
+  const nlohmann::ordered_json& Json() const { return *json_; }
+  std::vector<std::string> Notes() const { return notes_; }
+
+ private:
+  LasBeams();
+  void NoteLevel();  // Adds a note if most returns from the surface lie far from the level.
+  absl::Status FindSeas(const formats::LasReader& reader, const SeaTimeline& seas);
+  absl::Status FindTrack(const formats::LasReader& reader, const BeamPlan& plan, const WaterHeights& water);
+
+  LasPlace place_;
+  LasPrescan prescan_;
+  std::optional<formats::WaterLevelSeries> levels_;
+  std::unique_ptr<const SensorTrack> track_;
+  std::unique_ptr<const SensorMotions> motions_;
+  std::optional<BeamGeometry> geometry_;
+  double utc_ = 0;
+  std::pair<std::size_t, std::size_t> records_;
+  std::unique_ptr<nlohmann::ordered_json> json_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,266 @@
+#include "annotate/las/las_chunk.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "annotate/las/las_prescan.h"
+#include "formats/laz/coding/little_endian.h"
+
+namespace albtpu::annotate {
+
+using laz::Store;
+
+std::set<int> LasAnnotation::ClassesOf(int point_format) const {
+  return classes.has_value() ? *classes : std::set<int>{formats::DefaultClass(point_format)};
+}
+
+AnswerStyle LasAnnotation::style_of_sea() const {
+  AnswerStyle of_sea = style;
+  if (total.has_value()) of_sea.coverage = Coverage::kTwoSigma;
+  return of_sea;
+}
+
+LasChunkWork::LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
+                           const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams,
+                           double utc, bool pulse_surface, const AnswerSource& source)
+    : fields_(header),
+      record_length_(header.record_length),
+      plan_(annotation.plan),
+      beams_(beams),
+      seas_(annotation.seas != nullptr && annotation.seas->by_time() ? annotation.seas.get() : nullptr),
+      utc_(utc),
+      pulse_surface_(pulse_surface && fields_.has_gps_time()),
+      appended_(annotation.appended()),
+      replaced_(replaced),
+      extra_bytes_begin_(header.record_length - header.extra_bytes()),
+      style_(annotation.style_of_sea()),
+      total_(annotation.total.has_value() ? &*annotation.total : nullptr),
+      source_(source) {
+  for (const formats::AppendedFloat& each : formats::AppendedFloats(appended_))
+    no_data_.push_back(each.no_data);
+  UncertaintySummary::Select(selection_);
+  if (total_ != nullptr) SelectForTotals(selection_);
+  selection_.standard_errors = style_.standard_errors;
+  for (const int point_class : annotation.ClassesOf(header.point_format)) is_chosen_[point_class] = true;
+  for (const int point_class : plan_.water_classes) is_water_[point_class] = true;
+}
+
+absl::Status LasChunkWork::operator()(Chunk& chunk) const {
+  Decode(chunk);
+  if (pulse_surface_) FindPulseSurface(chunk);
+  beams_.Compute(chunk.points, chunk.scratch, chunk.beams);
+  chunk.surface = chunk.beams.surface;
+  if (seas_ != nullptr) FindSeas(chunk);
+  MakePulses(plan_, chunk.beams, chunk.rows, chunk.pulses);
+  if (seas_ != nullptr) {
+    chunk.pulses.times.clear();
+    for (const std::uint32_t row : chunk.rows) chunk.pulses.times.push_back(chunk.points.times[row] + utc_);
+  }
+  absl::Status status = AnswerPulses(source_, style_.query(), chunk.pulses, selection_, chunk.answers);
+  if (!status.ok()) return status;
+  if (total_ != nullptr) {
+    AddWater(total_->water, chunk.pulses, chunk.answers, chunk.total.water);
+    FindTotals(chunk);
+  }
+  Summarize(chunk);
+  Encode(chunk);
+  if (!replaced_.empty()) Replace(chunk);
+  return status;
+}
+
+void LasChunkWork::Decode(Chunk& chunk) const {
+  chunk.classes = {};
+  chunk.chosen.resize(chunk.own);
+  std::size_t found = 0;
+  for (std::size_t i = chunk.before; i < chunk.before + chunk.own; ++i) {
+    const int point_class = fields_.Class(Record(chunk, i));
+    chunk.classes.Add(point_class);
+    // Avoids a branch: every index is written, and the next one overwrites it unless it is chosen.
+    chunk.chosen[found] = static_cast<std::uint32_t>(i);
+    found += is_chosen_[point_class];
+  }
+  chunk.chosen.resize(found);
+  const auto column = [&](auto field, std::vector<double>& values) {
+    values.resize(found);
+    for (std::size_t i = 0; i < found; ++i) values[i] = field(Record(chunk, chunk.chosen[i]));
+  };
+  SurveyPoints& points = chunk.points;
+  column([this](std::string_view record) { return fields_.X(record); }, points.x);
+  column([this](std::string_view record) { return fields_.Y(record); }, points.y);
+  column([this](std::string_view record) { return fields_.Z(record); }, points.z);
+  column([this](std::string_view record) { return fields_.ScanAngle(record); }, points.scan_angles);
+  points.times.clear();
+  if (fields_.has_gps_time()) {
+    column([this](std::string_view record) { return fields_.GpsTime(record); }, points.times);
+  }
+  points.pulse_surface.clear();
+}
+
+void LasChunkWork::FindPulseSurface(Chunk& chunk) const {
+  chunk.water.clear();
+  const std::size_t count = chunk.records.size() / record_length_;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_water_[fields_.Class(Record(chunk, i))]) chunk.water.push_back(static_cast<std::uint32_t>(i));
+  }
+  chunk.points.pulse_surface.assign(chunk.chosen.size(), std::numeric_limits<double>::quiet_NaN());
+  std::size_t first = 0;  // The first return from the surface that is within reach.
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    const std::size_t point = chunk.chosen[i];
+    while (first < chunk.water.size() && chunk.water[first] + kPulseReach < point) ++first;
+    std::size_t nearest = kPulseReach + 1;
+    for (std::size_t at = first; at < chunk.water.size() && chunk.water[at] <= point + kPulseReach; ++at) {
+      const std::size_t other = chunk.water[at];
+      const std::size_t distance = other > point ? other - point : point - other;
+      if (distance == 0 || distance >= nearest) continue;
+      const std::string_view record = Record(chunk, other);
+      if (fields_.GpsTime(record) != chunk.points.times[i]) continue;
+      if (!fields_.OfOnePulse(record, Record(chunk, point))) continue;
+      nearest = distance;
+      chunk.points.pulse_surface[i] = fields_.Z(record);
+    }
+  }
+}
+
+void LasChunkWork::FindSeas(Chunk& chunk) const {
+  for (std::size_t i = 0; i < chunk.beams.why_not.size(); ++i) {
+    std::optional<NoPulse>& why = chunk.beams.why_not[i];
+    if (!why.has_value() && !seas_->At(chunk.points.times[i] + utc_).has_value()) why = NoPulse::kNoSea;
+  }
+}
+
+void LasChunkWork::FindTotals(Chunk& chunk) const {
+  const auto column = [&](const std::vector<float>& of_points, std::vector<float>& of_pulses) {
+    of_pulses.clear();
+    if (of_points.empty()) return;
+    of_pulses.resize(chunk.rows.size());
+    for (std::size_t i = 0; i < chunk.rows.size(); ++i) of_pulses[i] = of_points[chunk.rows[i]];
+  };
+  const PointBeams& beams = chunk.beams;
+  column(beams.aircraft[BudgetInput::kAltitude], chunk.aircraft[BudgetInput::kAltitude]);
+  chunk.aircraft[BudgetInput::kBeamAzimuth].clear();
+  if (plan_.has_direction()) column(beams.beam_azimuth, chunk.aircraft[BudgetInput::kBeamAzimuth]);
+  for (std::size_t i = 0; i < kMotionInputs; ++i)
+    column(beams.aircraft[BudgetInput::kRoll + i], chunk.aircraft[BudgetInput::kRoll + i]);
+  ComputeTotals(*total_, chunk.pulses, chunk.answers, chunk.aircraft, chunk.total);
+  chunk.sigmas_assumed = chunk.total.sigmas_assumed;
+  chunk.totals = {};
+  chunk.totals_by_line.clear();
+  for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
+    const int line = fields_.PointSourceId(Record(chunk, chunk.chosen[chunk.rows[i]]));
+    chunk.totals_by_line[line].Add(chunk.pulses, chunk.answers, chunk.total, i);
+  }
+  for (const auto& [line, summary] : chunk.totals_by_line) chunk.totals.Merge(summary);
+}
+
+void LasChunkWork::Summarize(Chunk& chunk) const {
+  chunk.summary = UncertaintySummary(style_);
+  chunk.summary.Add(chunk.pulses, chunk.answers);
+  chunk.incidence = {};
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    if (std::isfinite(chunk.beams.incidence[i])) chunk.incidence.Add(chunk.beams.incidence[i]);
+    const std::optional<NoPulse>& why = chunk.beams.why_not[i];
+    if (!why.has_value()) continue;
+    if (*why == NoPulse::kAboveWater) {
+      chunk.summary.AddAboveWater(chunk.beams.depth[i]);
+    } else {
+      chunk.summary.Add(*why);
+    }
+  }
+}
+
+void LasChunkWork::Replace(Chunk& chunk) const {
+  const std::size_t length = record_length_ + no_data_.size() * sizeof(float);
+  const std::size_t new_length = length - replaced_.size() * sizeof(float);
+  char* const begin = chunk.annotated.data();
+  for (std::size_t i = 0; i < chunk.own; ++i) {
+    char* const record = begin + i * length;
+    char* const values = record + record_length_;
+    for (const formats::ReplacedFloat& replaced : replaced_) {
+      float value;
+      std::memcpy(&value, values + replaced.appended * sizeof(float), sizeof(float));
+      char* const place = record + extra_bytes_begin_ + replaced.offset;
+      if (replaced.is_double) {
+        Store(static_cast<double>(value), place);
+      } else {
+        Store(value, place);
+      }
+    }
+    // The new values close up, and the record moves to its place among the shorter records.
+    char* end = values;
+    auto next = replaced_.begin();
+    for (std::size_t k = 0; k < no_data_.size(); ++k) {
+      if (next != replaced_.end() && next->appended == k) {
+        ++next;
+        continue;
+      }
+      std::memmove(end, values + k * sizeof(float), sizeof(float));
+      end += sizeof(float);
+    }
+    std::memmove(begin + i * new_length, record, new_length);
+  }
+  chunk.annotated.resize(chunk.own * new_length);
+}
+
+void LasChunkWork::Encode(Chunk& chunk) const {
+  const std::size_t appended = no_data_.size() * sizeof(float);
+  const std::size_t annotated_length = record_length_ + appended;
+  chunk.annotated.resize(chunk.own * annotated_length);
+  const char* const records = chunk.records.data() + chunk.before * record_length_;
+  for (std::size_t i = 0; i < chunk.own; ++i) {
+    char* const record = chunk.annotated.data() + i * annotated_length;
+    std::memcpy(record, records + i * record_length_, record_length_);
+    std::memcpy(record + record_length_, no_data_.data(), appended);
+  }
+  const auto appended_to = [&](std::size_t point) {
+    return chunk.annotated.data() + (chunk.chosen[point] - chunk.before) * annotated_length + record_length_;
+  };
+  for (std::size_t i = 0; i < chunk.rows.size(); ++i) {
+    if (!chunk.answers.interpolated(i)) continue;
+    char* const values = appended_to(chunk.rows[i]);
+    if (total_ != nullptr) {
+      EncodeTotals(chunk, values, i);
+    } else {
+      Store(chunk.answers[Quantity::kThu][i], values);
+      Store(chunk.answers[Quantity::kTvu][i], values + sizeof(float));
+    }
+  }
+  if (!appended_.details) return;
+  const auto length_or_none = [](float value) {
+    return value >= 0 ? value : formats::kNoNumber;
+  };  // Also for NaN.
+  const PointBeams& beams = chunk.beams;
+  for (std::size_t i = 0; i < chunk.chosen.size(); ++i) {
+    char* values = appended_to(i) + appended - formats::kGeometryCount * sizeof(float);
+    for (const float value : {beams.incidence[i], beams.beam_azimuth[i], length_or_none(beams.footprint[i]),
+                              length_or_none(beams.depth[i]), length_or_none(beams.slant_range[i])}) {
+      Store(value, values);
+      values += sizeof(float);
+    }
+  }
+}
+
+void LasChunkWork::EncodeTotals(Chunk& chunk, char* values, std::size_t i) const {
+  const TotalBatch& total = chunk.total;
+  if (!std::isfinite(total.thu[i]) || !std::isfinite(total.tvu[i])) return;
+  const auto put = [&values](float value) {
+    Store(value, values);
+    values += sizeof(float);
+  };
+  put(total.thu[i]);
+  put(total.tvu[i]);
+  if (!appended_.details) return;
+  for (const auto* column : {&total.thu_air, &total.tvu_air, &total.thu_sea, &total.tvu_sea})
+    put((*column)[i]);
+  for (const auto* column : {&total.thu_water, &total.tvu_water})
+    put(total_->water.share != nullptr ? (*column)[i] : formats::kNoNumber);
+  const double factor = VerticalFactor(total_->options.coverage);
+  for (const ErrorGroup group : {ErrorGroup::kPulse, ErrorGroup::kLine})
+    put(static_cast<float>(factor * std::sqrt(total.groups[static_cast<std::size_t>(group)][2][i])));
+  put(chunk.answers[Quantity::kBiasAlongBeam][i]);
+  put(chunk.answers[Quantity::kBiasVertical][i]);
+  for (const float entry : OnGridAxes(total.covariance, i, chunk.beams.convergence[chunk.rows[i]]))
+    put(entry);
+}
+
+}  // namespace albtpu::annotate

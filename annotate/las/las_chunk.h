@@ -1,0 +1,118 @@
+// A run of points of a LAS file: turns their records into records with the uncertainty, and on request the geometry of
+// the beam, appended.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "annotate/answers/batch.h"
+#include "annotate/answers/coordinate_spread.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "annotate/beams/beam_plan.h"
+#include "annotate/beams/point_beams.h"
+#include "annotate/seas/sea_timeline.h"
+#include "annotate/totals/total_summary.h"
+#include "formats/las/las_extra_bytes.h"
+#include "formats/las/las_header.h"
+#include "formats/las/las_point_runs.h"
+#include "formats/las/las_points.h"
+
+namespace albtpu::annotate {
+
+struct LasAnnotation {
+  std::optional<std::set<int>> classes;  // Of the bottom; absent: DefaultClass of the format.
+  BeamPlan plan;
+  std::shared_ptr<const SeaTimeline> seas;  // Null where a table of winds answers.
+  bool details = false;                     // Append the geometry of each beam, too.
+  bool replace = false;                     // Take the place of floats of the same names (DescribeAppended).
+  AnswerStyle style;
+  std::optional<TotalPlan> total = {};  // Absent: the contribution of the sea surface alone.
+
+  std::set<int> ClassesOf(int point_format) const;
+  formats::Appended appended() const {
+    return {.coverage = style.coverage,
+            .total = total.has_value(),
+            .water = total.has_value() && total->water.share != nullptr,
+            .details = details};
+  }
+  // How the sea is queried: for a total at 2 sigma.
+  AnswerStyle style_of_sea() const;
+};
+
+// The settings of all chunks of a file.
+class LasChunkWork {
+ public:
+  // `replaced`: as AnnotatedHead says. `beams` must outlive it. `utc`: UTC [s since 1970] = time of a point + it, where
+  // the sea goes by time. `pulse_surface`: the water surface at a point may come from a return of the same pulse.
+  LasChunkWork(const formats::LasHeader& header, const LasAnnotation& annotation,
+               const std::vector<formats::ReplacedFloat>& replaced, const BeamGeometry& beams, double utc,
+               bool pulse_surface, const AnswerSource& source);
+
+  // Memory that is reused from chunk to chunk. The input is a run of points; points before and after its own are only
+  // searched for returns of the same pulse.
+  struct Chunk : formats::LasRun {
+    explicit Chunk(AnswerStyle style) : summary(style) {}
+
+    std::string annotated;  // Output: the own records, each followed by the appended bytes.
+    formats::LasClassCounts classes;
+    SurfaceCounts surface;
+    CoordinateSpread incidence;  // degree, of the chosen points that have a beam.
+    UncertaintySummary summary;
+    TotalSummary totals;                         // Empty without a total.
+    std::map<int, TotalSummary> totals_by_line;  // By point source id.
+    std::uint64_t sigmas_assumed = 0;            // As TotalBatch.
+
+   private:
+    friend class LasChunkWork;
+    std::vector<std::uint32_t> chosen;  // Indices of own records.
+    std::vector<std::uint32_t> water;   // Indices of records from the surface.
+    SurveyPoints points;                // Of the chosen records.
+    BeamScratch scratch;
+    PointBeams beams;
+    std::vector<std::uint32_t> rows;  // Of the points that have a pulse.
+    PulseBatch pulses;
+    AnswerBatch answers;
+    AircraftColumns aircraft;  // Of the pulses.
+    TotalBatch total;
+  };
+
+  absl::Status operator()(Chunk& chunk) const;
+
+ private:
+  std::string_view Record(const Chunk& chunk, std::size_t i) const {
+    return std::string_view(chunk.records).substr(i * record_length_, record_length_);
+  }
+  void Decode(Chunk& chunk) const;
+  void FindPulseSurface(Chunk& chunk) const;
+  void FindSeas(Chunk& chunk) const;
+  void FindTotals(Chunk& chunk) const;
+  void Summarize(Chunk& chunk) const;
+  void Encode(Chunk& chunk) const;
+  void Replace(Chunk& chunk) const;
+  void EncodeTotals(Chunk& chunk, char* values, std::size_t pulse) const;
+
+  formats::LasPointFields fields_;
+  std::size_t record_length_;
+  const BeamPlan& plan_;
+  const BeamGeometry& beams_;
+  const SeaTimeline* seas_;  // Null where all pulses have one sea, or a table of winds.
+  double utc_;
+  bool pulse_surface_;
+  formats::Appended appended_;
+  std::vector<float> no_data_;  // Of what is appended or replaces.
+  std::vector<formats::ReplacedFloat> replaced_;
+  std::size_t extra_bytes_begin_;  // In a record of the input.
+  AnswerStyle style_;
+  const TotalPlan* total_;  // Null without a total.
+  AnswerSelection selection_;
+  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {};
+  AnswerSource source_;
+};
+
+}  // namespace albtpu::annotate

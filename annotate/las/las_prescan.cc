@@ -1,0 +1,236 @@
+#include "annotate/las/las_prescan.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "annotate/beams/pair_sample.h"
+#include "annotate/beams/pulse_sample.h"
+#include "formats/files/ordered_pipeline.h"
+#include "formats/las/las_point_runs.h"
+#include "formats/las/las_points.h"
+
+namespace albtpu::annotate {
+namespace {
+
+constexpr std::size_t kChunkBytes = 4 << 20;
+constexpr double kMinSeparation = 1;  // m; of nearer returns the direction is too uncertain.
+// ASPRS, LAS 1.4 R15, tables 8 and 17.
+constexpr int kLowNoise = 7, kHighNoise = 18;
+
+// The contribution of one chunk.
+struct Part {
+  formats::LasRun run;  // Some records of the next chunk follow.
+  std::vector<double> times;
+  std::vector<std::uint8_t> classes;
+
+  std::uint64_t chosen = 0, surface_returns = 0, level_returns = 0, off_level = 0;
+  double off_level_height = 0;  // Sum, m.
+  std::array<double, 3> least, greatest;
+  double first_time, last_time;
+  SurfaceReturns surface;
+  std::vector<ReturnPair> pairs;
+  std::uint64_t of_several = 0, alone = 0;
+  std::vector<PulseReturn> incomplete;  // Returns whose pulse has others than those within reach.
+};
+
+class PrescanWork {
+ public:
+  PrescanWork(const formats::LasReader& reader, const LocalFrame& frame, const LasPrescanOptions& options)
+      : fields_(reader.header()),
+        length_(reader.header().record_length),
+        frame_(frame),
+        pairs_(options.pairs && fields_.has_gps_time()),
+        highest_(options.water_level.has_value() ? frame.Z(*options.water_level)
+                                                 : std::numeric_limits<double>::infinity()) {
+    for (const int point_class : options.classes) is_chosen_[point_class] = true;
+    for (const int point_class : options.water_classes) is_water_[point_class] = true;
+    if (options.water_level.has_value()) {
+      for (const int point_class : options.level_classes) is_at_level_[point_class] = true;
+    }
+  }
+
+  // Two returns of one pulse, of classes that may belong to a pair.
+  void AddPair(const PulseReturn& a, const PulseReturn& b, std::vector<ReturnPair>& pairs) const {
+    const bool a_is_upper = a.position.z() >= b.position.z();
+    const PulseReturn &upper = a_is_upper ? a : b, &lower = a_is_upper ? b : a;
+    if (!lower.chosen || upper.position.z() > highest_) return;
+    if ((upper.position - lower.position).norm() < kMinSeparation) return;
+    pairs.push_back({a.time, upper.position, lower.position});
+  }
+
+  absl::Status operator()(Part& part) const {
+    const std::size_t count = part.run.records.size() / length_;
+    part.times.assign(count, 0);
+    part.classes.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string_view record = Record(part, i);
+      part.classes[i] = static_cast<std::uint8_t>(fields_.Class(record));
+      if (fields_.has_gps_time()) part.times[i] = fields_.GpsTime(record);
+    }
+    part.chosen = part.surface_returns = part.level_returns = part.off_level = 0;
+    part.off_level_height = 0;
+    part.least.fill(std::numeric_limits<double>::infinity());
+    part.greatest.fill(-std::numeric_limits<double>::infinity());
+    part.first_time = std::numeric_limits<double>::infinity();
+    part.last_time = -part.first_time;
+    part.surface = SurfaceReturns();
+    part.pairs.clear();
+    part.of_several = part.alone = 0;
+    part.incomplete.clear();
+    for (std::size_t i = 0; i < part.run.own; ++i) {
+      if (is_water_[part.classes[i]]) AddSurface(part, i);
+      if (is_at_level_[part.classes[i]]) CompareWithLevel(part, i);
+      if (is_chosen_[part.classes[i]]) AddChosen(part, i);
+      if (pairs_ && std::isfinite(part.times[i])) AddPairs(part, i);
+    }
+    return absl::OkStatus();
+  }
+
+ private:
+  std::string_view Record(const Part& part, std::size_t i) const {
+    return std::string_view(part.run.records).substr(i * length_, length_);
+  }
+  Eigen::Vector3d PositionOf(std::string_view record) const {
+    return frame_.At(fields_.X(record), fields_.Y(record), fields_.Z(record));
+  }
+
+  void AddSurface(Part& part, std::size_t i) const {
+    const Eigen::Vector3d at = PositionOf(Record(part, i));
+    part.surface.Add(at.x(), at.y(), part.times[i], at.z());
+    ++part.surface_returns;
+  }
+
+  void CompareWithLevel(Part& part, std::size_t i) const {
+    const double height = PositionOf(Record(part, i)).z();
+    ++part.level_returns;
+    if (std::abs(height - highest_) <= kLevelTolerance) return;
+    ++part.off_level;
+    part.off_level_height += height;
+  }
+
+  void AddChosen(Part& part, std::size_t i) const {
+    const std::string_view record = Record(part, i);
+    const std::array<double, 3> at = {fields_.X(record), fields_.Y(record), fields_.Z(record)};
+    for (std::size_t axis = 0; axis < at.size(); ++axis) {
+      part.least[axis] = std::min(part.least[axis], at[axis]);
+      part.greatest[axis] = std::max(part.greatest[axis], at[axis]);
+    }
+    ++part.chosen;
+    if (!std::isfinite(part.times[i])) return;
+    part.first_time = std::min(part.first_time, part.times[i]);
+    part.last_time = std::max(part.last_time, part.times[i]);
+  }
+
+  bool MayBelongToAPair(int point_class) const {
+    return point_class != kLowNoise && point_class != kHighNoise && !is_water_[point_class];
+  }
+
+  PulseReturn ReturnOf(const Part& part, std::size_t i) const {
+    const std::string_view record = Record(part, i);
+    return {.record = part.run.first + i,
+            .time = part.times[i],
+            .position = PositionOf(record),
+            .number = static_cast<std::uint8_t>(fields_.ReturnNumber(record)),
+            .count = static_cast<std::uint8_t>(fields_.ReturnCount(record)),
+            .channel = static_cast<std::uint8_t>(fields_.ScannerChannel(record)),
+            .chosen = is_chosen_[part.classes[i]]};
+  }
+
+  // Each pair belongs to the chunk of its first record.
+  void AddPairs(Part& part, std::size_t i) const {
+    const std::size_t end = std::min(i + kPulseReach + 1, part.times.size());
+    std::size_t equal = 0;  // Counting needs no branches.
+    for (std::size_t j = i + 1; j < end; ++j) equal += part.times[j] == part.times[i];
+    if (fields_.ReturnCount(Record(part, i)) > 1) AddReturnOfSeveral(part, i, equal);
+    if (equal == 0 || !MayBelongToAPair(part.classes[i])) return;
+    for (std::size_t j = i + 1; j < end; ++j) {
+      if (part.times[j] != part.times[i] || !MayBelongToAPair(part.classes[j])) continue;
+      if (!fields_.OfOnePulse(Record(part, i), Record(part, j))) continue;
+      AddPair(ReturnOf(part, i), ReturnOf(part, j), part.pairs);
+    }
+  }
+
+  // `after`: records of the same time within reach behind this one. The first records of a chunk do not see those of
+  // the chunk before; what they seem to miss is found twice then, and counts once.
+  void AddReturnOfSeveral(Part& part, std::size_t i, std::size_t after) const {
+    std::size_t equal = after;
+    for (std::size_t j = i > kPulseReach ? i - kPulseReach : 0; j < i; ++j)
+      equal += part.times[j] == part.times[i];
+    ++part.of_several;
+    part.alone += equal == 0;
+    const bool complete = equal + 1 >= static_cast<std::size_t>(fields_.ReturnCount(Record(part, i)));
+    if (!complete && MayBelongToAPair(part.classes[i])) part.incomplete.push_back(ReturnOf(part, i));
+  }
+
+  formats::LasPointFields fields_;
+  std::size_t length_;
+  LocalFrame frame_;
+  bool pairs_;
+  double highest_;  // m; where the upper return of a pair may lie: the water level, if it is given.
+  std::array<bool, formats::kClassCount> is_chosen_ = {}, is_water_ = {}, is_at_level_ = {};
+};
+
+void Merge(const Part& part, LasPrescan& prescan) {
+  prescan.chosen += part.chosen;
+  prescan.surface_returns += part.surface_returns;
+  prescan.level_returns += part.level_returns;
+  prescan.off_level += part.off_level;
+  prescan.off_level_height += part.off_level_height;  // The sum, until all parts are there.
+  prescan.of_several += part.of_several;
+  prescan.alone += part.alone;
+  for (std::size_t axis = 0; axis < part.least.size(); ++axis) {
+    prescan.least[axis] = std::min(prescan.least[axis], part.least[axis]);
+    prescan.greatest[axis] = std::max(prescan.greatest[axis], part.greatest[axis]);
+  }
+  prescan.first_time = std::min(prescan.first_time, part.first_time);
+  prescan.last_time = std::max(prescan.last_time, part.last_time);
+}
+
+}  // namespace
+
+absl::StatusOr<LasPrescan> Prescan(const formats::LasReader& reader, const LocalFrame& frame,
+                                   const LasPrescanOptions& options) {
+  const std::uint64_t max_records = std::max<std::uint64_t>(kChunkBytes / reader.header().record_length, 1);
+  LasPrescan prescan;
+  prescan.least.fill(std::numeric_limits<double>::infinity());
+  prescan.greatest.fill(-std::numeric_limits<double>::infinity());
+  SurfaceReturns surface;
+  PairSample pairs;
+  PulseSample incomplete;
+  const PrescanWork work(reader, frame, options);
+  absl::StatusOr<formats::LasPointRuns> runs =
+      formats::LasPointRuns::Open(reader, 0, kPulseReach, laz::WantedFields::kReturns);
+  if (!runs.ok()) return runs.status();
+  const absl::Status status = formats::RunOrderedPipeline(
+      [] { return Part(); }, [&](Part& part) { return runs->Next(max_records, part.run); }, work,
+      [&](Part& part) {
+        Merge(part, prescan);
+        surface.Merge(std::move(part.surface));
+        for (const ReturnPair& pair : part.pairs) pairs.Add(pair);
+        for (const PulseReturn& one : part.incomplete) incomplete.Add(one);
+        return absl::OkStatus();
+      });
+  if (!status.ok()) return status;
+  if (prescan.off_level > 0) prescan.off_level_height /= static_cast<double>(prescan.off_level);
+  std::vector<ReturnPair> apart;
+  for (const std::vector<PulseReturn>& pulse : incomplete.Take()) {
+    for (std::size_t i = 0; i < pulse.size(); ++i) {
+      for (std::size_t j = i + 1; j < pulse.size(); ++j) {
+        const std::uint64_t a = pulse[i].record, b = pulse[j].record;
+        if ((a > b ? a - b : b - a) > kPulseReach) work.AddPair(pulse[i], pulse[j], apart);
+      }
+    }
+  }
+  for (const ReturnPair& pair : apart) pairs.Add(pair);
+  prescan.pair_count = pairs.seen();
+  tbb::parallel_invoke([&] { prescan.pairs = pairs.Take(); },
+                       [&] {
+                         if (prescan.surface_returns > 0) prescan.surface = surface.Finish();
+                       });
+  return prescan;
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,75 @@
+#include "annotate/run/file_progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
+namespace albtpu::annotate {
+namespace {
+
+constexpr std::chrono::milliseconds kRedrawInterval{200};
+constexpr std::chrono::seconds kLineInterval{10};
+constexpr int kBarWidth = 30;
+
+}  // namespace
+
+std::string RateText(std::uint64_t records, double seconds, const std::string& record_name) {
+  const double rate = static_cast<double>(records) / std::max(seconds, 1e-9);
+  return rate < 1e5 ? absl::StrFormat("%.3g %s/s", rate, record_name)
+                    : absl::StrFormat("%.2f million %s/s", rate / 1e6, record_name);
+}
+
+FileProgress::FileProgress(std::string records, std::size_t file_count, std::uint64_t total_bytes)
+    : record_name_(std::move(records)),
+      file_count_(file_count),
+      total_bytes_(total_bytes),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_shown_(start_) {}
+
+void FileProgress::Skip(std::uint64_t bytes) { total_bytes_ -= std::min(bytes, total_bytes_); }
+
+double FileProgress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+void FileProgress::Show(const std::string& label, std::uint64_t bytes, std::uint64_t records) {
+  const Clock::time_point now = Clock::now();
+  if (total_bytes_ == 0 || bytes == 0) return;
+  if (now - last_shown_ < (terminal_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval)))
+    return;
+  last_shown_ = now;
+  const double fraction = std::min(1.0, static_cast<double>(bytes) / static_cast<double>(total_bytes_));
+  const std::string state =
+      absl::StrFormat("%.0f %%, %s, %.0f s left", 100 * fraction, RateText(records, seconds(), record_name_),
+                      seconds() * (1 - fraction) / fraction);
+  if (terminal_) {
+    const int filled = static_cast<int>(fraction * kBarWidth);
+    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+    std::fprintf(stderr, "\r%s [%s] %s \033[K", label.c_str(), bar.c_str(), state.c_str());
+    drawn_ = true;
+  } else {
+    std::fprintf(stderr, "albtpu-query: %s: %s\n", label.c_str(), state.c_str());
+  }
+}
+
+FileProgress::File::File(FileProgress& run, std::string name) : run_(run), label_(std::move(name)) {
+  if (run_.file_count_ > 1) absl::StrAppend(&label_, " (", run_.file_, " of ", run_.file_count_, ")");
+}
+
+void FileProgress::File::Reach(std::uint64_t bytes, std::uint64_t records) {
+  bytes_ = bytes;
+  records_ = records;
+  run_.Show(label_, run_.bytes_before_ + bytes, run_.records_before_ + records);
+}
+
+FileProgress::File::~File() {
+  run_.bytes_before_ += bytes_;
+  run_.records_before_ += records_;
+  if (std::exchange(run_.drawn_, false)) std::fputs("\r\033[K", stderr);
+}
+
+}  // namespace albtpu::annotate

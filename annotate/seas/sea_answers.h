@@ -1,0 +1,49 @@
+// Answers pulses from the sea at their times.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/batch.h"
+#include "annotate/seas/open_seas.h"
+#include "annotate/seas/sea_timeline.h"
+#include "service/client/sea_sources.h"
+
+namespace albtpu::annotate {
+
+// Between two records each value is interpolated in variance: its square is linear in time, as the energy of the waves
+// is. So are the standard errors, as relative errors common to the two records; biases are linear. Each value at 95 %
+// is interpolated so, too: where the axes of the two seas differ, THU is at most 3 % more than that of the mean
+// covariance. Directions count from each record's own wind.
+class SeaAnswers {
+ public:
+  // Opens the first sea that is needed, so that a sea that cannot be compiled, and a server that does not answer, fail
+  // before any work.
+  static absl::StatusOr<std::unique_ptr<SeaAnswers>> Open(std::shared_ptr<const SeaTimeline> seas,
+                                                          std::unique_ptr<client::SeaSources> sources);
+
+  // Pulses need `times` where the timeline goes by time, each of which has a sea. Must outlive what it returns.
+  AnswerSource source();
+
+  const SeaTimeline& timeline() const { return *seas_; }
+  // Of a record, by which its table is known.
+  absl::StatusOr<client::TableSummary> Summary(std::size_t record);
+
+ private:
+  SeaAnswers(std::shared_ptr<const SeaTimeline> seas, std::unique_ptr<client::SeaSources> sources)
+      : seas_(std::move(seas)), open_(*seas_, std::move(sources)) {}
+
+  absl::Status Answer(const Query& query, const PulseBatch& pulses, const AnswerSelection& selection,
+                      AnswerBatch& answers);
+  // Of pulses between the same two records; the weights are those of the second.
+  absl::Status AnswerBetween(const Query& query, const PulseBatch& pulses, const BetweenRecords& between,
+                             const std::vector<float>& weights, const AnswerSelection& selection,
+                             AnswerBatch& answers);
+
+  std::shared_ptr<const SeaTimeline> seas_;
+  OpenSeas open_;
+  client::TableSummary first_;
+};
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,210 @@
+#include "annotate/totals/plan_total.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "annotate/run/exit_status.h"
+#include "config/sensors/installed_sensors.h"
+#include "sea/spectra/spectrum_moments.h"
+#include "sea/wave_state.h"
+
+namespace albtpu::annotate {
+namespace {
+
+// Of the index: by refractive_index.h 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.
+constexpr double kIndexOfState = 0.0002;
+
+std::string Text(std::span<const double> numbers, std::string_view unit) {
+  return absl::StrCat(absl::StrJoin(numbers, ", "), unit == "1" ? "" : " ",
+                      unit == "1" ? "" : std::string(unit));
+}
+
+// Takes each standard deviation from the user, else from the trajectory pulse by pulse, else from the sensor, else what
+// is assumed; and states which.
+class ErrorPlan {
+ public:
+  ErrorPlan(const config::SurveySettings& survey, const TotalContext& context, const config::Sensor& sensor,
+            bool index_of_state, TotalPlan& plan)
+      : given_(survey.sigma),
+        trajectory_errors_(context.trajectory_errors),
+        sensor_(sensor),
+        index_of_state_(index_of_state),
+        plan_(plan) {}
+
+  absl::Status Make() {
+    const SurfaceLocation located = plan_.options.located;
+    const bool range_given = given_.Has(&AirErrors::surface_range),
+               height_given = given_.Has(&AirErrors::surface_height);
+    if (range_given && (height_given || located == SurfaceLocation::kLevel)) {
+      return formats::UsageError(
+          absl::StrCat("[sigma] surface_range has no effect ",
+                       height_given ? "beside surface_height" : "where a level locates the surface",
+                       " (one of them is how well the surface was located); leave it out"));
+    }
+    const bool own_return = located == SurfaceLocation::kPulse && !height_given;
+    for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+      const ErrorSource& source = kErrorSources[i];
+      if (source.Is(&AirErrors::surface_range) ? own_return
+                                               : !own_return || !source.Is(&AirErrors::surface_height))
+        Take(i);
+    }
+    if (missing_.empty()) return absl::OkStatus();
+    return formats::UsageError(absl::StrCat("no source gives ", absl::StrJoin(missing_, " and "), " of ",
+                                            sensor_.title, "; state it under [sigma] in the survey file"));
+  }
+
+ private:
+  void Take(std::size_t i) {
+    const ErrorSource& source = kErrorSources[i];
+    const auto take = [&](const AirErrors& from, const std::string& origin, bool assumed) {
+      std::ranges::copy(source.In(from), source.In(plan_.options.errors).begin());
+      plan_.numbers.push_back(
+          {std::string(source.name), Text(source.In(from), source.unit), origin, assumed});
+    };
+    const auto [assumed, why] = Assumed(source);
+    bool* const by_pulse = source.Is(&AirErrors::position)   ? &plan_.position_by_pulse
+                           : source.Is(&AirErrors::attitude) ? &plan_.attitude_by_pulse
+                                                             : nullptr;
+    if (given_.stated[i]) return take(given_.values, "[sigma]", false);
+    if (by_pulse != nullptr && !trajectory_errors_.empty()) {
+      *by_pulse = true;
+      std::ranges::copy(source.In(assumed), source.In(plan_.options.errors).begin());
+      plan_.numbers.push_back({std::string(source.name), "pulse by pulse", trajectory_errors_, false});
+      return;
+    }
+    if (sensor_.errors.stated[i])
+      return take(sensor_.errors.values, absl::StrCat(sensor_.name, ": ", sensor_.origins[i]), false);
+    if (!why.empty()) return take(assumed, absl::StrCat("assumed: ", why), true);
+    missing_.push_back(absl::StrCat(std::string(source.name), " (", std::string(source.unit), ")"));
+  }
+
+  // The numbers of a source that nothing states, and why they stand for it.
+  std::pair<AirErrors, std::string> Assumed(const ErrorSource& source) const {
+    AirErrors assumed;
+    std::copy_n(source.assumed.begin(), source.size(), source.In(assumed).begin());
+    const double one_return = given_.Has(&AirErrors::surface_range) ? given_.values.surface_range
+                              : sensor_.errors.Has(&AirErrors::surface_range)
+                                  ? sensor_.errors.values.surface_range
+                                  : plan_.options.errors.bottom_range;
+    if (source.Is(&AirErrors::surface_range)) assumed.surface_range = one_return;
+    if (source.Is(&AirErrors::surface_height) && plan_.options.located != SurfaceLocation::kLevel) {
+      assumed.surface_height = one_return;
+      return {assumed, "no better than one return"};
+    }
+    if (source.Is(&AirErrors::index) && index_of_state_) {
+      assumed.index = kIndexOfState;
+      return {assumed, "temperature and salinity within 1 degree and 1"};
+    }
+    return {assumed, std::string(source.assumption)};
+  }
+
+  const config::StatedErrors given_;
+  const std::string& trajectory_errors_;
+  const config::Sensor& sensor_;
+  bool index_of_state_;
+  TotalPlan& plan_;
+  std::vector<std::string> missing_;
+};
+
+absl::StatusOr<SurfaceLocation> LocationOf(const config::SurfaceSettings& surface,
+                                           const TotalContext& context) {
+  if (surface.located.has_value()) {
+    const auto found =
+        std::find(kSurfaceLocationNames.begin(), kSurfaceLocationNames.end(), *surface.located);
+    const auto located = static_cast<SurfaceLocation>(found - kSurfaceLocationNames.begin());
+    if (located == SurfaceLocation::kLevel || context.has_surface_returns || !context.has_level)
+      return located;
+    return formats::UsageError(
+        absl::StrCat("[surface] located = \"", *surface.located,
+                     "\" needs returns from the surface, but only a level is given; give their classes, or "
+                     "located = \"level\""));
+  }
+  if (context.has_surface_returns) return SurfaceLocation::kLocal;
+  if (context.has_level) return SurfaceLocation::kLevel;
+  return formats::UsageError(
+      "nothing says how the surface was located when the points were made; give [surface] located = "
+      "\"pulse\" (by the "
+      "return of each pulse), \"local\" (by a model of these returns) or \"level\" (by a water level)");
+}
+
+absl::Status CheckDecided(const config::SurveySettings& survey) {
+  if (!survey.datum.sigma.has_value()) {
+    return formats::UsageError(
+        "the uncertainty of the vertical datum is not decided, so that no number may be called total; give "
+        "[datum] sigma "
+        "in m, 1 sigma (0 for ellipsoidal heights)");
+  }
+  if (survey.water.without_column() || survey.water.bias.has_value()) return absl::OkStatus();
+  return formats::UsageError(
+      "the share of the water column is not decided, so that no number may be called total; give [water] "
+      "bias = "
+      "\"none\" (it is in the points), \"correct\", \"vendor\" or \"calibrated\" with the optics of the "
+      "water and "
+      "the receiver, or column = \"none\" to leave it out");
+}
+
+}  // namespace
+
+TotalContext ContextOf(const config::SurveySettings& survey, Coverage coverage) {
+  const config::SurfaceSettings& surface = survey.surface;
+  return {.coverage = coverage,
+          .has_surface_returns = !surface.classes.empty() || surface.located.has_value(),
+          .has_level = surface.level.has_value()};
+}
+
+absl::StatusOr<TotalPlan> PlanTotal(const config::SurveySettings& survey, const TotalContext& context) {
+  if (absl::Status status = CheckDecided(survey); !status.ok()) return status;
+  const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*survey.sensor.name);
+  if (!sensor.ok()) return sensor.status();
+  const absl::StatusOr<SurfaceLocation> located = LocationOf(survey.surface, context);
+  if (!located.ok()) return located.status();
+  TotalPlan plan;
+  BudgetOptions& options = plan.options;
+  options.located = *located;
+  options.coverage = context.coverage;
+  const auto state = [&](const char* name, const std::string& value, const std::string& source,
+                         bool assumed) {
+    plan.numbers.push_back({name, value, source, assumed});
+  };
+  state("sensor", sensor->title, sensor->name, false);
+  if (sensor->divergence.has_value()) plan.divergence = sensor->divergence->value;
+
+  const config::WaterSettings& water = survey.water;
+  const std::optional<double> of_water = IndexOf(water);
+  const bool by_state = of_water.has_value() && !water.index.has_value();
+  if (absl::Status status = ErrorPlan(survey, context, *sensor, by_state, plan).Make(); !status.ok())
+    return status;
+  options.index = of_water.value_or(options.index);
+  state("refractive_index", absl::StrCat(options.index),
+        !of_water.has_value() ? "assumed: sea water at 532 nm"
+        : by_state            ? "temperature and salinity of [water], 532 nm"
+                              : "the user",
+        !of_water.has_value());
+  const std::optional<config::Triple>& arm = survey.sensor.lever_arm;
+  options.lever_arm = arm.value_or(config::Triple{});
+  state("lever_arm_vector", Text(options.lever_arm, "m"), arm.has_value() ? "the user" : "assumed: none",
+        !arm.has_value());
+  options.datum = *survey.datum.sigma;
+  state("datum", absl::StrCat(options.datum, " m"), "[datum]", false);
+  absl::StatusOr<WaterPlan> planned = PlanWater(water, options.index, plan.numbers);
+  if (!planned.ok()) return planned.status();
+  plan.water = *std::move(planned);
+  return plan;
+}
+
+float WaveHeightOfWind(double wind_speed, std::optional<float> fetch, const std::string& spectrum) {
+  if (wind_speed <= 0) return 0;
+  const bool apel = absl::StartsWith(spectrum, "Apel");
+  const WindSea sea{.wind_speed_10m = wind_speed,
+                    .fetch = fetch.has_value() ? *fetch : std::numeric_limits<double>::infinity(),
+                    .model = apel ? &kApelModel : &kElfouhailyModel};
+  return static_cast<float>(std::sqrt(ElevationVariance(Sampled(*sea.MakeSpectrum(), SeaWavenumbers(), 1))));
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,95 @@
+#include "annotate/totals/pulse_totals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace albtpu::annotate {
+namespace {
+
+// The sigmas of the plan in place of those of the trajectory that are not known, or not wanted. Returns at how many
+// pulses they were not known.
+std::uint64_t TakeSigmas(const TotalPlan& plan, AircraftColumns& aircraft) {
+  std::uint64_t assumed = 0;
+  const auto fill = [&](bool by_pulse, BudgetInput input, double of_plan) {
+    std::vector<float>& column = aircraft[input];
+    if (!by_pulse) return column.clear();
+    const auto is_unknown = [](float sigma) { return !std::isfinite(sigma); };
+    assumed = std::max<std::uint64_t>(assumed, std::ranges::count_if(column, is_unknown));
+    std::ranges::replace_if(column, is_unknown, static_cast<float>(of_plan));
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    fill(plan.position_by_pulse, BudgetInput::kPositionSigmaNorth + axis, plan.options.errors.position[axis]);
+    fill(plan.attitude_by_pulse, BudgetInput::kRollSigma + axis, plan.options.errors.attitude[axis]);
+  }
+  return assumed;
+}
+
+}  // namespace
+
+void SelectForTotals(AnswerSelection& selection) {
+  selection.quantities.fill(true);
+  selection.sea_frame = true;
+}
+
+void ComputeTotals(const TotalPlan& plan, const PulseBatch& pulses, const AnswerBatch& sea,
+                   AircraftColumns& aircraft, TotalBatch& totals) {
+  totals.sigmas_assumed = TakeSigmas(plan, aircraft);
+  BudgetPulses asked{.pulses = pulses.columns(), .aircraft = {.size = pulses.size}, .sea_axis = {}};
+  for (const BudgetInput input : kAircraftInputs) asked.aircraft[input] = aircraft[input];
+  asked.aircraft[BudgetInput::kWaterSigmaAlong] = totals.water.sigma_along;
+  asked.aircraft[BudgetInput::kWaterSigmaVertical] = totals.water.sigma_vertical;
+  asked.aircraft[BudgetInput::kWaterCorrelation] = totals.water.correlation;
+  asked.aircraft[BudgetInput::kWaterNoise] = totals.water.noise;
+  asked.aircraft[BudgetInput::kSeaAxis] = sea.sea_axes;
+  if (sea.sea_axes.empty()) asked.sea_axis = plan.sea_axis;
+  if (plan.waves_unseen()) {
+    asked.aircraft[BudgetInput::kWaveHeight] =
+        sea.wave_heights.empty() ? std::span(&plan.wave_height, 1) : std::span(sea.wave_heights);
+  }
+  SeaShare share;
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = sea.values[i];
+
+  BudgetOutputs outputs;
+  const auto column = [&](auto& numbers) {
+    numbers.resize(pulses.size);
+    return std::span(numbers);
+  };
+  const auto covariance = [&](TotalBatch::Covariance& of, CovarianceColumns& columns, bool whole) {
+    for (std::size_t i = 0; i < (whole ? 6 : 3); ++i) columns[i] = column(of[i]);
+  };
+  outputs.thu = column(totals.thu);
+  outputs.tvu = column(totals.tvu);
+  outputs.thu_air = column(totals.thu_air);
+  outputs.tvu_air = column(totals.tvu_air);
+  outputs.thu_sea = column(totals.thu_sea);
+  outputs.tvu_sea = column(totals.tvu_sea);
+  if (!totals.water.noise.empty()) {
+    outputs.thu_water = column(totals.thu_water);
+    outputs.tvu_water = column(totals.tvu_water);
+    covariance(totals.of_water, outputs.water, totals.whole);
+  }
+  covariance(totals.covariance, outputs.total, true);
+  covariance(totals.air, outputs.air, totals.whole);
+  covariance(totals.sea, outputs.sea, totals.whole);
+  for (std::size_t g = 0; g < kErrorGroups; ++g)
+    covariance(totals.groups[g], outputs.groups[g], totals.whole);
+  outputs.best_orders = column(totals.best_orders);
+  ComputePulseBudget(asked, share, plan.options, outputs);
+  if (!aircraft[BudgetInput::kBeamAzimuth].empty()) return;
+  for (const std::size_t entry : {0, 1, 3, 4, 5}) totals.covariance[entry].assign(pulses.size, NAN);
+}
+
+std::array<float, 6> OnGridAxes(const TotalBatch::Covariance& covariance, std::size_t i, float convergence) {
+  // The x axis is (north, east) = (-s, c), the y axis (c, s).
+  const float c = std::cos(convergence), s = std::sin(convergence);
+  const float nn = covariance[0][i], ee = covariance[1][i], dd = covariance[2][i];
+  const float ne = covariance[3][i], nd = covariance[4][i], ed = covariance[5][i];
+  return {s * s * nn + c * c * ee - 2 * s * c * ne,
+          c * c * nn + s * s * ee + 2 * s * c * ne,
+          dd,
+          s * c * (ee - nn) + (c * c - s * s) * ne,
+          s * nd - c * ed,
+          -(c * nd + s * ed)};
+}
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,211 @@
+#include "annotate/totals/total_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "formats/text/number_text.h"
+
+namespace albtpu::annotate {
+namespace {
+
+using nlohmann::ordered_json;
+
+// From 0.1 mm to 10 km in steps of 1 %.
+constexpr double kLeastLength = 1e-4, kStep = 0.01;
+constexpr std::size_t kBins = 1843;
+
+ordered_json Json(const LengthSpread& spread) {
+  return {{"mean", spread.mean()},
+          {"median", spread.quantile(0.5)},
+          {"percentile_95", spread.quantile(0.95)},
+          {"greatest", formats::JsonNumber(spread.greatest())}};
+}
+
+}  // namespace
+
+void LengthSpread::Add(float metres) {
+  if (bins_.empty()) bins_.resize(kBins);
+  const double bin = std::log(std::max<double>(metres, kLeastLength) / kLeastLength) / kStep;
+  ++bins_[std::min(static_cast<std::size_t>(bin), kBins - 1)];
+  ++count_;
+  sum_ += metres;
+  greatest_ = std::max(greatest_, metres);
+}
+
+void LengthSpread::Merge(const LengthSpread& other) {
+  if (other.count_ == 0) return;
+  bins_.resize(kBins);
+  for (std::size_t i = 0; i < kBins; ++i) bins_[i] += other.bins_[i];
+  count_ += other.count_;
+  sum_ += other.sum_;
+  greatest_ = std::max(greatest_, other.greatest_);
+}
+
+double LengthSpread::quantile(double fraction) const {
+  const double wanted = fraction * static_cast<double>(count_);
+  double reached = 0;
+  std::size_t bin = 0;
+  while (bin + 1 < kBins && reached + bins_[bin] < wanted) reached += bins_[bin++];
+  return std::min<double>(kLeastLength * std::exp(kStep * (static_cast<double>(bin) + 0.5)), greatest_);
+}
+
+void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals) {
+  for (std::size_t i = 0; i < totals.size(); ++i) Add(pulses, sea, totals, i);
+}
+
+void TotalSummary::Add(const PulseBatch& pulses, const AnswerBatch& sea, const TotalBatch& totals,
+                       std::size_t i) {
+  if (!std::isfinite(totals.thu[i]) || !std::isfinite(totals.tvu[i])) return;
+  const float depth = pulses.coordinate(AxisId::kDepth, i);
+  std::size_t index = 0;
+  for (const float end : kBandEnds) index += depth >= end;
+  Band& band = bands_[index];
+  band.thu.Add(totals.thu[i]);
+  band.tvu.Add(totals.tvu[i]);
+  band.air.Add(totals.air, i);
+  band.sea.Add(totals.sea, i);
+  if (!totals.of_water[2].empty()) band.water.Add(totals.of_water, i);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+    band.groups[g].Add(totals.groups[g], i);
+    band.total.Add(totals.groups[g], i);
+  }
+  const auto bias = [&](Quantity quantity) {
+    const float value = sea[quantity][i];
+    return std::isfinite(value) ? value : 0;
+  };
+  band.bias_along_beam += bias(Quantity::kBiasAlongBeam);
+  band.bias_vertical += bias(Quantity::kBiasVertical);
+  ++band.best_orders[totals.best_orders[i]];
+}
+
+std::uint64_t TotalSummary::Band::Meeting(S44Order order) const {
+  // A pulse that meets a stricter order meets this one, too: its limits are wider.
+  std::uint64_t meeting = 0;
+  for (std::size_t i = 1; i <= static_cast<std::size_t>(order) + 1; ++i) meeting += best_orders[i];
+  return meeting;
+}
+
+void TotalSummary::Band::Merge(const Band& other) {
+  thu.Merge(other.thu);
+  tvu.Merge(other.tvu);
+  air.Merge(other.air);
+  sea.Merge(other.sea);
+  water.Merge(other.water);
+  total.Merge(other.total);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) groups[g].Merge(other.groups[g]);
+  bias_along_beam += other.bias_along_beam;
+  bias_vertical += other.bias_vertical;
+  for (std::size_t i = 0; i < best_orders.size(); ++i) best_orders[i] += other.best_orders[i];
+}
+
+void TotalSummary::Merge(const TotalSummary& other) {
+  for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i].Merge(other.bands_[i]);
+}
+
+TotalSummary::Band TotalSummary::All() const {
+  Band all;
+  for (const Band& band : bands_) all.Merge(band);
+  return all;
+}
+
+std::uint64_t TotalSummary::count() const {
+  std::uint64_t count = 0;
+  for (const Band& band : bands_) count += band.thu.count();
+  return count;
+}
+
+ordered_json TotalSummary::Band::Json() const {
+  ordered_json json = {
+      {"pulses", thu.count()}, {"total_thu", annotate::Json(thu)}, {"total_tvu", annotate::Json(tvu)}};
+  // Of the sums of variances over all pulses.
+  const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+  const auto shares = [&](double Sums::*axis) {
+    const double whole = total.*axis, datum = std::max(0.0, whole - air.*axis - sea.*axis - water.*axis);
+    return ordered_json{{"air", share(air.*axis, whole)},
+                        {"sea", share(sea.*axis, whole)},
+                        {"water", share(water.*axis, whole)},
+                        {"datum", share(axis == &Sums::vertical ? datum : 0, whole)}};
+  };
+  json["shares_horizontal"] = shares(&Sums::horizontal);
+  json["shares_vertical"] = shares(&Sums::vertical);
+  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+    json["groups_horizontal"][std::string(kErrorGroupNames[g])] =
+        share(groups[g].horizontal, total.horizontal);
+  }
+  for (std::size_t g = 0; g < kErrorGroups; ++g) {
+    json["groups_vertical"][std::string(kErrorGroupNames[g])] = share(groups[g].vertical, total.vertical);
+  }
+  const auto pulses = static_cast<double>(thu.count());
+  json["mean_bias_along_beam"] = bias_along_beam / pulses;
+  json["mean_bias_vertical"] = bias_vertical / pulses;
+  for (const S44Order order : kS44Orders) json["s44_met"][std::string(Name(order))] = Meeting(order);
+  return json;
+}
+
+ordered_json TotalSummary::Json() const {
+  ordered_json json;
+  const Band all = All();
+  json["pulses"] = all.thu.count();
+  if (all.thu.count() == 0) return json;
+  json["all"] = all.Json();
+  ordered_json& bands = json["depth_bands"] = ordered_json::array();
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    if (bands_[i].thu.count() == 0) continue;
+    ordered_json band = {{"from", i == 0 ? 0 : kBandEnds[i - 1]}, {"to", nullptr}};
+    if (i < kBandEnds.size()) band["to"] = kBandEnds[i];
+    band.update(bands_[i].Json());
+    bands.push_back(std::move(band));
+  }
+  return json;
+}
+
+std::string TotalSummary::Text(Coverage coverage, S44Order order) const {
+  const std::string at = CoverageText(coverage);
+  std::string text = absl::StrFormat("\n  %11s %9s %26s %26s %27s %12s", "depth", "points",
+                                     absl::StrCat("total THU, ", at), absl::StrCat("total TVU, ", at),
+                                     "vertical variance", absl::StrCat("S-44 ", std::string(Name(order))));
+  absl::StrAppend(&text, absl::StrFormat("\n  %11s %9s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %12s", "m", "",
+                                         "median m", "95 % m", "max m", "median m", "95 % m", "max m", "air",
+                                         "sea", "water", "datum", "met"));
+  const auto line = [&](const std::string& name, const Band& band) {
+    const double whole = band.total.vertical > 0 ? band.total.vertical : 1;
+    const double air = band.air.vertical / whole, sea = band.sea.vertical / whole,
+                 water = band.water.vertical / whole;
+    absl::StrAppend(
+        &text,
+        absl::StrFormat(
+            "\n  %11s %9d %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %4.0f %% %4.0f %% %4.0f %% %4.0f %% %10.1f %%",
+            name, band.thu.count(), band.thu.quantile(0.5), band.thu.quantile(0.95), band.thu.greatest(),
+            band.tvu.quantile(0.5), band.tvu.quantile(0.95), band.tvu.greatest(), 100 * air, 100 * sea,
+            100 * water, 100 * std::max(0.0, 1 - air - sea - water),
+            100 * static_cast<double>(band.Meeting(order)) / static_cast<double>(band.thu.count())));
+  };
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    if (bands_[i].thu.count() == 0) continue;
+    const double begin = i == 0 ? 0 : kBandEnds[i - 1];
+    const std::string end = i < kBandEnds.size() ? absl::StrFormat("%g", kBandEnds[i]) : "";
+    line(absl::StrFormat("%g - %s", begin, end), bands_[i]);
+  }
+  if (count() > 0) line("all", All());
+  return text;
+}
+
+ordered_json WithTotal(ordered_json answers, const TotalPlan& plan, const TotalSummary& totals,
+                       const std::map<int, TotalSummary>& lines) {
+  for (const char* const of_sea : {"s44_best_order", "depth_bands"}) {
+    if (!answers.contains(of_sea)) continue;
+    answers["sea_surface"][of_sea] = std::move(answers[of_sea]);
+    answers.erase(of_sea);
+  }
+  ordered_json& total = answers["total"] = totals.Json();
+  total["coverage"] = CoverageName(plan.options.coverage);
+  total["assumed"] = Assumptions(plan);
+  for (const auto& [line, summary] : lines) total["lines"][absl::StrCat(line)] = summary.Json();
+  return answers;
+}
+
+}  // namespace albtpu::annotate

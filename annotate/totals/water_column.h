@@ -1,0 +1,50 @@
+// The share of the water column, from what the user says to the columns of a budget.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/batch.h"
+#include "annotate/totals/stated_number.h"
+#include "budget/water/refractive_index.h"
+#include "budget/water/water_share.h"
+#include "config/survey_settings.h"
+
+namespace albtpu::annotate {
+
+// What a total takes of the water.
+struct WaterPlan {
+  std::shared_ptr<const WaterShare> share;  // null: left out
+  std::optional<double> photons;            // counted in an echo
+  double index = 1.34;                      // of the phase
+  // Where the processing used another index than that of the water.
+  std::optional<WaterIndex> of_water;
+  double processed_with = 0;
+};
+
+// `index` is that of the plan. UsageError where the settings are incomplete or contradict each other, and what the table
+// refuses. Adds to `numbers` what was taken and where from.
+absl::StatusOr<WaterPlan> PlanWater(const config::WaterSettings& settings, double index,
+                                    std::vector<StatedNumber>& numbers);
+
+// The index that the user gives, or that of the temperature and salinity if both are given (refractive_index.h).
+std::optional<double> IndexOf(const config::WaterSettings& water);
+
+// The value of the environment variable `ALBTPU_WATER_TABLE`. If it is empty or not set,
+// PREFIX/share/albtpu/water/water_column.h5 for a program that runs as PREFIX/bin/NAME.
+std::filesystem::path WaterTablePath();
+
+// Columns of BudgetInput, one element for each pulse; empty where the share is left out.
+struct WaterBatch {
+  std::vector<float> sigma_along, sigma_vertical, correlation, noise;
+  std::vector<float> bias_along, bias_vertical,
+      stretch;  // of scattering alone, as far as it is in the points
+};
+
+// Finds the share of pulses that have an answer of the sea, and adds the water's biases to those of the sea. A pulse
+// that the share does not know gets the outcome kNoWater.
+void AddWater(const WaterPlan& plan, const PulseBatch& pulses, AnswerBatch& answers, WaterBatch& water);
+
+}  // namespace albtpu::annotate

@@ -1,0 +1,268 @@
+#include "formats/crs/map_frame.h"
+
+#include <cassert>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "formats/crs/proj_crs.h"
+
+namespace albtpu::formats {
+namespace {
+
+// A degree is 0.0175 rad, and every other angular unit of coordinates is smaller. A text whose unit of angles is larger
+// has the wrong one: some programs write UNIT["Meter",1] there.
+constexpr double kLargestAngularUnit = 0.018;
+
+// m, between a position on the map and the projection of its inverse: PROJ iterates to 1e-4 m or better.
+constexpr double kLargestDeparture = 0.01;
+
+constexpr double kStep = 1e-5;  // rad, half the distance of the differences that MetricAt takes: 64 m.
+
+absl::StatusOr<ProjCrs> ReadUsable(ProjContext& context, const std::string& text) {
+  absl::StatusOr<ProjCrs> crs = ReadCrs(context, text);
+  if (crs.ok() && crs->angular_unit > kLargestAngularUnit) {
+    return absl::InvalidArgumentError("its geographic coordinates have a unit that is not an angle");
+  }
+  return crs;
+}
+
+absl::Status Unusable(const std::string& name, const std::string& why) {
+  return absl::InvalidArgumentError(absl::StrCat(name, ": its coordinate system cannot be used (", why,
+                                                 "); name it by --crs, such as --crs EPSG:26917"));
+}
+
+// The coordinate system, and how it was found where the user should know.
+struct Found {
+  ProjCrs crs;
+  std::string remark;
+  std::optional<double> unit;  // Overrides that of the system.
+};
+
+absl::StatusOr<Found> FromGeoKeys(ProjContext& context, const CrsDescription& description) {
+  const int code = description.projected != 0 ? description.projected : description.geographic;
+  absl::StatusOr<ProjCrs> crs = ReadUsable(context, absl::StrCat("EPSG:", code));
+  if (!crs.ok()) return crs.status();
+  Found found = {*std::move(crs), "", std::nullopt};
+  if (found.crs.is_projected && description.linear_unit != 0) {
+    found.unit = MetresOfUnit(context, description.linear_unit);
+  }
+  return found;
+}
+
+absl::StatusOr<Found> FromFile(ProjContext& context, const std::string& name,
+                               const CrsDescription& description) {
+  const bool has_keys = description.projected != 0 || description.geographic != 0;
+  if (description.wkt.empty()) {
+    absl::StatusOr<Found> found = FromGeoKeys(context, description);
+    if (!found.ok()) {
+      return Unusable(name, absl::StrCat("its GeoTIFF codes: ", found.status().message()));
+    }
+    return found;
+  }
+  absl::StatusOr<ProjCrs> crs = ReadCrs(context, description.wkt);
+  const std::optional<double> height_unit = crs.ok() ? crs->metres_per_height_unit : std::nullopt;
+  if (crs.ok() && crs->angular_unit <= kLargestAngularUnit) return Found{*std::move(crs), "", std::nullopt};
+  const std::string why = crs.ok() ? "its geographic coordinates have a unit that is not an angle"
+                                   : std::string(crs.status().message());
+  std::optional<int> code = LastEpsgCode(description.wkt);
+  if (crs.ok() && crs->authority == "EPSG") {
+    int named = 0;
+    for (const char digit : crs->code) named = named * 10 + (digit - '0');
+    code = named;
+  }
+  if (code.has_value()) {
+    absl::StatusOr<ProjCrs> by_code = ReadUsable(context, absl::StrCat("EPSG:", *code));
+    if (by_code.ok()) {
+      if (!by_code->metres_per_height_unit.has_value()) by_code->metres_per_height_unit = height_unit;
+      return Found{*std::move(by_code),
+                   absl::StrCat(name, ": its well-known text is faulty (", why, "); its code, EPSG:", *code,
+                                ", is used"),
+                   std::nullopt};
+    }
+  }
+  if (has_keys) {
+    absl::StatusOr<Found> by_keys = FromGeoKeys(context, description);
+    if (by_keys.ok()) {
+      by_keys->remark = absl::StrCat(name, ": its well-known text is faulty (", why,
+                                     "); its GeoTIFF code, EPSG:", by_keys->crs.code, ", is used");
+      return by_keys;
+    }
+  }
+  return Unusable(name, absl::StrCat("its well-known text: ", why));
+}
+
+}  // namespace
+
+// A context with its transformation, for one thread at a time.
+class MapFrame::Transformer {
+ public:
+  explicit Transformer(const std::string& pipeline)
+      : transformation_(proj_create(context_.get(), pipeline.c_str())) {
+    assert(transformation_ != nullptr);  // PROJ wrote the text itself.
+  }
+  MapPosition operator()(double longitude, double latitude) {
+    const PJ_COORD result = proj_trans(transformation_.get(), PJ_FWD, proj_coord(longitude, latitude, 0, 0));
+    return {result.xy.x, result.xy.y};
+  }
+  // Longitude and latitude as x and y.
+  MapPosition Inverse(double x, double y) {
+    const PJ_COORD result = proj_trans(transformation_.get(), PJ_INV, proj_coord(x, y, 0, 0));
+    return {result.xy.x, result.xy.y};
+  }
+
+ private:
+  ProjContext context_;
+  ProjObject transformation_;
+};
+
+// As many transformers as threads ask at a time.
+class MapFrame::Transformers {
+ public:
+  std::unique_ptr<Transformer> Take(const std::string& pipeline) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Transformer> transformer = std::move(idle_.back());
+        idle_.pop_back();
+        return transformer;
+      }
+    }
+    return std::make_unique<Transformer>(pipeline);
+  }
+  void Return(std::unique_ptr<Transformer> transformer) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(transformer));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Transformer>> idle_;
+};
+
+MapFrame::MapFrame() : transformers_(std::make_unique<Transformers>()) {}
+MapFrame::~MapFrame() = default;
+
+absl::StatusOr<std::shared_ptr<const MapFrame>> MapFrame::Create(const std::string& name,
+                                                                 const CrsDescription& description) {
+  ProjContext context;
+  if (absl::Status status = context.CheckDatabase(); !status.ok()) return status;
+  if (description.empty()) return Unusable(name, "it states none");
+  absl::StatusOr<Found> found;
+  if (!description.user.empty()) {
+    absl::StatusOr<ProjCrs> crs = ReadUsable(context, description.user);
+    if (!crs.ok()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--crs: '", description.user, "' cannot be used (", crs.status().message(),
+                       "); give a code such as EPSG:26917, or well-known text"));
+    }
+    found = Found{*std::move(crs), "", std::nullopt};
+  } else {
+    found = FromFile(context, name, description);
+    if (!found.ok()) return found.status();
+  }
+  const ProjCrs& crs = found->crs;
+  std::shared_ptr<MapFrame> frame(new MapFrame());
+  frame->crs_name_ = crs.name;
+  if (const char* wkt = proj_as_wkt(context.get(), crs.horizontal.get(), PJ_WKT1_GDAL, nullptr))
+    frame->wkt_ = wkt;
+  frame->remark_ = found->remark;
+  frame->angular_unit_ = crs.angular_unit;
+  frame->prime_meridian_ = crs.prime_meridian;
+  frame->unit_ = found->unit.value_or(crs.unit);
+  frame->unit_factor_ = frame->unit_ / crs.unit;
+  frame->is_transverse_mercator_ = crs.is_transverse_mercator;
+  frame->ellipsoid_ = crs.ellipsoid;
+  frame->metres_per_height_unit_ = crs.metres_per_height_unit;
+  if (!frame->metres_per_height_unit_.has_value() && description.vertical_unit != 0) {
+    frame->metres_per_height_unit_ = MetresOfUnit(context, description.vertical_unit);
+  }
+  if (!frame->metres_per_height_unit_.has_value() && description.vertical != 0) {
+    frame->metres_per_height_unit_ = MetresOfVerticalCrs(context, description.vertical);
+  }
+  if (!crs.is_projected) return frame;
+  const ProjObject operation(proj_create_crs_to_crs_from_pj(context.get(), crs.geographic.get(),
+                                                            crs.horizontal.get(), nullptr, nullptr));
+  const ProjObject transformation(
+      operation == nullptr ? nullptr : proj_normalize_for_visualization(context.get(), operation.get()));
+  const char* pipeline = transformation == nullptr
+                             ? nullptr
+                             : proj_as_proj_string(context.get(), transformation.get(), PJ_PROJ_5, nullptr);
+  if (pipeline == nullptr) {
+    return Unusable(name, absl::StrCat("PROJ cannot project into ", crs.name, ": ", context.last_message()));
+  }
+  frame->pipeline_ = pipeline;
+  return frame;
+}
+
+void MapFrame::Project(std::span<const GeographicPosition> from, std::span<MapPosition> to) const {
+  assert(from.size() == to.size());
+  if (is_geographic()) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const double longitude = std::remainder(from[i].longitude - prime_meridian_, 2 * std::numbers::pi);
+      to[i] = {longitude / unit_, from[i].latitude / unit_};
+    }
+    return;
+  }
+  std::unique_ptr<Transformer> transformer = transformers_->Take(pipeline_);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    to[i] = (*transformer)((from[i].longitude - prime_meridian_) / angular_unit_,
+                           from[i].latitude / angular_unit_);
+    to[i].x /= unit_factor_;
+    to[i].y /= unit_factor_;
+  }
+  transformers_->Return(std::move(transformer));
+}
+
+MapPosition MapFrame::Project(const GeographicPosition& position) const {
+  MapPosition result;
+  Project(std::span(&position, 1), std::span(&result, 1));
+  return result;
+}
+
+std::optional<GeographicPosition> MapFrame::GeographicAt(const MapPosition& position) const {
+  double longitude = position.x * unit_, latitude = position.y * unit_;
+  if (!is_geographic()) {
+    std::unique_ptr<Transformer> transformer = transformers_->Take(pipeline_);
+    const MapPosition angles = transformer->Inverse(position.x * unit_factor_, position.y * unit_factor_);
+    transformers_->Return(std::move(transformer));
+    longitude = angles.x * angular_unit_;
+    latitude = angles.y * angular_unit_;
+  }
+  if (!std::isfinite(longitude) || !(std::abs(latitude) < std::numbers::pi / 2)) return std::nullopt;
+  const GeographicPosition found = {latitude, longitude + prime_meridian_};
+  // Far outside of a projection, PROJ's inverse gives some position that does not lead back.
+  if (!is_geographic()) {
+    const MapPosition again = Project(found);
+    if (!(std::hypot(again.x - position.x, again.y - position.y) * unit_ < kLargestDeparture))
+      return std::nullopt;
+  }
+  return found;
+}
+
+// With x_E the change of x in a metre to the east and so on, a step (E, N) on the ground is the step
+//     (x, y) = ((x_E, x_N), (y_E, y_N)) (E, N)
+// on the map. The columns of the inverse are the steps on the ground for a unit of x and of y: their lengths are the
+// metres in a unit, and the direction of the second is grid north, clockwise from true north.
+MapMetric MapFrame::MetricAt(const GeographicPosition& position) const {
+  const double meridian = ellipsoid_.MeridianRadius(position.latitude);
+  const double parallel = ellipsoid_.PrimeVerticalRadius(position.latitude) * std::cos(position.latitude);
+  if (is_geographic()) return {parallel * unit_, meridian * unit_, 0};
+  const std::array from = {GeographicPosition{position.latitude, position.longitude - kStep},
+                           GeographicPosition{position.latitude, position.longitude + kStep},
+                           GeographicPosition{position.latitude - kStep, position.longitude},
+                           GeographicPosition{position.latitude + kStep, position.longitude}};
+  std::array<MapPosition, 4> to;
+  Project(from, to);
+  const double east = 2 * kStep * parallel, north = 2 * kStep * meridian;
+  const double x_east = (to[1].x - to[0].x) / east, y_east = (to[1].y - to[0].y) / east;
+  const double x_north = (to[3].x - to[2].x) / north, y_north = (to[3].y - to[2].y) / north;
+  const double determinant = x_east * y_north - x_north * y_east;
+  return {std::hypot(y_north, y_east) / std::abs(determinant),
+          std::hypot(x_north, x_east) / std::abs(determinant),
+          std::atan2(-x_north / determinant, x_east / determinant)};
+}
+
+}  // namespace albtpu::formats

@@ -1,0 +1,179 @@
+#include "formats/crs/proj_crs.h"
+
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "sea/angle.h"
+
+namespace albtpu::formats {
+namespace {
+
+// The unit of an axis: metres or radians.
+std::optional<double> AxisUnit(ProjContext& context, const PJ* crs, int axis) {
+  const ProjObject system(proj_crs_get_coordinate_system(context.get(), crs));
+  double unit = 0;
+  if (system == nullptr || axis >= proj_cs_get_axis_count(context.get(), system.get()) ||
+      !proj_cs_get_axis_info(context.get(), system.get(), axis, nullptr, nullptr, nullptr, &unit, nullptr,
+                             nullptr, nullptr) ||
+      !(unit > 0)) {
+    return std::nullopt;
+  }
+  return unit;
+}
+
+// A compound system consists of others; a bound one adds a datum shift, which is not used, to another.
+ProjObject WithoutDatumShift(ProjContext& context, ProjObject crs) {
+  if (crs != nullptr && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) {
+    return ProjObject(proj_get_source_crs(context.get(), crs.get()));
+  }
+  return crs;
+}
+
+bool IsGeographic(const PJ* crs) {
+  const PJ_TYPE type = proj_get_type(crs);
+  return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+}
+
+std::string TextOrEmpty(const char* text) { return text == nullptr ? "" : text; }
+
+void FillEllipsoid(ProjContext& context, ProjCrs& crs) {
+  if (const ProjObject ellipsoid(proj_get_ellipsoid(context.get(), crs.geographic.get()));
+      ellipsoid != nullptr) {
+    double a = 0, b = 0;
+    if (proj_ellipsoid_get_parameters(context.get(), ellipsoid.get(), &a, &b, nullptr, nullptr) && a > 0) {
+      crs.ellipsoid = {a, 1 - (b / a) * (b / a)};
+    }
+  }
+  if (const ProjObject meridian(proj_get_prime_meridian(context.get(), crs.geographic.get()));
+      meridian != nullptr) {
+    double longitude = 0, unit = 0;
+    if (proj_prime_meridian_get_parameters(context.get(), meridian.get(), &longitude, &unit, nullptr)) {
+      crs.prime_meridian = longitude * unit;
+    }
+  }
+}
+
+bool IsTransverseMercator(ProjContext& context, const PJ* projected) {
+  const ProjObject conversion(proj_crs_get_coordoperation(context.get(), projected));
+  const char* method = nullptr;
+  return conversion != nullptr &&
+         proj_coordoperation_get_method_info(context.get(), conversion.get(), &method, nullptr, nullptr) &&
+         std::string(method) == "Transverse Mercator";
+}
+
+ProjObject Parse(ProjContext& context, const std::string& text) {
+  // A text in brackets is well-known text, which PROJ reads leniently; faults that do not prevent reading are ignored.
+  if (text.find('[') != std::string::npos && text.find('{') == std::string::npos) {
+    PROJ_STRING_LIST warnings = nullptr, errors = nullptr;
+    ProjObject crs(proj_create_from_wkt(context.get(), text.c_str(), nullptr, &warnings, &errors));
+    proj_string_list_destroy(warnings);
+    proj_string_list_destroy(errors);
+    return crs;
+  }
+  return ProjObject(proj_create(context.get(), text.c_str()));
+}
+
+}  // namespace
+
+ProjContext::ProjContext() : context_(proj_context_create()) {
+  proj_context_set_enable_network(context_, 0);
+  proj_log_level(context_, PJ_LOG_ERROR);
+  proj_log_func(context_, &last_message_,
+                [](void* last, int, const char* message) { *static_cast<std::string*>(last) = message; });
+}
+
+ProjContext::~ProjContext() { proj_context_destroy(context_); }
+
+absl::Status ProjContext::CheckDatabase() const {
+  if (proj_context_get_database_path(context_) != nullptr) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      "PROJ does not find proj.db, its database of coordinate systems; install the package proj-data, or set "
+      "PROJ_LIB to the folder of proj.db");
+}
+
+absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text) {
+  ProjCrs crs;
+  ProjObject whole = WithoutDatumShift(context, Parse(context, text));
+  if (whole == nullptr) {
+    return absl::InvalidArgumentError(context.last_message().empty() ? "PROJ cannot read it"
+                                                                     : context.last_message());
+  }
+  if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
+    const ProjObject vertical =
+        WithoutDatumShift(context, ProjObject(proj_crs_get_sub_crs(context.get(), whole.get(), 1)));
+    if (vertical != nullptr) crs.metres_per_height_unit = AxisUnit(context, vertical.get(), 0);
+    whole = WithoutDatumShift(context, ProjObject(proj_crs_get_sub_crs(context.get(), whole.get(), 0)));
+  }
+  if (whole != nullptr) {
+    crs.is_projected = proj_get_type(whole.get()) == PJ_TYPE_PROJECTED_CRS;
+    if (crs.is_projected || IsGeographic(whole.get())) {
+      crs.geographic.reset(proj_crs_get_geodetic_crs(context.get(), whole.get()));
+    }
+  }
+  const std::optional<double> unit = whole == nullptr ? std::nullopt : AxisUnit(context, whole.get(), 0);
+  const std::optional<double> angular_unit =
+      crs.geographic == nullptr ? std::nullopt : AxisUnit(context, crs.geographic.get(), 0);
+  if (!unit.has_value() || !angular_unit.has_value()) {
+    return absl::InvalidArgumentError("it is not a projected or geographic coordinate system");
+  }
+  crs.unit = *unit;
+  crs.angular_unit = *angular_unit;
+  crs.name = TextOrEmpty(proj_get_name(whole.get()));
+  crs.authority = TextOrEmpty(proj_get_id_auth_name(whole.get(), 0));
+  crs.code = TextOrEmpty(proj_get_id_code(whole.get(), 0));
+  if (!crs.metres_per_height_unit.has_value()) {
+    crs.metres_per_height_unit = AxisUnit(context, whole.get(), 2);
+  }
+  crs.is_transverse_mercator = crs.is_projected && IsTransverseMercator(context, whole.get());
+  FillEllipsoid(context, crs);
+  crs.horizontal = std::move(whole);
+  return crs;
+}
+
+std::optional<double> MetresOfUnit(ProjContext& context, int code) {
+  double metres = 0;
+  const char* category = nullptr;
+  if (!proj_uom_get_info_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(), nullptr, &metres,
+                                       &category) ||
+      std::string(category) != "linear" || !(metres > 0)) {
+    return std::nullopt;
+  }
+  return metres;
+}
+
+std::optional<double> MetresOfVerticalCrs(ProjContext& context, int code) {
+  const ProjObject crs(proj_create_from_database(context.get(), "EPSG", absl::StrCat(code).c_str(),
+                                                 PJ_CATEGORY_CRS, 0, nullptr));
+  if (crs == nullptr || proj_get_type(crs.get()) != PJ_TYPE_VERTICAL_CRS) return std::nullopt;
+  return AxisUnit(context, crs.get(), 0);
+}
+
+std::optional<int> LastEpsgCode(const std::string& wkt) {
+  const std::string text = absl::AsciiStrToUpper(wkt);
+  // The entry of the outermost bracket is the last one, so nothing but brackets follows it.
+  const std::size_t at = std::max(text.rfind("AUTHORITY[") + 1, text.rfind("ID[") + 1);
+  if (at == 0) return std::nullopt;
+  const std::size_t open = text.find('[', at);
+  const std::size_t close = text.find(']', open);
+  if (close == std::string::npos) return std::nullopt;
+  std::string rest = text.substr(close + 1);
+  absl::StripAsciiWhitespace(&rest);
+  if (rest != "]") return std::nullopt;
+  const std::vector<std::string> parts = absl::StrSplit(text.substr(open + 1, close - open - 1), ',');
+  int code = 0;
+  if (parts.size() != 2) return std::nullopt;
+  const auto unquoted = [](std::string part) {
+    absl::StripAsciiWhitespace(&part);
+    if (part.size() >= 2 && part.front() == '"' && part.back() == '"') part = part.substr(1, part.size() - 2);
+    return part;
+  };
+  if (unquoted(parts[0]) != "EPSG" || !absl::SimpleAtoi(unquoted(parts[1]), &code) || code <= 0) {
+    return std::nullopt;
+  }
+  return code;
+}
+
+}  // namespace albtpu::formats

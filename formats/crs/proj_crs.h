@@ -1,0 +1,67 @@
+// The properties of a coordinate system of PROJ that MapFrame needs. Only this file and map_frame.cc use PROJ.
+#pragma once
+
+#include <proj.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "formats/crs/ellipsoid.h"
+
+namespace albtpu::formats {
+
+struct ProjDestroy {
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using ProjObject = std::unique_ptr<PJ, ProjDestroy>;
+
+// A context without network whose messages are kept instead of printed. For one thread at a time.
+class ProjContext {
+ public:
+  ProjContext();
+  ~ProjContext();
+  ProjContext(const ProjContext&) = delete;
+  ProjContext& operator=(const ProjContext&) = delete;
+
+  PJ_CONTEXT* get() const { return context_; }
+  // FailedPrecondition when PROJ does not find its database of coordinate systems.
+  absl::Status CheckDatabase() const;
+  // The last message of PROJ, for a message to the user.
+  const std::string& last_message() const { return last_message_; }
+
+ private:
+  PJ_CONTEXT* context_;
+  std::string last_message_;
+};
+
+// The parts of a coordinate system, whether projected, geographic, compound, with three axes or with a datum shift.
+struct ProjCrs {
+  ProjObject horizontal;
+  ProjObject geographic;  // The base of a projected system.
+  std::string name, authority, code;
+  bool is_projected = false;
+  bool is_transverse_mercator = false;
+  double unit = 1;            // m, or rad for geographic coordinates.
+  double angular_unit = 0;    // rad, of the geographic coordinates.
+  double prime_meridian = 0;  // rad
+  Ellipsoid ellipsoid;
+  std::optional<double> metres_per_height_unit;
+};
+
+// The text as PROJ reads it: well-known text, a code, a name. InvalidArgument with the reason when it reads nothing, or
+// no projected or geographic system.
+absl::StatusOr<ProjCrs> ReadCrs(ProjContext& context, const std::string& text);
+
+// Metres in a unit of length, by its EPSG code.
+std::optional<double> MetresOfUnit(ProjContext& context, int code);
+
+// Metres in a unit of a vertical coordinate system, by its EPSG code.
+std::optional<double> MetresOfVerticalCrs(ProjContext& context, int code);
+
+// The code of AUTHORITY["EPSG","26917"] or ID["EPSG",26917] with which a well-known text ends; nullopt if it has none.
+std::optional<int> LastEpsgCode(const std::string& wkt);
+
+}  // namespace albtpu::formats

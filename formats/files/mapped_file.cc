@@ -1,0 +1,54 @@
+#include "formats/files/mapped_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+
+namespace albtpu::formats {
+namespace {
+
+absl::Status SystemError(const std::filesystem::path& path, std::string_view what) {
+  const int error = errno;
+  return absl::Status(absl::ErrnoToStatusCode(error),
+                      absl::StrCat(path.string(), ": ", std::strerror(error), "; give ", std::string(what),
+                                   " that can be read"));
+}
+
+}  // namespace
+
+absl::StatusOr<MappedFile> MappedFile::Open(const std::filesystem::path& path, std::string_view what) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return SystemError(path, what);
+  struct stat status;
+  absl::StatusOr<MappedFile> file = View("");
+  if (fstat(descriptor, &status) != 0) {
+    file = SystemError(path, what);
+  } else if (!S_ISREG(status.st_mode)) {
+    file = absl::FailedPreconditionError(
+        absl::StrCat(path.string(), ": is ", S_ISDIR(status.st_mode) ? "a folder" : "not a regular file",
+                     "; give ", std::string(what)));
+  } else if (status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* const data = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (data == MAP_FAILED) {
+      file = SystemError(path, what);
+    } else {
+      file = MappedFile(static_cast<const char*>(data), size, true);
+    }
+  }
+  close(descriptor);
+  return file;
+}
+
+MappedFile::~MappedFile() {
+  if (mapped_) munmap(const_cast<char*>(data_), size_);
+}
+
+}  // namespace albtpu::formats

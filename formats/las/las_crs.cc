@@ -1,0 +1,166 @@
+#include "formats/las/las_crs.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "formats/las/las_vlr.h"
+#include "formats/laz/coding/little_endian.h"
+#include "formats/text/number_text.h"
+
+namespace albtpu::formats {
+namespace {
+
+using laz::Load;
+
+constexpr std::string_view kProjectionUser = "LASF_Projection";
+constexpr std::uint16_t kWktRecord = 2112;
+constexpr std::uint16_t kGeoKeyDirectoryRecord = 34735;
+constexpr std::size_t kLongestWkt = 1 << 20;  // Bytes; real ones have a few thousand.
+
+// Every foot in use (international, US survey, Clarke's, British, Indian, Gold Coast) lies between these limits, in
+// metres; no other unit of length or angle does.
+constexpr double kShortestFoot = 0.304;
+constexpr double kLongestFoot = 0.306;
+
+// GeoTIFF 1.1: keys for the units of projected coordinates, of heights and of geocentric coordinates.
+constexpr std::uint16_t kProjLinearUnits = 3076;
+constexpr std::uint16_t kVerticalUnits = 4099;
+
+// GeoTIFF 1.1: keys whose values are codes of coordinate systems, and the values that are no codes.
+constexpr std::uint16_t kGeographic = 2048;
+constexpr std::uint16_t kProjected = 3072;
+constexpr std::uint16_t kVertical = 4096;
+constexpr std::uint16_t kUndefined = 0;
+constexpr std::uint16_t kUserDefined = 32767;
+
+// EPSG codes of feet: 9002 international, 9003 US survey, 9005 Clarke, 9041, 9051 and 9070 British, 9080-9083 Indian,
+// 9094 Gold Coast, 9095 British 1936; GeoTIFF 1.0 also had 9004 (modified American) and 9006 (Indian).
+bool IsFoot(std::uint16_t unit) {
+  return (unit >= 9002 && unit <= 9006) || unit == 9041 || unit == 9051 || unit == 9070 ||
+         (unit >= 9080 && unit <= 9083) || unit == 9094 || unit == 9095;
+}
+
+// A key with its value in the entry; values elsewhere are texts and real numbers.
+struct GeoKey {
+  std::uint16_t key = 0, value = 0;
+};
+std::vector<GeoKey> ListGeoKeys(std::string_view directory) {
+  // An entry has four u16: key, location of the value (0: in the entry), count, value. The first entry is a header.
+  constexpr std::size_t kEntry = 8;
+  std::vector<GeoKey> keys;
+  for (std::size_t begin = kEntry; begin + kEntry <= directory.size(); begin += kEntry) {
+    if (Load<std::uint16_t>(directory, begin + 2) != 0) continue;
+    keys.push_back({Load<std::uint16_t>(directory, begin), Load<std::uint16_t>(directory, begin + 6)});
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::optional<std::string> FindFeetInWkt(std::string_view wkt) {
+  const std::string upper = absl::AsciiStrToUpper(absl::string_view(wkt.data(), wkt.size()));
+  // UNIT of WKT 1 and 2, LENGTHUNIT of WKT 2. The search also finds ANGLEUNIT, which is never a foot.
+  for (std::size_t at = upper.find("UNIT"); at != std::string::npos; at = upper.find("UNIT", at + 1)) {
+    const std::size_t open = upper.find_first_not_of(" \t\r\n", at + 4);
+    if (open == std::string::npos || (upper[open] != '[' && upper[open] != '(')) continue;
+    // The name must follow immediately: a further search would take time quadratic in the length of the text.
+    const std::size_t name_begin = upper.find_first_not_of(" \t\r\n", open + 1);
+    if (name_begin == std::string::npos) break;
+    if (upper[name_begin] != '"') continue;
+    const std::size_t name_end = upper.find('"', name_begin + 1);
+    if (name_end == std::string::npos) break;
+    const std::string name = upper.substr(name_begin + 1, name_end - name_begin - 1);
+    bool foot = name.find("FOOT") != std::string::npos || name.find("FEET") != std::string::npos ||
+                name == "FT" || name == "FTUS" || name == "US-FT";
+    const std::size_t comma = upper.find_first_not_of(" \t\r\n", name_end + 1);
+    if (comma != std::string::npos && upper[comma] == ',') {
+      const std::size_t end = std::min(upper.find_first_of(",])", comma + 1), upper.size());
+      const std::optional<double> metres = ParseDouble(upper.substr(comma + 1, end - comma - 1));
+      foot = foot || (metres.has_value() && *metres > kShortestFoot && *metres < kLongestFoot);
+    }
+    if (foot) return absl::StrCat("unit \"", std::string(wkt.substr(name_begin + 1, name.size())), "\"");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindFeetInGeoKeys(std::string_view geo_key_directory) {
+  for (const GeoKey& entry : ListGeoKeys(geo_key_directory)) {
+    if ((entry.key == kProjLinearUnits || entry.key == kVerticalUnits) && IsFoot(entry.value)) {
+      return absl::StrCat("GeoTIFF key ", entry.key, " = ", entry.value);
+    }
+  }
+  return std::nullopt;
+}
+
+CrsDescription DescribeGeoKeys(std::string_view geo_key_directory) {
+  CrsDescription description;
+  for (const GeoKey& entry : ListGeoKeys(geo_key_directory)) {
+    if (entry.value == kUndefined || entry.value == kUserDefined) continue;
+    switch (entry.key) {
+      case kProjected:
+        description.projected = entry.value;
+        break;
+      case kGeographic:
+        description.geographic = entry.value;
+        break;
+      case kProjLinearUnits:
+        description.linear_unit = entry.value;
+        break;
+      case kVertical:
+        description.vertical = entry.value;
+        break;
+      case kVerticalUnits:
+        description.vertical_unit = entry.value;
+        break;
+      default:
+        break;
+    }
+  }
+  return description;
+}
+
+absl::StatusOr<CrsDescription> DescribeCrs(const LasReader& reader) {
+  CrsDescription description;
+  bool has_keys = false;
+  for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
+    for (const VlrEntry& entry : *entries) {
+      const bool wkt = entry.Is(kProjectionUser, kWktRecord) && description.wkt.empty();
+      const bool keys = entry.Is(kProjectionUser, kGeoKeyDirectoryRecord) && !has_keys;
+      if (!wkt && !keys) continue;
+      absl::StatusOr<std::string> data =
+          reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
+      if (!data.ok()) return data.status();
+      if (keys) {
+        std::string text = std::move(description.wkt);
+        description = DescribeGeoKeys(*data);
+        description.wkt = std::move(text);
+        has_keys = true;
+      } else {
+        description.wkt = data->substr(0, data->find('\0'));
+        absl::StripAsciiWhitespace(&description.wkt);
+      }
+    }
+  }
+  return description;
+}
+
+absl::StatusOr<std::optional<std::string>> FindFeet(const LasReader& reader) {
+  for (const std::vector<VlrEntry>* entries : {&reader.vlrs(), &reader.evlrs()}) {
+    for (const VlrEntry& entry : *entries) {
+      const bool wkt = entry.Is(kProjectionUser, kWktRecord);
+      if (!wkt && !entry.Is(kProjectionUser, kGeoKeyDirectoryRecord)) continue;
+      const absl::StatusOr<std::string> data =
+          reader.ReadAt(entry.data_offset, std::min<std::uint64_t>(entry.data_size, kLongestWkt));
+      if (!data.ok()) return data.status();
+      std::optional<std::string> feet = wkt ? FindFeetInWkt(*data) : FindFeetInGeoKeys(*data);
+      if (feet.has_value()) return feet;
+    }
+  }
+  return std::optional<std::string>();
+}
+
+}  // namespace albtpu::formats

@@ -1,0 +1,76 @@
+// The Extra Bytes record of LAS (LASF_Spec 4), which describes the bytes of a point after the fields of its format.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "tables/coverage.h"
+
+namespace albtpu::formats {
+
+// One of the floats that are appended to each record.
+struct AppendedFloat {
+  std::string_view name, description;  // At most 32 bytes each.
+  float no_data = 0;
+};
+
+inline constexpr float kNoNumber = -1;  // The no-data value of lengths; that of angles is NaN.
+
+// The floats that are appended to each record.
+struct Appended {
+  Coverage coverage = Coverage::kTwoSigma;
+  bool total = false;  // The total uncertainty, not the contribution of the sea surface alone.
+  bool water = false;  // The total includes the water column.
+  bool details =
+      false;  // The geometry of each beam, too; of a total also its contributions, biases and covariance.
+};
+
+// In this order in a record: sea_thu and sea_tvu, or total_thu and total_tvu; of a total with details kTotalDetailCount
+// more; with details the geometry.
+std::vector<AppendedFloat> AppendedFloats(const Appended& appended);
+
+inline constexpr std::size_t kUncertaintyCount = 2;
+// thu_air to tvu_water, tvu_pulse, tvu_line, two biases, six entries of the covariance.
+inline constexpr std::size_t kTotalDetailCount = 16;
+inline constexpr std::size_t kGeometryCount =
+    5;  // incidence, beam_azimuth, footprint, water_depth, slant_range
+
+// Bytes; the capacity of a VLR.
+inline constexpr std::size_t kLargestExtraBytesRecord = 65535;
+
+// Extra bytes of the input that have the name of an appended float, and take its values in its place.
+struct ReplacedFloat {
+  std::size_t appended = 0;  // Which of the appended floats.
+  std::size_t offset = 0;    // In the extra bytes of a point.
+  bool is_double = false;
+};
+
+struct AppendedDescription {
+  std::string record;                   // The data of the VLR.
+  std::vector<ReplacedFloat> replaced;  // By `appended`.
+};
+
+// The data of the record after descriptions of `appended` have been added. `described` is the existing data, which is
+// kept byte for byte but for what is replaced; it is empty if the file has no such record. `extra_bytes` is the actual
+// number of extra bytes in a point. Bytes without a description get entries of type 0, "undocumented", so that readers
+// find ours at the right offset. With `replace`, entries of a name of ours that are floats or doubles get our
+// description, no-data value and no scale, and are not added again.
+//
+// Fails when a name exists already (with `replace`: and has another type, or twice), when more bytes are described than
+// exist, when a type is unknown, or when the result does not fit a VLR.
+absl::StatusOr<AppendedDescription> DescribeAppended(const std::string& name, std::string_view described,
+                                                     std::size_t extra_bytes,
+                                                     const std::vector<AppendedFloat>& appended,
+                                                     bool replace = false);
+
+// Where the floats (type 9) lie in the extra bytes of a point, by their names. `described` and `extra_bytes` as above;
+// fails when an entry has an unknown type, or when more bytes are described than exist.
+absl::StatusOr<std::map<std::string, std::size_t, std::less<>>> FloatOffsets(const std::string& name,
+                                                                             std::string_view described,
+                                                                             std::size_t extra_bytes);
+
+}  // namespace albtpu::formats

@@ -1,0 +1,195 @@
+#include "formats/las/las_header.h"
+
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "formats/laz/coding/little_endian.h"
+#include "formats/laz/items/laszip_record.h"
+
+namespace albtpu::formats {
+namespace {
+
+using laz::Load;
+
+// LAS Specification 1.4 R15, tables 6-17.
+constexpr std::array<std::size_t, kLargestPointFormat + 1> kRecordLengths = {20, 28, 26, 34, 57, 63,
+                                                                             30, 36, 38, 59, 67};
+// By the minor version: the last point format that LAS 1.0 to 1.4 define.
+constexpr std::array<int, 5> kLastFormats = {1, 1, 3, 5, 10};
+constexpr std::array<std::size_t, 5> kHeaderSizes = {227, 227, 227, 235, 375};
+
+// The other upper bit of the point format, which the first LASzip set.
+constexpr int kOldCompressedFlag = 0x40;
+// Bits of the global encoding.
+constexpr std::uint16_t kAdjustedGpsTime = 0x1;
+constexpr std::uint16_t kWaveformInside = 0x2;
+
+absl::Status Invalid(const std::string& name, const std::string& message) {
+  return absl::InvalidArgumentError(absl::StrCat(name, ": ", message));
+}
+
+absl::Status Truncated(const std::string& name, const std::string& message) {
+  return absl::DataLossError(absl::StrCat(name, ": ", message));
+}
+
+absl::Status CheckVersion(const std::string& name, std::string_view bytes) {
+  if (bytes.size() < 4 || bytes.substr(0, 4) != "LASF") {
+    return Invalid(name, "is not a LAS file (it does not begin with 'LASF'); give a .las or .laz file");
+  }
+  if (bytes.size() < kHeaderSizes[0]) {
+    return Truncated(
+        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
+  }
+  const int major = Load<std::uint8_t>(bytes, las_field::kVersionMajor);
+  const int minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
+  if (major != 1 || minor > 4) {
+    return Invalid(name, absl::StrCat("is LAS ", major, ".", minor,
+                                      " (expected 1.0 to 1.4); convert it by `las2las -set_version 1.4` or "
+                                      "`pdal translate --writers.las.minor_version=4`"));
+  }
+  return absl::OkStatus();
+}
+
+// LAS 1.4 has a 64-bit point count and, for the old point formats, the same count in the legacy 32-bit field.
+absl::StatusOr<std::uint64_t> PointCount(const std::string& name, std::string_view bytes, int version_minor) {
+  const std::uint64_t legacy = Load<std::uint32_t>(bytes, las_field::kLegacyPointCount);
+  if (version_minor < 4) return legacy;
+  const auto count = Load<std::uint64_t>(bytes, las_field::kPointCount);
+  if (legacy != 0 && legacy != count) {
+    return Invalid(name,
+                   absl::StrCat("its header states ", count, " points, but ", legacy,
+                                " in the legacy field; expected the same number, or 0 in the legacy field"));
+  }
+  return count;
+}
+
+absl::Status CheckRecords(const std::string& name, const LasHeader& header) {
+  const int last_format = kLastFormats[header.version_minor];
+  if (header.point_format > last_format) {
+    return Invalid(name, absl::StrCat("has point format ", header.point_format, " in LAS 1.",
+                                      header.version_minor, "; expected 0 to ", last_format));
+  }
+  const std::size_t minimum = MinimumRecordLength(header.point_format);
+  if (header.record_length < minimum) {
+    return Invalid(name, absl::StrCat("has point records of ", header.record_length, " bytes; point format ",
+                                      header.point_format, " needs ", minimum, " or more"));
+  }
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
+    const double scale = header.scale[axis], offset = header.offset[axis];
+    if (std::isfinite(scale) && scale != 0 && std::isfinite(offset)) continue;
+    return Invalid(name, absl::StrCat("has ", std::string(1, "xyz"[axis]), " scale ", scale, " and offset ",
+                                      offset, "; expected finite numbers and a scale other than zero"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckOffsets(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
+  const std::size_t min_header = kHeaderSizes[header.version_minor];
+  if (header.header_size < min_header) {
+    return Invalid(name, absl::StrCat("has header size ", header.header_size, "; LAS 1.",
+                                      header.version_minor, " needs ", min_header, " bytes or more"));
+  }
+  if (header.offset_to_points < header.header_size) {
+    return Invalid(
+        name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
+                           ", inside the header of ", header.header_size, " bytes; expected them after it"));
+  }
+  if (header.offset_to_points > file_size) {
+    return Truncated(name, absl::StrCat("its point records begin at byte ", header.offset_to_points,
+                                        ", but the file has only ", file_size, "; get a complete copy"));
+  }
+  if (header.compressed) return absl::OkStatus();
+  const std::uint64_t room = (file_size - header.offset_to_points) / header.record_length;
+  if (header.point_count > room) {
+    return Truncated(
+        name, absl::StrCat("its header states ", header.point_count, " points, but the file has ", room,
+                           " (truncated, or the header is wrong); get a complete copy"));
+  }
+  return absl::OkStatus();
+}
+
+// The header must state everything that follows the points: points beyond its count would be lost.
+absl::Status CheckAfterPoints(const std::string& name, const LasHeader& header, std::uint64_t file_size) {
+  const std::uint64_t end_of_points = header.compressed ? header.offset_to_points : header.end_of_points();
+  std::uint64_t next = file_size;
+  for (const auto& [start, what] : {std::pair(header.start_of_evlrs, "extended variable length records"),
+                                    std::pair(header.start_of_waveform_packet, "waveform packets")}) {
+    if (start == 0) continue;
+    if (start < end_of_points || start > file_size) {
+      return Invalid(name, absl::StrCat("its ", what, " begin at byte ", start, "; expected between the ",
+                                        header.compressed ? "beginning" : "end", " of the points, ",
+                                        end_of_points, ", and the end of the file, ", file_size));
+    }
+    next = std::min(next, start);
+  }
+  if (header.compressed) return absl::OkStatus();
+  const std::uint64_t uncounted = next - end_of_points;
+  if (uncounted >= header.record_length) {
+    return Invalid(name, absl::StrCat("its header states ", header.point_count, " points, but ", uncounted,
+                                      " bytes, enough for ", uncounted / header.record_length,
+                                      " more points, follow them; correct the point count"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+std::size_t MinimumRecordLength(int point_format) { return kRecordLengths[point_format]; }
+
+std::size_t LasHeader::extra_bytes() const { return record_length - MinimumRecordLength(point_format); }
+
+absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
+                                         std::uint64_t file_size) {
+  if (absl::Status status = CheckVersion(name, bytes); !status.ok()) return status;
+  LasHeader header;
+  header.version_minor = Load<std::uint8_t>(bytes, las_field::kVersionMinor);
+  const std::size_t min_header = kHeaderSizes[header.version_minor];
+  if (bytes.size() < min_header) {
+    return Truncated(
+        name, absl::StrCat("ends after ", bytes.size(), " bytes, inside its header; get a complete copy"));
+  }
+  header.header_size = Load<std::uint16_t>(bytes, las_field::kHeaderSize);
+  header.offset_to_points = Load<std::uint32_t>(bytes, las_field::kOffsetToPoints);
+  header.vlr_count = Load<std::uint32_t>(bytes, las_field::kVlrCount);
+  header.point_format = Load<std::uint8_t>(bytes, las_field::kPointFormat);
+  header.record_length = Load<std::uint16_t>(bytes, las_field::kRecordLength);
+  for (std::size_t axis = 0; axis < header.scale.size(); ++axis) {
+    header.scale[axis] = Load<double>(bytes, las_field::kScale + axis * sizeof(double));
+    header.offset[axis] = Load<double>(bytes, las_field::kOffset + axis * sizeof(double));
+    header.greatest[axis] = Load<double>(bytes, las_field::kBounds + 2 * axis * sizeof(double));
+    header.least[axis] = Load<double>(bytes, las_field::kBounds + (2 * axis + 1) * sizeof(double));
+  }
+  if ((header.point_format & kOldCompressedFlag) != 0) {
+    return Invalid(name,
+                   "is compressed by a LASzip from before 2.0 (2011); decompress it first, by "
+                   "`laszip -i IN.laz -o OUT.las`");
+  }
+  header.compressed = (header.point_format & laz::kCompressedFlag) != 0;
+  header.point_format &= ~laz::kCompressedFlag;
+  const absl::StatusOr<std::uint64_t> count = PointCount(name, bytes, header.version_minor);
+  if (!count.ok()) return count.status();
+  header.point_count = *count;
+  // Before 1.2 these bytes are reserved, and times are seconds of the week.
+  const std::uint16_t global_encoding =
+      header.version_minor >= 2 ? Load<std::uint16_t>(bytes, las_field::kGlobalEncoding) : 0;
+  header.adjusted_gps_time = (global_encoding & kAdjustedGpsTime) != 0;
+  if (header.version_minor >= 3 && (global_encoding & kWaveformInside) != 0) {
+    header.start_of_waveform_packet = Load<std::uint64_t>(bytes, las_field::kStartOfWaveformPacket);
+  }
+  if (header.version_minor >= 4) {
+    header.evlr_count = Load<std::uint32_t>(bytes, las_field::kEvlrCount);
+    if (header.evlr_count > 0) header.start_of_evlrs = Load<std::uint64_t>(bytes, las_field::kStartOfEvlrs);
+    if (header.evlr_count > 0 && header.start_of_evlrs == 0) {
+      return Invalid(name,
+                     absl::StrCat("its header states ", header.evlr_count,
+                                  " extended variable length records but not where they begin; expected an "
+                                  "offset after the points"));
+    }
+  }
+  if (absl::Status status = CheckRecords(name, header); !status.ok()) return status;
+  if (absl::Status status = CheckOffsets(name, header, file_size); !status.ok()) return status;
+  if (absl::Status status = CheckAfterPoints(name, header, file_size); !status.ok()) return status;
+  return header;
+}
+
+}  // namespace albtpu::formats

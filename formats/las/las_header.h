@@ -1,0 +1,75 @@
+// The public header block of LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15, table 3), and the sizes of point
+// records. LAZ files have the same header.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+
+namespace albtpu::formats {
+
+// Offsets of the fields in the header, in bytes.
+namespace las_field {
+inline constexpr std::size_t kGlobalEncoding = 6;           // u16, from 1.2
+inline constexpr std::size_t kVersionMajor = 24;            // u8
+inline constexpr std::size_t kVersionMinor = 25;            // u8
+inline constexpr std::size_t kHeaderSize = 94;              // u16
+inline constexpr std::size_t kOffsetToPoints = 96;          // u32
+inline constexpr std::size_t kVlrCount = 100;               // u32
+inline constexpr std::size_t kPointFormat = 104;            // u8
+inline constexpr std::size_t kRecordLength = 105;           // u16
+inline constexpr std::size_t kLegacyPointCount = 107;       // u32
+inline constexpr std::size_t kScale = 131;                  // 3 f64: x, y, z
+inline constexpr std::size_t kOffset = 155;                 // 3 f64
+inline constexpr std::size_t kBounds = 179;                 // 6 f64: maximum and minimum x, then y, then z
+inline constexpr std::size_t kStartOfWaveformPacket = 227;  // u64, from 1.3
+inline constexpr std::size_t kStartOfEvlrs = 235;           // u64, from 1.4
+inline constexpr std::size_t kEvlrCount = 243;              // u32, from 1.4
+inline constexpr std::size_t kPointCount = 247;             // u64, from 1.4
+}  // namespace las_field
+
+inline constexpr std::size_t kLargestLasHeader = 375;  // Bytes in 1.4; 227 up to 1.2, 235 in 1.3.
+inline constexpr int kLargestPointFormat = 10;
+
+struct LasHeader {
+  int version_minor = 4;
+  std::uint16_t header_size = 0;  // May be larger than the version requires; the rest is kept.
+  std::uint32_t offset_to_points = 0;
+  std::uint32_t vlr_count = 0;
+  int point_format = 0;
+  bool compressed = false;  // LAZ.
+  std::uint16_t record_length = 0;
+  std::uint64_t point_count = 0;
+  bool adjusted_gps_time = false;                   // Times are GPS seconds - 1e9, not seconds of the week.
+  std::array<double, 3> scale = {};                 // x, y, z; finite and not zero.
+  std::array<double, 3> offset = {};                // Finite.
+  std::array<double, 3> least = {}, greatest = {};  // The bounds that the file states, true or not.
+  std::uint64_t start_of_waveform_packet = 0;       // 0: none in this file.
+  std::uint64_t start_of_evlrs = 0;                 // 0: none.
+  std::uint32_t evlr_count = 0;
+
+  std::size_t extra_bytes() const;       // In a point record, after the fields of its format.
+  std::uint64_t end_of_points() const {  // Of LAS.
+    return offset_to_points + point_count * record_length;
+  }
+};
+
+// Whether records of this format have a GPS time: formats 1 and 3 to 10.
+constexpr bool HasGpsTime(int point_format) { return point_format != 0 && point_format != 2; }
+
+// Bytes of a point record without extra bytes, for formats 0 to 10.
+std::size_t MinimumRecordLength(int point_format);
+
+// Reads the header and checks that it is consistent with itself and with the size of the file, so that all its offsets
+// lie inside the file. Where the points of LAZ end is not known here: what follows is only known to lie behind their
+// beginning. `bytes` is the beginning of the file: kLargestLasHeader bytes or more, or the whole file. `name`
+// begins the messages. InvalidArgument: not LAS, not LAS 1.0-1.4, or an inconsistent header. DataLoss:
+// truncated.
+absl::StatusOr<LasHeader> ParseLasHeader(const std::string& name, std::string_view bytes,
+                                         std::uint64_t file_size);
+
+}  // namespace albtpu::formats

@@ -1,0 +1,51 @@
+// The points of a chunk, from its compressed bytes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "absl/status/status.h"
+#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/items/laszip_record.h"
+
+namespace albtpu::laz {
+
+// Which fields of points are decoded. Fields that are left out have, in all points of a chunk, the values of its first
+// point; damage in their layers goes unnoticed. Only layered chunks can leave fields out: others have all of them.
+enum class WantedFields {
+  kAll,
+  kReturns,  // The place and time of each return: coordinates, returns, scanner channels, classes and GPS times.
+};
+
+// Decodes one chunk after the other; the memory for the models (some hundred kB to few MB) is used again. A chunk is
+// decoded in as many steps as the caller likes, so that memory does not grow with its points.
+//
+//   const std::unique_ptr<ChunkDecoder> decoder = ChunkDecoder::For(record);
+//   status = decoder->Begin(file, chunk.offset, chunk.offset + chunk.bytes, chunk.points);
+//   std::vector<char> records(chunk.points * record.record_length());
+//   status = decoder->Decode(records);
+//   status = decoder->End(true);
+class ChunkDecoder {
+ public:
+  // For any record that ParseLaszipRecord() returns.
+  static std::unique_ptr<ChunkDecoder> For(const LaszipRecord& record,
+                                           WantedFields wanted = WantedFields::kAll);
+  virtual ~ChunkDecoder() = default;
+
+  // Begins a chunk of `points` > 0 points in the bytes from `begin`, at most to `end`, of `source`, which must outlive
+  // the decoding. DataLoss: the chunk contradicts itself: another number of points, layers that do not end in it.
+  virtual absl::Status Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end,
+                             std::uint64_t points) = 0;
+
+  // The next points: as many as fit. Requires a multiple of the record length, and no more points than are left.
+  // DataLoss: the bytes ended before the points.
+  virtual absl::Status Decode(std::span<char> records) = 0;
+
+  // After the last point. DataLoss: bytes were missing or, where the end of the chunk is known (`exact`), some remain.
+  // Then position() is where the chunk ends.
+  virtual absl::Status End(bool exact) = 0;
+  virtual std::uint64_t position() const = 0;
+};
+
+}  // namespace albtpu::laz

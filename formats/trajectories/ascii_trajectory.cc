@@ -1,0 +1,320 @@
+#include "formats/trajectories/ascii_trajectory.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "formats/files/mapped_file.h"
+#include "formats/trajectories/ascii_columns.h"
+#include "formats/trajectories/gps_time.h"
+#include "sea/angle.h"
+
+namespace albtpu::formats {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool IsBlank(char character) { return character == ' ' || character == '\t' || character == '\r'; }
+bool IsSeparator(char character) { return IsBlank(character) || character == ','; }
+
+// The longest beginning of `text` without separators, at most 32 characters: what a message quotes.
+std::string Word(std::string_view text) {
+  std::size_t size = 0;
+  while (size < std::min<std::size_t>(text.size(), 32) && !IsSeparator(text[size])) ++size;
+  return std::string(text.substr(0, size));
+}
+
+void SkipBlanks(std::string_view& text) {
+  while (!text.empty() && IsBlank(text.front())) text.remove_prefix(1);
+}
+
+// Reads a finite number that a separator or the end of the line follows.
+bool ReadNumber(std::string_view& text, double& number) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  // from_chars takes no plus sign.
+  if (begin + 1 < end && *begin == '+' && begin[1] != '-') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || !std::isfinite(number)) return false;
+  if (stop != end && !IsSeparator(*stop)) return false;
+  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+  return true;
+}
+
+// Moves on to the next cell of a line; false at its end. One comma, with blanks around it, or blanks alone separate
+// cells.
+bool NextCell(std::string_view& text) {
+  SkipBlanks(text);
+  if (text.empty()) return false;
+  if (text.front() == ',') {
+    text.remove_prefix(1);
+    SkipBlanks(text);
+  }
+  return true;
+}
+
+std::size_t CountCells(std::string_view line) {
+  SkipBlanks(line);
+  std::size_t cells = 1;
+  while (true) {
+    while (!line.empty() && !IsSeparator(line.front())) line.remove_prefix(1);
+    if (!NextCell(line)) return cells;
+    ++cells;
+  }
+}
+
+bool BeginsWithNumber(std::string_view line) {
+  SkipBlanks(line);
+  double ignored;
+  return ReadNumber(line, ignored);
+}
+
+bool IsText(std::string_view bytes) {
+  return std::none_of(bytes.begin(), bytes.end(), [](char character) {
+    const auto code = static_cast<unsigned char>(character);
+    return code < 32 && code != '\t' && code != '\n' && code != '\r';
+  });
+}
+
+}  // namespace
+
+// Reads the lines of a file into a trajectory.
+class AsciiReader {
+ public:
+  AsciiReader(std::string name, std::string_view text) : name_(std::move(name)), rest_(text) {
+    if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) rest_.remove_prefix(kByteOrderMark.size());
+  }
+
+  absl::StatusOr<std::unique_ptr<AsciiTrajectory>> Read() {
+    if (rest_.empty()) return Error("is empty; give an ASCII trajectory");
+    if (!AsciiTrajectory::Recognizes(rest_)) {
+      return Error("is not text; give an SBET, or an ASCII trajectory of 15 or 20 columns");
+    }
+    if (absl::Status status = ReadHeader(); !status.ok()) return status;
+    std::unique_ptr<AsciiTrajectory> trajectory(new AsciiTrajectory(name_, columns_.size()));
+    Reserve(*trajectory);
+    do {
+      if (absl::Status status = ReadLine(*trajectory); !status.ok()) return status;
+    } while (NextLine());
+    if (trajectory->size() < 2) {
+      return Error("has a single record; give a trajectory of at least two");
+    }
+    return trajectory;
+  }
+
+ private:
+  absl::Status Error(std::string_view text) const {
+    return absl::InvalidArgumentError(absl::StrCat(name_, ": ", std::string(text)));
+  }
+  absl::Status LineError(std::string_view text) const {
+    return absl::InvalidArgumentError(absl::StrCat(name_, " line ", line_number_, ": ", std::string(text)));
+  }
+  absl::Status ColumnError(std::size_t column, std::string_view text) const {
+    return absl::InvalidArgumentError(absl::StrCat(name_, " line ", line_number_, ", column ", column + 1,
+                                                   " '", columns_[column].name, "': ", std::string(text)));
+  }
+
+  // Takes the next line that is not blank; false at the end of the file.
+  bool NextLine() {
+    while (!rest_.empty()) {
+      const void* const newline = std::memchr(rest_.data(), '\n', rest_.size());
+      const std::size_t size =
+          newline == nullptr ? rest_.size()
+                             : static_cast<std::size_t>(static_cast<const char*>(newline) - rest_.data());
+      line_ = rest_.substr(0, size);
+      rest_.remove_prefix(newline == nullptr ? size : size + 1);
+      ++line_number_;
+      SkipBlanks(line_);
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+
+  // Stops at the first line of numbers.
+  absl::Status ReadHeader() {
+    constexpr std::size_t kLongestHeader = 200;  // Lines.
+    std::vector<std::pair<std::size_t, std::string_view>> header;
+    while (true) {
+      if (!NextLine()) return Error("has no line of numbers; give an ASCII trajectory of 15 or 20 columns");
+      if (BeginsWithNumber(line_)) break;
+      header.emplace_back(line_number_, line_);
+      if (header.size() > kLongestHeader) {
+        return LineError(absl::StrCat("'", Word(line_),
+                                      "' is not a number, nor is any line above; give an ASCII ",
+                                      "trajectory of 15 or 20 columns"));
+      }
+    }
+    const std::size_t cells = CountCells(line_);
+    columns_ = AsciiColumns(cells);
+    if (columns_.empty()) {
+      return LineError(absl::StrCat("has ", cells,
+                                    " columns; a trajectory has 15 (time, longitude, latitude, X, Y, Z, ",
+                                    "roll, pitch, heading and six sigmas), or the 20 of POSPac's export"));
+    }
+    for (const auto& [number, line] : header) {
+      const std::string contradiction = HeaderContradiction(line, columns_);
+      if (contradiction.empty()) continue;
+      return absl::InvalidArgumentError(
+          absl::StrCat(name_, " line ", number, ": the header states ", contradiction));
+    }
+    return absl::OkStatus();
+  }
+
+  void Reserve(AsciiTrajectory& trajectory) const {
+    const std::size_t shortest = 2 * columns_.size();  // A digit and a separator for each number.
+    const auto lines = static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), '\n'));
+    const std::size_t most = std::min(lines, rest_.size() / shortest) + 2;
+    trajectory.lines_.reserve(most);
+    if (HasVelocities()) trajectory.velocities_.reserve(most);
+  }
+
+  bool HasVelocities() const { return columns_.size() == kMaxAsciiColumns; }
+
+  absl::Status CheckValue(std::size_t column, double value) const {
+    const AsciiColumn& expected = columns_[column];
+    if (value >= expected.least && value <= expected.largest) return absl::OkStatus();
+    const bool exchanged = expected.field == AsciiField::kLatitude && std::abs(value) <= 360;
+    return ColumnError(column, absl::StrFormat("%g %s is outside %g to %g%s", value, expected.unit,
+                                               expected.least, expected.largest,
+                                               exchanged ? "; exchange latitude and longitude"
+                                                         : "; check the order and the units of the columns"));
+  }
+
+  absl::Status ReadNumbers(std::array<double, kAsciiFields>& values) const {
+    std::string_view rest = line_;
+    for (std::size_t column = 0; column < columns_.size(); ++column) {
+      double& value = values[static_cast<std::size_t>(columns_[column].field)];
+      if (!ReadNumber(rest, value)) {
+        return rest.empty() ? LineError(absl::StrCat("ends after ", column, " of ", columns_.size(),
+                                                     " columns; give the whole file"))
+                            : ColumnError(column, absl::StrCat("'", Word(rest), "' is not a finite number"));
+      }
+      if (absl::Status status = CheckValue(column, value); !status.ok()) return status;
+      const bool more = NextCell(rest);
+      if (more && column + 1 == columns_.size()) {
+        return LineError(absl::StrCat("has ", CountCells(line_), " columns, not ", columns_.size(),
+                                      " as the first line of numbers"));
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  // Seconds of the week go on where the next week begins.
+  absl::Status ContinueTime(const AsciiTrajectory& trajectory, double& time) {
+    if (trajectory.lines_.empty()) return absl::OkStatus();
+    const double before = trajectory.lines_.back().time;
+    if (!next_week_ && StartsNextWeek(before, time)) next_week_ = true;
+    const double continued = next_week_ ? time + kSecondsPerWeek : time;
+    if (continued > before) {
+      time = continued;
+      return absl::OkStatus();
+    }
+    return ColumnError(
+        0, absl::StrFormat("%.6f s follows %.6f s: times must increase; sort the lines by time", time,
+                           next_week_ ? before - kSecondsPerWeek : before));
+  }
+
+  absl::Status ReadLine(AsciiTrajectory& trajectory) {
+    std::array<double, kAsciiFields> values;
+    if (absl::Status status = ReadNumbers(values); !status.ok()) return status;
+    const auto value = [&values](AsciiField field) -> double& {
+      return values[static_cast<std::size_t>(field)];
+    };
+    const auto angle = [&value](AsciiField field) { return RadiansOfDegrees(value(field)); };
+    const auto sigma = [&](AsciiField field) { return static_cast<float>(value(field)); };
+    const auto angle_sigma = [&](AsciiField field) { return static_cast<float>(angle(field)); };
+    using enum AsciiField;
+    if (absl::Status status = ContinueTime(trajectory, value(kTime)); !status.ok()) return status;
+    trajectory.lines_.push_back({.time = value(kTime),
+                                 .longitude = std::remainder(angle(kLongitude), 2 * std::numbers::pi),
+                                 .latitude = angle(kLatitude),
+                                 .x = value(kX),
+                                 .y = value(kY),
+                                 .height = value(kHeight),
+                                 .roll = angle(kRoll),
+                                 .pitch = angle(kPitch),
+                                 .heading = angle(kHeading),
+                                 .sigma_x = sigma(kSigmaX),
+                                 .sigma_y = sigma(kSigmaY),
+                                 .sigma_z = sigma(kSigmaZ),
+                                 .sigma_roll = angle_sigma(kSigmaRoll),
+                                 .sigma_pitch = angle_sigma(kSigmaPitch),
+                                 .sigma_heading = angle_sigma(kSigmaHeading)});
+    if (HasVelocities()) {
+      trajectory.velocities_.push_back({value(kVelocityNorth), value(kVelocityEast), value(kVelocityUp)});
+    }
+    const AsciiTrajectory::Line& line = trajectory.lines_.back();
+    trajectory.has_grid_ = trajectory.has_grid_ || line.x != 0 || line.y != 0;
+    trajectory.has_sigma_ = trajectory.has_sigma_ || line.sigma_x > 0 || line.sigma_y > 0 ||
+                            line.sigma_z > 0 || line.sigma_roll > 0 || line.sigma_pitch > 0 ||
+                            line.sigma_heading > 0;
+    return absl::OkStatus();
+  }
+
+  std::string name_;
+  std::string_view rest_, line_;
+  std::size_t line_number_ = 0;
+  std::span<const AsciiColumn> columns_;
+  bool next_week_ = false;
+};
+
+absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Open(const std::filesystem::path& path) {
+  const absl::StatusOr<MappedFile> file = MappedFile::Open(path, "an ASCII trajectory");
+  if (!file.ok()) return file.status();
+  return Parse(path.string(), file->bytes());
+}
+
+absl::StatusOr<std::unique_ptr<AsciiTrajectory>> AsciiTrajectory::Parse(std::string name,
+                                                                        std::string_view text) {
+  absl::StatusOr<std::unique_ptr<AsciiTrajectory>> trajectory = AsciiReader(std::move(name), text).Read();
+  if (!trajectory.ok()) return trajectory;
+  const auto grid_position = [&trajectory](std::size_t i) { return (*trajectory)->GridPositionAt(i); };
+  if (absl::Status status = CheckMotion(**trajectory, grid_position); !status.ok()) return status;
+  return trajectory;
+}
+
+bool AsciiTrajectory::Recognizes(std::string_view bytes) {
+  return !bytes.empty() && IsText(bytes.substr(0, 4096));
+}
+
+TrajectoryRecord AsciiTrajectory::Record(std::size_t record) const {
+  const Line& line = lines_[record];
+  TrajectoryRecord result{.time = line.time,
+                          .latitude = line.latitude,
+                          .longitude = line.longitude,
+                          .height = line.height,
+                          .roll = line.roll,
+                          .pitch = line.pitch,
+                          .heading = line.heading};
+  if (!velocities_.empty()) {
+    result.velocity_north = velocities_[record][0];
+    result.velocity_east = velocities_[record][1];
+    result.velocity_up = velocities_[record][2];
+  }
+  return result;
+}
+
+std::optional<TrajectorySigma> AsciiTrajectory::SigmaAt(std::size_t record) const {
+  if (!has_sigma_) return std::nullopt;
+  const Line& line = lines_[record];
+  TrajectorySigma sigma;
+  sigma.north = line.sigma_y;
+  sigma.east = line.sigma_x;
+  sigma.down = line.sigma_z;
+  sigma.roll = line.sigma_roll;
+  sigma.pitch = line.sigma_pitch;
+  sigma.heading = line.sigma_heading;
+  return sigma;
+}
+
+std::optional<GridPosition> AsciiTrajectory::GridPositionAt(std::size_t record) const {
+  if (!has_grid_) return std::nullopt;
+  return GridPosition{lines_[record].x, lines_[record].y};
+}
+
+}  // namespace albtpu::formats

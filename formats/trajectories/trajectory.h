@@ -1,0 +1,70 @@
+// A trajectory of any format: position, velocity and attitude at increasing times.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace albtpu::formats {
+
+inline constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
+
+// The reference point of the navigation system, and how the body of the system is turned. Position and time are always
+// finite; what the format does not state is kNotStated.
+struct TrajectoryRecord {
+  double time = 0;                     // s, as Trajectory::TimeAt.
+  double latitude = 0, longitude = 0;  // rad, geodetic, north and east positive.
+  double height = 0;                   // m above the ellipsoid.
+  double velocity_north = kNotStated;  // m/s
+  double velocity_east = kNotStated;   // m/s
+  double velocity_up = kNotStated;     // m/s
+  double roll = kNotStated;            // rad, right side down positive.
+  double pitch = kNotStated;           // rad, nose up positive.
+  double heading = kNotStated;         // rad, of the nose, clockwise from true north; any turn.
+  // rad/s, about the axes of the body: forward, right, down.
+  double rate_forward = kNotStated, rate_right = kNotStated, rate_down = kNotStated;
+};
+
+// Standard deviations of a record, from an error file (SMRMSG) or from columns of an ASCII trajectory.
+struct TrajectorySigma {
+  double north = kNotStated, east = kNotStated, down = kNotStated;                             // m
+  double velocity_north = kNotStated, velocity_east = kNotStated, velocity_down = kNotStated;  // m/s
+  double roll = kNotStated, pitch = kNotStated, heading = kNotStated;                          // rad
+};
+
+// An opened and checked file: at least two records, finite positions, times that increase. Immutable: any number of
+// threads may read it at a time.
+class Trajectory {
+ public:
+  virtual ~Trajectory() = default;
+
+  // The path, for messages.
+  const std::string& name() const { return name_; }
+
+  // Number of records, at least 2.
+  virtual std::size_t size() const = 0;
+
+  // s, strictly increasing. Seconds of the GPS week in which the file begins (in GPS or UTC, which no file says), or
+  // whatever absolute form the file has. A week that ends does not matter: times continue beyond 604 800 s, also where
+  // the file starts again from 0.
+  virtual double TimeAt(std::size_t record) const = 0;
+
+  virtual TrajectoryRecord Record(std::size_t record) const = 0;
+
+  // nullopt: the file states none.
+  virtual std::optional<TrajectorySigma> SigmaAt(std::size_t) const { return std::nullopt; }
+
+ protected:
+  explicit Trajectory(std::string name) : name_(std::move(name)) {}
+
+ private:
+  std::string name_;
+};
+
+// The formats, detected by the content of the file (OpenTrajectory, open_trajectory.h): SbetFile::Open(path) in
+// sbet_file.h, AsciiTrajectory::Open(path) in ascii_trajectory.h. Both check what they open. Both give
+// absl::StatusOr<std::unique_ptr<...>>. velocity_check.h compares velocities with differences of position.
+
+}  // namespace albtpu::formats

@@ -1,0 +1,170 @@
+#include "formats/trajectories/trajectory_time.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "formats/trajectories/gps_time.h"
+
+namespace albtpu::formats {
+namespace {
+
+// GPS - UTC since 1 January 2017, for times whose date is not known. IERS has announced no further leap second.
+constexpr double kGpsMinusUtcNow = 18;
+
+// GPS - UTC [s] at a GPS time. Within 18 s of a leap second the result may be off by one: no survey is flown at
+// midnight of New Year's Eve.
+double GpsMinusUtc(double gps) { return LeapSecondsAtUtc(gps - kGpsMinusUtcNow); }
+
+// A trajectory that began before the end of the week goes on for less than a day: no flight is longer.
+constexpr double kLongestContinuation = 86400;
+constexpr double kLastWeekTime = kSecondsPerWeek + kLongestContinuation;
+
+bool AreWeekSeconds(const TimeSpan& span) { return span.first >= 0 && span.first < kLastWeekTime; }
+
+// Of the candidates, the one with which the trajectory overlaps the points longest; the first of equal ones.
+struct Candidate {
+  double offset = 0;
+  double overlap = 0;  // s, as Overlap.
+};
+template <typename Offsets>
+Candidate Longest(const TimeSpan& trajectory, const TimeSpan& points, const Offsets& offsets) {
+  Candidate best = {0, -INFINITY};
+  for (const double offset : offsets) {
+    const double overlap = Overlap({trajectory.first + offset, trajectory.last + offset}, points);
+    if (overlap > best.overlap) best = {offset, overlap};
+  }
+  return best;
+}
+
+Candidate BestOffset(const TimeSpan& trajectory, TrajectoryClock clock, const PointTimes& points) {
+  const bool week_seconds = AreWeekSeconds(trajectory);
+  const double later = clock == TrajectoryClock::kUtc ? 1 : 0;
+  if (points.form == PointTimeForm::kWeekSeconds) {
+    // The week of the points is not known; that of a trajectory with absolute times is.
+    double leap = kGpsMinusUtcNow;
+    double week = 0;
+    if (!week_seconds) {
+      const double gps =
+          trajectory.first < kAdjustedGpsOffset ? trajectory.first + kAdjustedGpsOffset : trajectory.first;
+      leap = GpsMinusUtc(gps);
+      week = gps - trajectory.first - kSecondsPerWeek * std::floor(gps / kSecondsPerWeek);
+    }
+    const double base = week + later * leap;
+    // Points that start again from 0 span the whole week. Their trajectory is in the week in which it began.
+    const Candidate same_week = Longest(trajectory, points.span, std::array{base});
+    if (same_week.overlap >= 0) return same_week;
+    return Longest(trajectory, points.span, std::array{base, base - kSecondsPerWeek, base + kSecondsPerWeek});
+  }
+  const double gps = points.span.first + kAdjustedGpsOffset;
+  const double leap = later * GpsMinusUtc(gps);
+  if (!week_seconds) return Longest(trajectory, points.span, std::array{leap, leap - kAdjustedGpsOffset});
+  // The week of the first point, of the last point, and the one before: the trajectory may have begun in it.
+  const double first_week = kSecondsPerWeek * std::floor(gps / kSecondsPerWeek) - kAdjustedGpsOffset + leap;
+  const double last_week =
+      kSecondsPerWeek * std::floor((points.span.last + kAdjustedGpsOffset) / kSecondsPerWeek) -
+      kAdjustedGpsOffset + leap;
+  return Longest(trajectory, points.span, std::array{first_week, first_week - kSecondsPerWeek, last_week});
+}
+
+// A trajectory that does not name its week has records in more than one week of the points.
+bool IsAmbiguous(const TimeSpan& trajectory, const PointTimes& points) {
+  if (points.form != PointTimeForm::kAdjustedStandard || !AreWeekSeconds(trajectory)) return false;
+  // Records and points may match in two weeks if their total duration reaches a week.
+  const double lasts = trajectory.last - trajectory.first + points.span.last - points.span.first;
+  if (lasts < kSecondsPerWeek) return false;
+  const double gps = points.span.first + kAdjustedGpsOffset;
+  int weeks = 0;
+  const double first_week = std::floor(gps / kSecondsPerWeek) - 1;
+  const double last_week = std::floor((points.span.last + kAdjustedGpsOffset) / kSecondsPerWeek);
+  for (double week = first_week; week <= std::min(last_week, first_week + 3); ++week) {
+    const double offset = week * kSecondsPerWeek - kAdjustedGpsOffset;
+    if (Overlap({trajectory.first + offset, trajectory.last + offset}, points.span) >= 0) ++weeks;
+  }
+  return weeks > 1;
+}
+
+// The reason why two ranges do not overlap, and what to do about it.
+struct Mismatch {
+  std::string why, suggestion;
+};
+Mismatch MismatchCause(const TimeSpan& trajectory, TrajectoryClock clock, const PointTimes& points) {
+  const TimeSpan& span = points.span;
+  if (span.first == 0 && span.last == 0) {
+    return {"the GPS times of the points are all 0", "export the LAS again with GPS times"};
+  }
+  if (points.form == PointTimeForm::kWeekSeconds && (span.first < 0 || span.last > kLastWeekTime)) {
+    return {"the header of the LAS states seconds of the GPS week, but these are adjusted standard GPS times",
+            "set bit 0 of its global encoding"};
+  }
+  const PointTimes other_form = {span, PointTimeForm::kWeekSeconds};
+  if (points.form == PointTimeForm::kAdjustedStandard && span.first >= 0 && span.last <= kLastWeekTime &&
+      BestOffset(trajectory, clock, other_form).overlap >= 0) {
+    return {"the header of the LAS states adjusted standard GPS times, but these are seconds of the GPS week",
+            "clear bit 0 of its global encoding"};
+  }
+  // A trajectory that is not much longer than the recording may miss it by the seconds between the two clocks.
+  const bool utc = clock == TrajectoryClock::kUtc;
+  const TrajectoryClock other_clock = utc ? TrajectoryClock::kGps : TrajectoryClock::kUtc;
+  if (BestOffset(trajectory, other_clock, points).overlap >= 0) {
+    return {absl::StrCat("its times fit as ", utc ? "GPS time" : "UTC"),
+            absl::StrCat("give --trajectory-time ", utc ? "gps" : "utc")};
+  }
+  // Apart by whole weeks: the trajectory of the same hours of another week.
+  const double offset = BestOffset(trajectory, clock, points).offset;
+  const double apart = (span.first + span.last - trajectory.first - trajectory.last) / 2 - offset;
+  const double weeks = std::round(apart / kSecondsPerWeek);
+  const double shift = offset + weeks * kSecondsPerWeek;
+  if (weeks != 0 && Overlap({trajectory.first + shift, trajectory.last + shift}, span) >= 0) {
+    return {absl::StrFormat("another week: it is %.0f week%s %s", std::abs(weeks),
+                            std::abs(weeks) == 1 ? "" : "s", weeks > 0 ? "earlier" : "later"),
+            "give the trajectory of this flight"};
+  }
+  // Seconds of a week, counted from the beginning of an earlier one.
+  const double counted = std::floor(trajectory.first / kSecondsPerWeek);
+  const TimeSpan reduced = {trajectory.first - counted * kSecondsPerWeek,
+                            trajectory.last - counted * kSecondsPerWeek};
+  if (counted > 0 && BestOffset(reduced, clock, points).overlap >= 0) {
+    return {absl::StrFormat("another week: it is %.0f week%s later", counted, counted == 1 ? "" : "s"),
+            "give the trajectory of this flight"};
+  }
+  return {"another flight", "give the trajectory of this one"};
+}
+
+}  // namespace
+
+double Overlap(const TimeSpan& a, const TimeSpan& b) {
+  return std::min(a.last, b.last) - std::max(a.first, b.first);
+}
+
+std::string DescribePointTimes(const PointTimes& points) {
+  if (points.form == PointTimeForm::kWeekSeconds) {
+    return absl::StrFormat("%.1f to %.1f s of the GPS week", points.span.first, points.span.last);
+  }
+  const double gps = points.span.first + kAdjustedGpsOffset;
+  const double week = std::floor(gps / kSecondsPerWeek);
+  const double begin = week * kSecondsPerWeek;
+  return absl::StrFormat("%.1f to %.1f s of GPS week %.0f%s", gps - begin,
+                         points.span.last + kAdjustedGpsOffset - begin, week,
+                         gps >= 0 && gps < 1e11 ? absl::StrFormat(" (%s)", UtcText(gps).substr(0, 10)) : "");
+}
+
+absl::StatusOr<double> TimeOffset(const std::string& name, const TimeSpan& trajectory, TrajectoryClock clock,
+                                  const PointTimes& points) {
+  if (IsAmbiguous(trajectory, points)) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%s: fits more than one week of the points, which last %.1f days (it does not name its week); "
+        "split the LAS by flight, or give a trajectory with GPS times since 1980",
+        name, (points.span.last - points.span.first) / 86400));
+  }
+  const Candidate best = BestOffset(trajectory, clock, points);
+  if (best.overlap >= 0 && !(points.span.first == 0 && points.span.last == 0)) return best.offset;
+  const Mismatch mismatch = MismatchCause(trajectory, clock, points);
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "%s: no record at the times of the points: it has %.1f to %.1f s, they have %s (%s); %s", name,
+      trajectory.first, trajectory.last, DescribePointTimes(points), mismatch.why, mismatch.suggestion));
+}
+
+}  // namespace albtpu::formats

@@ -1,0 +1,67 @@
+// Water levels by time, such as a tide gauge states them: a CSV file with the columns `time` and `water_level`.
+//
+//     time,water_level                         time,water_level
+//     2016-05-11T14:00:00Z,-23.02              146968200.0,-23.02
+//     2016-05-11T14:06:00Z,-23.05              146968560.0,-23.05
+//
+// `time` is UTC in ISO 8601 with its Z, or a number: GPS time in the form in which the LAS file states it. One file has
+// one of the two. `water_level` is in the unit and in the vertical datum of the heights of the points. Others are
+// ignored.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "formats/trajectories/trajectory_time.h"
+
+namespace albtpu::formats {
+
+class WaterLevelSeries {
+ public:
+  // s. Between levels further apart than this, there is no level. Gauges report every 6 to 60 minutes. In the middle of
+  // two hours, a tide of 12.42 h departs from the straight line by up to 1 - cos(2 pi 1 h / 12.42 h) = 0.13 of its
+  // amplitude.
+  static constexpr double kLongestGap = 7200;
+
+  // Reads the text of such a file. `name` is for messages. At least two levels at increasing times.
+  static absl::StatusOr<WaterLevelSeries> Parse(std::string name, std::string text, PointTimeForm form);
+
+  std::size_t size() const { return times_.size(); }
+  double start() const { return times_.front(); }
+  double end() const { return times_.back(); }
+
+  // The level at a time of the points, linear between the two levels around it. nullopt before the first, after the
+  // last, and in a gap.
+  std::optional<double> At(double time) const;
+
+  // The same for many times, NaN where there is no level. Fast where times that follow each other are close.
+  void LevelsAt(std::span<const double> times, std::span<double> levels) const;
+
+ private:
+  WaterLevelSeries() = default;
+
+  // Whether the level at `time` lies between the levels `after` - 1 and `after`.
+  bool IsBetween(double time, std::size_t after) const {
+    return after > 0 && after < times_.size() && times_[after - 1] <= time && time <= times_[after];
+  }
+  double Continued(double time) const;                  // In the series' weeks.
+  std::optional<std::size_t> After(double time) const;  // IsBetween; nullopt outside of the series.
+  std::optional<double> Between(double time, std::size_t after) const;
+
+  std::vector<double> times_, levels_;
+  bool crosses_week_ = false;  // Seconds of the week that continue beyond 604 800 s.
+
+  friend class WaterLevelReader;
+};
+
+// Reads a CSV file of water levels.
+absl::StatusOr<WaterLevelSeries> ReadWaterLevels(const std::filesystem::path& path,
+                                                 PointTimeForm form = PointTimeForm::kAdjustedStandard);
+
+}  // namespace albtpu::formats

@@ -1,0 +1,20 @@
+// Flags of more than one command of albtpu-generate.
+#pragma once
+
+#include "programs/command_line/cli_fwd.h"
+
+namespace albtpu::programs {
+
+// The heading of --help under which options of the computation stand.
+inline constexpr char kWork[] = "The computation";
+
+// A finite number in a range that includes both ends, or not `least` if `open_below`. CLI11 parses "nan" and "inf" as
+// numbers.
+CLI::Validator NumberIn(double least, double most, bool open_below = false);
+
+// A seed of random numbers.
+CLI::Validator Seed();
+
+void AddThreads(CLI::App& command, int& threads);
+
+}  // namespace albtpu::programs

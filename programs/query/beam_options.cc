@@ -1,0 +1,269 @@
+#include "programs/query/beam_options.h"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "annotate/run/exit_status.h"
+#include "annotate/totals/water_column.h"
+#include "programs/command_line/checks.h"
+#include "programs/query/options.h"
+
+namespace albtpu::programs {
+namespace {
+
+using config::SurveySettings;
+
+constexpr double kFoot = 0.3048;                 // m, international; exact.
+constexpr double kSurveyFoot = 1200.0 / 3937.0;  // m, US survey; exact.
+
+double ParseUnit(const std::string& text) { return text == "ft" ? kFoot : text == "us-ft" ? kSurveyFoot : 1; }
+
+enum Way : unsigned { kTrajectory = 1, kReturns = 2, kScanner = 4, kIncidence = 8 };
+
+struct WayFlag {
+  Way way;
+  const char* flag;
+  bool given;
+};
+
+std::array<WayFlag, 4> WayFlags(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
+  return {{{kTrajectory, "--trajectory", !trajectory.files.empty()},
+           {kReturns, "--trajectory-from-returns", trajectory.from_returns.value_or(false)},
+           {kScanner, "--scanner", options.scanner.has_value()},
+           {kIncidence, "--incidence", options.incidence.has_value()}}};
+}
+
+absl::StatusOr<WayFlag> ChosenWay(const BeamOptions& options, const config::TrajectorySettings& trajectory) {
+  std::optional<WayFlag> chosen;
+  for (const WayFlag& way : WayFlags(options, trajectory)) {
+    if (!way.given) continue;
+    if (chosen.has_value()) {
+      return formats::UsageError(absl::StrCat("las: ", chosen->flag, " and ", way.flag,
+                                              " both say where each beam went; give one of them"));
+    }
+    chosen = way;
+  }
+  if (chosen.has_value()) return *chosen;
+  return formats::UsageError(
+      "las: nothing says where each beam went; give --trajectory FILES, --trajectory-from-returns, "
+      "--scanner across-track (its incidence is |scan angle|) or --incidence DEG (a cone)");
+}
+
+// Flags that mean something for some of the ways only.
+absl::Status CheckFlagsOf(const WayFlag& way, const BeamOptions& options, const SurveySettings& flags) {
+  const struct {
+    const char* flag;
+    bool given;
+    unsigned ways;
+  } checked[] = {
+      {"--trajectory-errors", !flags.trajectory.errors.empty(), kTrajectory},
+      {"--trajectory-time", flags.trajectory.time.has_value(), kTrajectory},
+      {"--geoid-separation", flags.datum.geoid_separation.has_value(), kTrajectory},
+      {"--lever-arm", flags.sensor.lever_arm.has_value(), kTrajectory},
+      {"--crs", options.crs.has_value(), kTrajectory | kReturns},
+      {"--water-index", flags.water.index.has_value(), kTrajectory | kReturns},
+      {"--flight-direction", options.flight_direction.has_value(), kScanner},
+      {"--beam-azimuth", options.beam_azimuth.has_value(), kIncidence},
+      {"--altitude", options.altitude.has_value(), kScanner | kIncidence},
+      {"--azimuth", options.fixed[annotate::PulseInput::kAzimuth].has_value(), kScanner | kIncidence},
+  };
+  for (const auto& flag : checked) {
+    if (!flag.given || (flag.ways & way.way) != 0) continue;
+    std::vector<std::string> others;
+    for (const WayFlag& other : WayFlags(options, flags.trajectory)) {
+      if ((flag.ways & other.way) != 0) others.emplace_back(other.flag);
+    }
+    return formats::UsageError(absl::StrCat("las: ", flag.flag, " has no effect with ", way.flag,
+                                            "; leave it out (it belongs to ", absl::StrJoin(others, " and "),
+                                            ")"));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<annotate::BeamSource> Source(const WayFlag& way, const BeamOptions& options,
+                                            const SurveySettings& settings) {
+  const config::TrajectorySettings& trajectory = settings.trajectory;
+  switch (way.way) {
+    case kTrajectory:
+      return annotate::TrajectoryFromFiles{.paths = trajectory.files,
+                                           .errors = trajectory.errors,
+                                           .utc = trajectory.time == "utc",
+                                           .geoid_separation = settings.datum.geoid_separation,
+                                           .lever_arm = settings.sensor.lever_arm.value_or(config::Triple{}),
+                                           .crs = options.crs};
+    case kReturns:
+      return annotate::TrajectoryFromReturns{.crs = options.crs};
+    case kScanner:
+      return annotate::AcrossTrackScan{.flight_direction = options.flight_direction,
+                                       .altitude = options.altitude};
+    case kIncidence:
+      break;
+  }
+  if (*options.incidence >= 90) {
+    return formats::UsageError(absl::StrCat("las: --incidence is ", *options.incidence,
+                                            " degrees; give an angle from the vertical below 90"));
+  }
+  return annotate::ConstantIncidence{
+      .incidence = *options.incidence, .beam_azimuth = options.beam_azimuth, .altitude = options.altitude};
+}
+
+absl::Status SetFootprint(const BeamOptions& options, bool details, annotate::BeamPlan& plan) {
+  const std::optional<float>& footprint = options.fixed[annotate::PulseInput::kFootprint];
+  const bool track = plan.has_track();
+  const bool range_known = track || options.altitude.has_value();
+  if (options.divergence.has_value() && range_known && !footprint.has_value()) {
+    plan.footprint =
+        annotate::DivergingBeam{.divergence = *options.divergence, .aperture = options.aperture.value_or(0)};
+    return absl::OkStatus();
+  }
+  const bool altitude_has_effect = !options.altitude.has_value() || details;
+  if (!footprint.has_value() || options.divergence.has_value() || !altitude_has_effect) {
+    return formats::UsageError(
+        absl::StrCat("las: the size of the beam is missing or given twice; give either --footprint, or ",
+                     track ? "--divergence" : "--altitude and --divergence"));
+  }
+  if (options.aperture.has_value()) {
+    return formats::UsageError("las: --aperture has no effect without --divergence; leave it out");
+  }
+  plan.footprint = *footprint;
+  return absl::OkStatus();
+}
+
+// Over any sea the direction of a beam is known from the wind, or from north; or not at all.
+absl::Status CheckDirectionOnce(const annotate::BeamPlan& plan) {
+  if (!plan.azimuth.has_value() || !plan.has_direction()) return absl::OkStatus();
+  return formats::UsageError(
+      "las: the direction of the beam is given twice; give --azimuth (from downwind), or its true direction");
+}
+
+absl::Status SetAzimuth(const BeamOptions& options, const config::SeaSettings& sea, bool details,
+                        annotate::BeamPlan& plan) {
+  plan.azimuth = options.fixed[annotate::PulseInput::kAzimuth];
+  if (plan.any_sea) return CheckDirectionOnce(plan);
+  plan.wind_from = sea.wind_from;
+  if (plan.azimuth.has_value() && plan.wind_from.has_value()) {
+    return formats::UsageError(
+        "las: the direction of the beam is given twice; give --azimuth (from downwind), or --wind-from and "
+        "the true direction");
+  }
+  if (plan.has_track()) return absl::OkStatus();
+  const bool scanner = std::holds_alternative<annotate::AcrossTrackScan>(plan.source);
+  const bool direction = scanner ? options.flight_direction.has_value() : options.beam_azimuth.has_value();
+  const std::string flag = scanner ? "--flight-direction" : "--beam-azimuth";
+  if (plan.wind_from.has_value() && !direction) {
+    return formats::UsageError(
+        absl::StrCat("las: --wind-from has no effect without ", flag, "; give both or none of them"));
+  }
+  if (!plan.wind_from.has_value() && direction && !details) {
+    return formats::UsageError(
+        absl::StrCat("las: ", flag, " has no effect without --wind-from; give both or none of them"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status SetWater(const config::SurfaceSettings& surface, annotate::BeamPlan& plan) {
+  if (!surface.level.has_value() && surface.classes.empty()) {
+    return formats::UsageError(
+        "las: the water surface is missing; give --water-level (its height in the unit and datum of the "
+        "file's "
+        "heights, or a CSV file of heights by time) or --water-classes (the classes of returns from it: "
+        "41,42, or in "
+        "point formats 0 to 5 mostly 9 or 27)");
+  }
+  plan.water_classes = {surface.classes.begin(), surface.classes.end()};
+  if (!surface.level.has_value()) return absl::OkStatus();
+  if (const auto* file = std::get_if<std::string>(&*surface.level)) {
+    plan.water_level_file = *file;
+  } else {
+    plan.water_level = std::get<double>(*surface.level);
+  }
+  return absl::OkStatus();
+}
+
+void AddWays(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
+  AddFlags(command,
+           {"--trajectory", "--trajectory-errors", "--trajectory-time", "--geoid-separation", "--lever-arm"},
+           group::kBeam, flags);
+  command
+      .add_option("--crs", options.crs,
+                  "Coordinate system of the points, such as EPSG:26917, in place of what the files state")
+      ->type_name("CODE")
+      ->check(NotEmpty("coordinate system"))
+      ->group(group::kBeam);
+  AddFlags(command, {"--trajectory-from-returns"}, group::kBeam, flags);
+  command
+      .add_option("--scanner", options.scanner,
+                  "The scanner swings across the track: incidence is |scan angle|")
+      ->type_name("across-track")
+      ->check(OneOf({"across-track"}))
+      ->group(group::kBeam);
+  AddNumber(command, "--flight-direction", Sign::kAny,
+            "Direction of flight, for --scanner across-track [degree, true]", options.flight_direction)
+      ->group(group::kBeam);
+  AddNumber(command, "--incidence", Sign::kNotNegative,
+            "One angle of all beams from the vertical, in air, as of a cone [degree]", options.incidence)
+      ->group(group::kBeam);
+  AddNumber(command, "--beam-azimuth", Sign::kAny,
+            "Where the beams travel to, for --incidence [degree, true]", options.beam_azimuth)
+      ->group(group::kBeam);
+}
+
+}  // namespace
+
+void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags) {
+  AddWays(command, options, flags);
+  AddFlags(command, {"--water-level", "--water-classes", "--water-index"}, group::kSea, flags);
+  for (const annotate::PulseInput input : {annotate::PulseInput::kFootprint, annotate::PulseInput::kAzimuth})
+    AddInput(command, input, options.fixed);
+  AddNumber(command, "--altitude", Sign::kNotNegative,
+            "Height of the aircraft above the water, where no trajectory gives it [m]", options.altitude)
+      ->group(group::kPulse);
+  AddNumber(command, "--divergence", Sign::kNotNegative, "Divergence of the beam, full angle [mrad]",
+            options.divergence)
+      ->group(group::kPulse);
+  AddNumber(command, "--aperture", Sign::kNotNegative,
+            "Diameter of the beam where it leaves the sensor, with --divergence [m] (default: 0)",
+            options.aperture)
+      ->group(group::kPulse);
+  command
+      .add_option_function<std::string>(
+          "--units", [&options](const std::string& text) { options.metres_per_unit = ParseUnit(text); },
+          "Unit of the file's heights and of --water-level: m, ft (international) or us-ft (US survey) "
+          "(default: that "
+          "of the file's coordinate system)")
+      ->type_name("m|ft|us-ft")
+      ->check(OneOf({"m", "ft", "us-ft"}))
+      ->group(group::kPoints);
+}
+
+absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const SurveySettings& flags,
+                                            const SurveySettings& settings, bool details) {
+  const config::SeaSettings& sea = settings.sea;
+  const absl::StatusOr<WayFlag> way = ChosenWay(options, settings.trajectory);
+  if (!way.ok()) return way.status();
+  if (absl::Status status = CheckFlagsOf(*way, options, flags); !status.ok()) return status;
+  const absl::StatusOr<annotate::BeamSource> source = Source(*way, options, settings);
+  if (!source.ok()) return source.status();
+  if (!sea.wind_speed.has_value() && !sea.has_waves()) {
+    return formats::UsageError(
+        "las: --wind-speed is missing; give the wind speed at 10 m in m/s, or the waves by --sea, --hs or "
+        "--survey");
+  }
+  annotate::FixedInputs wind;
+  TakeWind(sea, wind);
+  annotate::BeamPlan plan;
+  plan.source = *source;
+  plan.any_sea = wind.any_sea;
+  plan.wind_speed = wind[annotate::PulseInput::kWindSpeed].value_or(0);
+  plan.fetch = wind[annotate::PulseInput::kFetch];
+  plan.metres_per_unit = options.metres_per_unit;
+  if (plan.has_track()) plan.refractive_index = annotate::IndexOf(settings.water).value_or(kSeaWaterIndex);
+  if (absl::Status status = SetWater(settings.surface, plan); !status.ok()) return status;
+  if (absl::Status status = SetFootprint(options, details, plan); !status.ok()) return status;
+  if (absl::Status status = SetAzimuth(options, sea, details, plan); !status.ok()) return status;
+  return plan;
+}
+
+}  // namespace albtpu::programs

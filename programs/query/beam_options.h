@@ -1,0 +1,31 @@
+// The flags of `las` that say where each beam went and how wide it is, beside those that have a key in the survey file.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "annotate/beams/beam_plan.h"
+#include "programs/command_line/cli_fwd.h"
+#include "programs/query/survey_flags.h"
+
+namespace albtpu::programs {
+
+// As the user gave them.
+struct BeamOptions {
+  std::optional<std::string> scanner, crs;
+  std::optional<double> incidence, beam_azimuth, altitude, flight_direction;
+  std::optional<double> divergence, aperture, metres_per_unit;
+  annotate::FixedInputs fixed;  // azimuth, footprint
+};
+
+// Adds them, and the flags of [trajectory], [surface], [water] and [datum] that `las` alone has. `options` and `flags`
+// must live as long as `command`.
+void AddBeamOptions(CLI::App& command, BeamOptions& options, SurveyFlags& flags);
+
+// IsUsageError if something needed is missing, is given in two ways or has no effect, of `flags` what is given by them.
+// `details`: the geometry of each beam is written, too.
+absl::StatusOr<annotate::BeamPlan> MakePlan(const BeamOptions& options, const config::SurveySettings& flags,
+                                            const config::SurveySettings& settings, bool details);
+
+}  // namespace albtpu::programs

@@ -1,0 +1,180 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "annotate/csv/csv_annotation.h"
+#include "annotate/run/annotation_run.h"
+#include "annotate/run/exit_status.h"
+#include "annotate/run/file_jobs.h"
+#include "annotate/totals/plan_total.h"
+#include "formats/text/number_text.h"
+#include "programs/command_line/help.h"
+#include "programs/query/commands.h"
+#include "programs/query/options.h"
+#include "programs/query/survey_flags.h"
+
+namespace albtpu::programs {
+namespace {
+
+struct CsvOptions {
+  annotate::FileOptions files;
+  Existing existing = Existing::kKeep;
+  SurveyFlags flags;
+  SourceOptions source;
+  annotate::AnswerStyle style;
+  annotate::FixedInputs fixed;
+};
+
+// For a summary; null where a column of the file has it, or nothing does.
+nlohmann::ordered_json Parameters(const CsvOptions& options, const config::SeaSettings& sea) {
+  nlohmann::ordered_json json;
+  annotate::FixedInputs stated = options.fixed;
+  StateWind(sea, stated);
+  for (std::size_t i = 0; i < annotate::kPulseInputCount; ++i) {
+    const auto input = static_cast<annotate::PulseInput>(i);
+    const std::optional<float>& value = stated[input];
+    json[std::string(Name(input))] =
+        value.has_value() ? formats::JsonNumber(*value) : nlohmann::ordered_json();
+  }
+  if (sea.has_waves()) json["sea"] = Parameters(sea);
+  json.update(programs::Parameters(options.style));
+  return json;
+}
+
+// None where only the columns of each file give it.
+std::optional<bool> IsFootprintFromBeam(const annotate::FixedInputs& fixed) {
+  if (fixed[annotate::PulseInput::kFootprint].has_value()) return false;
+  if (fixed[annotate::PulseInput::kAltitude].has_value() ||
+      fixed[annotate::PulseInput::kDivergence].has_value())
+    return true;
+  return std::nullopt;
+}
+
+// Null where no sensor is named.
+absl::StatusOr<std::optional<annotate::CsvTotal>> TotalOf(const CsvOptions& options,
+                                                          const config::SurveySettings& settings,
+                                                          const annotate::FixedInputs& fixed) {
+  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  if (!settings.wants_total()) {
+    if (options.flags.settings.output.details.has_value())
+      return formats::UsageError("csv: --details has no effect without --sensor; leave it out");
+    return std::nullopt;
+  }
+  absl::StatusOr<annotate::TotalPlan> plan =
+      annotate::PlanTotal(settings, annotate::ContextOf(settings, options.style.coverage));
+  if (!plan.ok()) return plan.status();
+  if (const std::optional<float>& wind_from = fixed[annotate::PulseInput::kWindFrom]; wind_from.has_value())
+    plan->sea_axis = static_cast<float>(std::fmod(*wind_from + 540, 360));
+  return annotate::CsvTotal{
+      .plan = *std::move(plan), .details = settings.output.details.value_or(false), .wind_spectrum = {}};
+}
+
+absl::Status RunCsv(const CsvOptions& given) {
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(given.flags);
+  if (!settings.ok()) return settings.status();
+  const config::SeaSettings& sea = settings->sea;
+  CsvOptions options = given;
+  TakeStyle(settings->output, options.style);
+  annotate::FixedInputs fixed = options.fixed;
+  TakeWind(sea, fixed);
+  absl::StatusOr<std::optional<annotate::CsvTotal>> total = TotalOf(options, *settings, fixed);
+  if (!total.ok()) return total.status();
+  annotate::AnswerStyle style = options.style;
+  if (total->has_value())
+    style.coverage = Coverage::kTwoSigma;  // Of the sea's contribution, which a total takes at 2 sigma.
+  const absl::StatusOr<std::vector<annotate::Job>> jobs = annotate::FindJobs("csv", {".csv"}, options.files);
+  if (!jobs.ok()) return jobs.status();
+  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
+  if (!answerer.ok()) return answerer.status();
+  if (absl::Status status = answerer->CheckOneTime("csv"); !status.ok()) return status;
+  const annotate::AnswerSource source = answerer->source();
+  if (total->has_value() && !sea.has_waves()) {
+    const auto spectrum = source.table().attributes.find("spectrum");
+    (*total)->wind_spectrum = spectrum != source.table().attributes.end() ? spectrum->second : "not stated";
+  }
+  if (options.style.standard_errors) annotate::Note(answerer->ErrorNote());
+  const std::string notes = answerer->SeaText();
+  std::vector<std::filesystem::path> files;
+  if (sea.file.has_value()) files.emplace_back(*sea.file);
+  const auto annotate = [&](const annotate::Job& job,
+                            annotate::FileProgress& progress) -> absl::StatusOr<annotate::AnnotatedFile> {
+    absl::StatusOr<annotate::AnnotatedCsv> csv =
+        annotate::AnnotateCsv(job.input, job.output, options.existing, fixed, style, source, progress,
+                              total->has_value() ? &**total : nullptr);
+    if (!csv.ok()) return csv.status();
+    const std::string outcomes = csv->summary.outcomes().Text(annotate::WithoutAzimuth(source.table()));
+    if (!total->has_value()) {
+      return annotate::AnnotatedFile{std::move(csv->file),
+                                     annotate::Findings{.input_bytes = csv->input_bytes,
+                                                        .input = answerer->SeaJson(),
+                                                        .answers = csv->summary.Json(),
+                                                        .tally = csv->summary.Tally()},
+                                     absl::StrCat(" ", outcomes, notes)};
+    }
+    annotate::TotalPlan plan = (*total)->plan;
+    if (csv->took_divergence) plan.numbers.push_back(annotate::AssumedDivergence(*plan.divergence));
+    std::string text = absl::StrCat(
+        " ", outcomes,
+        csv->totals.Text(plan.options.coverage, options.style.s44_order.value_or(S44Order::k1b)));
+    for (const std::string& assumed : annotate::Assumptions(plan)) absl::StrAppend(&text, "\n  ", assumed);
+    return annotate::AnnotatedFile{
+        std::move(csv->file),
+        annotate::Findings{.input_bytes = csv->input_bytes,
+                           .input = answerer->SeaJson(),
+                           .answers = annotate::WithTotal(csv->summary.Json(), plan, csv->totals),
+                           .tally = csv->summary.Tally()},
+        text + notes};
+  };
+  nlohmann::ordered_json parameters = Parameters(options, sea);
+  if (total->has_value()) {
+    parameters["details"] = (*total)->details;
+    parameters["total"] = Parameters((*total)->plan);
+  }
+  return annotate::AnnotateFiles(*jobs,
+                                 {.command = "csv",
+                                  .records = "pulses",
+                                  .record = "pulse",
+                                  .parameters = parameters,
+                                  .files = files,
+                                  .resume = options.files.resume,
+                                  .existing = options.existing,
+                                  .annotate = annotate,
+                                  .cause = {.axes = source.table().axes,
+                                            .water_level = {},
+                                            .footprint_from_beam = IsFootprintFromBeam(fixed)}},
+                                 source.table());
+}
+
+}  // namespace
+
+void AddCsvCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<CsvOptions>();
+  CLI::App* command = program.add_subcommand("csv",
+                                             "Copy CSV files of pulses and append the uncertainty of each; "
+                                             "columns are wind_speed, fetch, incidence, "
+                                             "azimuth, footprint, depth, in any order, among others; "
+                                             "beam_azimuth and wind_from may stand for azimuth, altitude "
+                                             "and divergence for footprint; with a total also roll, "
+                                             "pitch, heading, velocity_north and the like");
+  AddFileOptions(*command, ".csv", options->files, options->existing);
+  AddInputs(*command, options->fixed);
+  AddSeaFlags(*command, options->flags, kRareSeaFlags);
+  AddTotalFlags(*command, options->flags);
+  AddFlags(*command, {"--details"}, group::kOutput, options->flags);
+  AddSourceOptions(*command, options->source);
+  AddStyleFlags(*command, options->flags, options->style);
+  EndHelp(*command,
+          absl::StrCat("A column that is missing can be given once for all pulses by its option.\n",
+                       kWhereAnswersComeFrom),
+          "pulses.csv with_uncertainty.csv --wind-speed 5 --footprint 0.5",
+          "surveys --output-dir annotated --recursive --resume --server 127.0.0.1:50051");
+  command->callback([options, &run] { run = [options] { return RunCsv(*options); }; });
+}
+
+}  // namespace albtpu::programs

@@ -1,0 +1,209 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "annotate/las/las_annotation.h"
+#include "annotate/run/annotation_run.h"
+#include "annotate/run/exit_status.h"
+#include "annotate/totals/plan_total.h"
+#include "programs/query/commands.h"
+#include "programs/query/las_options.h"
+
+namespace albtpu::programs {
+namespace {
+
+// The message for a file that has no point of the given classes.
+std::string ClassHint(const annotate::Job& job, const annotate::AnnotatedLas& annotated) {
+  const int min_class = *annotated.chosen_classes.begin();
+  const bool never =
+      annotated.point_format < formats::kFirstModernFormat && formats::kLegacyClassMask < min_class;
+  return absl::StrCat(
+      job.input.string(), ": no point of class ", absl::StrJoin(annotated.chosen_classes, " or "), " (",
+      never ? absl::StrCat("classes of point format ", annotated.point_format, " end at ",
+                           formats::kLegacyClassMask, "; ")
+            : "",
+      "the file has ", annotated.classes.Text(), "); name its bathymetric classes with --classes");
+}
+
+nlohmann::ordered_json InputJson(const annotate::AnnotatedLas& annotated) {
+  nlohmann::ordered_json json = {{"format", std::string(Name(annotated.input_kind))},
+                                 {"point_format", annotated.point_format},
+                                 {"points", annotated.classes.points()},
+                                 {"points_by_class", annotated.classes.Json()},
+                                 {"geometry", *annotated.geometry}};
+  if (!annotated.sea->is_null()) json["sea"] = *annotated.sea;
+  if (annotated.copc_index_left_out) json["left_out"] = {"index of COPC"};
+  return json;
+}
+
+// The contribution of the sea, and the total beside it.
+nlohmann::ordered_json AnswersJson(const annotate::LasAnnotation& annotation,
+                                   const annotate::AnnotatedLas& annotated) {
+  nlohmann::ordered_json json = annotated.summary.Json();
+  if (!annotation.total.has_value()) return json;
+  return annotate::WithTotal(std::move(json), *annotation.total, annotated.totals, annotated.totals_by_line);
+}
+
+std::string AnswersText(const annotate::LasAnnotation& annotation, const annotate::AnnotatedLas& annotated,
+                        const client::TableSummary& table) {
+  if (!annotation.total.has_value()) return annotated.summary.Text(annotate::WithoutAzimuth(table));
+  const S44Order order = annotation.style.s44_order.value_or(S44Order::k1b);
+  std::string text = absl::StrCat(annotated.summary.outcomes().Text(annotate::WithoutAzimuth(table)),
+                                  annotated.totals.Text(annotation.style.coverage, order));
+  for (const std::string& assumed : annotate::Assumptions(*annotation.total))
+    absl::StrAppend(&text, "\n  ", assumed);
+  return text;
+}
+
+class LasFiles {
+ public:
+  LasFiles(const LasOptions& options, const annotate::LasAnnotation& annotation,
+           std::optional<formats::LasKind> kind, const annotate::AnswerSource& source)
+      : options_(options), annotation_(annotation), kind_(kind), source_(source) {}
+
+  absl::StatusOr<annotate::AnnotatedFile> Annotate(const annotate::Job& job,
+                                                   annotate::FileProgress& progress) {
+    absl::StatusOr<annotate::AnnotatedLas> annotated = annotate::AnnotateLas(
+        job.input, job.output, options_.existing, annotation_, source_, progress, kind_);
+    if (!annotated.ok()) return annotated.status();
+    const std::uint64_t points = annotated->classes.points();
+    const std::uint64_t bathymetric = annotated->summary.outcomes().total();
+    const bool none = points > 0 && bathymetric == 0;
+    // A single file without the class points to a wrong --classes; among many files it may be dry land.
+    if (none && options_.files.output_folder.empty()) {
+      return absl::FailedPreconditionError(ClassHint(job, *annotated) + "; nothing was written");
+    }
+    if (none) annotate::Note(ClassHint(job, *annotated) + "; all its points get no-data");
+    if (std::holds_alternative<annotate::AcrossTrackScan>(annotation_.plan.source)) {
+      NoteResolution(annotated->point_format);
+    }
+    points_ += points;
+    bathymetric_ += bathymetric;
+    return annotate::AnnotatedFile{
+        std::move(annotated->file),
+        annotate::Findings{.input_bytes = annotated->input_bytes,
+                           .input = InputJson(*annotated),
+                           .output = {{"format", std::string(Name(annotated->output_kind))}},
+                           .answers = AnswersJson(annotation_, *annotated),
+                           .tally = annotated->summary.Tally()},
+        absl::StrCat(
+            "\n  ", points, " points; bathymetric: ", AnswersText(annotation_, *annotated, source_.table()),
+            absl::StrJoin(annotated->notes, "",
+                          [](std::string* text, const auto& note) { absl::StrAppend(text, "\n  ", note); }))};
+  }
+
+  bool found_no_bathymetry() const { return points_ > 0 && bathymetric_ == 0; }
+
+ private:
+  // Once for all files, which mostly have the same point format.
+  void NoteResolution(int point_format) {
+    if (point_format >= formats::kFirstModernFormat || resolution_noted_) return;
+    annotate::Note(absl::StrCat("point format ", point_format,
+                                ": scan angles are whole degrees, so incidence is known to 0.5 degrees"));
+    resolution_noted_ = true;
+  }
+
+  const LasOptions& options_;
+  const annotate::LasAnnotation& annotation_;
+  std::optional<formats::LasKind> kind_;  // Of the outputs.
+  annotate::AnswerSource source_;
+  bool resolution_noted_ = false;
+  std::uint64_t points_ = 0, bathymetric_ = 0;
+};
+
+// Opens the trajectories of the plan, and reads a file of water levels once, so that a wrong one fails before any work.
+absl::Status OpenFilesOf(annotate::BeamPlan& plan) {
+  if (const auto* files = std::get_if<annotate::TrajectoryFromFiles>(&plan.source)) {
+    absl::StatusOr<formats::TrajectoryFiles> trajectories = formats::LoadTrajectories(files->paths);
+    if (!trajectories.ok()) return trajectories.status();
+    plan.trajectories = std::make_shared<const formats::TrajectoryFiles>(*std::move(trajectories));
+    absl::StatusOr<annotate::TrajectoryErrors> errors = annotate::LoadTrajectoryErrors(files->errors);
+    if (!errors.ok()) return errors.status();
+    plan.trajectory_errors = *std::move(errors);
+  }
+  if (!plan.water_level_file.has_value()) return absl::OkStatus();
+  return formats::ReadWaterLevels(*plan.water_level_file, formats::PointTimeForm::kAdjustedStandard).status();
+}
+
+// The inputs in which a mistake in the coordinates is sought.
+annotate::CauseContext ContextOf(const annotate::BeamPlan& plan, const client::TableSummary& table) {
+  annotate::CauseContext context{
+      .axes = table.axes,
+      .water_level = {},
+      .water_level_by_time = plan.water_level_file.has_value(),
+      .footprint_from_beam = std::holds_alternative<annotate::DivergingBeam>(plan.footprint)};
+  if (plan.water_level.has_value() && plan.water_classes.empty()) {
+    context.water_level = *plan.water_level * plan.metres_per_unit.value_or(1);
+  }
+  return context;
+}
+
+absl::Status RunLas(const LasOptions& options) {
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options);
+  if (!settings.ok()) return settings.status();
+  const config::SeaSettings& sea = settings->sea;
+  absl::StatusOr<annotate::LasAnnotation> annotation = Annotation(options, *settings);
+  if (!annotation.ok()) return annotation.status();
+  const absl::StatusOr<std::optional<formats::LasKind>> kind = OutputKind(options);
+  if (!kind.ok()) return kind.status();
+  annotate::FileOptions file_options = options.files;
+  if (options.format.has_value()) file_options.output_extension = formats::Extension(*options.format);
+  const absl::StatusOr<std::vector<annotate::Job>> jobs = annotate::FindJobs(
+      "las", {formats::Extension(formats::LasKind::kLas), formats::Extension(formats::LasKind::kLaz)},
+      file_options);
+  if (!jobs.ok()) return jobs.status();
+  if (absl::Status status = OpenFilesOf(annotation->plan); !status.ok()) return status;
+  absl::StatusOr<Answerer> answerer = Answerer::Open(sea, options.source);
+  if (!answerer.ok()) return answerer.status();
+  annotation->seas = answerer->timeline();
+  const annotate::AnswerSource source = answerer->source();
+  if (annotation->total.has_value() && !sea.has_waves()) {
+    const auto& attributes = source.table().attributes;
+    const auto spectrum = attributes.find("spectrum");
+    annotation->total->wave_height =
+        annotate::WaveHeightOfWind(annotation->plan.wind_speed, annotation->plan.fetch,
+                                   spectrum != attributes.end() ? spectrum->second : std::string());
+  }
+  if (options.style.standard_errors) annotate::Note(answerer->ErrorNote());
+  LasFiles files(options, *annotation, *kind, source);
+  std::vector<std::string> read = annotate::FilesOf(annotation->plan);
+  if (sea.file.has_value()) read.push_back(*sea.file);
+  const absl::Status status = annotate::AnnotateFiles(
+      *jobs,
+      {.command = "las",
+       .records = "points",
+       .record = "chosen point",
+       .parameters = Parameters(*annotation, sea, options.format),
+       .files = {read.begin(), read.end()},
+       .resume = options.files.resume,
+       .existing = options.existing,
+       .annotate = [&](const annotate::Job& job,
+                       annotate::FileProgress& progress) { return files.Annotate(job, progress); },
+       .cause = ContextOf(annotation->plan, source.table())},
+      source.table());
+  // With --resume, the files that were skipped may have such points.
+  if (status.ok() && !options.files.resume && files.found_no_bathymetry()) {
+    return absl::FailedPreconditionError(
+        "no file has a point of the bathymetric classes; name them with --classes");
+  }
+  return status;
+}
+
+}  // namespace
+
+void AddLasCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<LasOptions>();
+  CLI::App* command = program.add_subcommand("las",
+                                             "Copy LAS and LAZ files (1.0 to 1.4) and append to each point "
+                                             "total_thu and total_tvu, or without a sensor "
+                                             "sea_thu and sea_tvu");
+  AddLasOptions(*command, *options);
+  command->callback([options, &run] { run = [options] { return RunLas(*options); }; });
+}
+
+}  // namespace albtpu::programs

@@ -1,0 +1,162 @@
+#include "programs/query/las_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "annotate/run/exit_status.h"
+#include "annotate/totals/plan_total.h"
+#include "config/sensors/installed_sensors.h"
+#include "formats/las/las_points.h"
+#include "programs/command_line/help.h"
+#include "programs/query/commands.h"
+#include "programs/query/options.h"
+
+namespace albtpu::programs {
+namespace {
+
+absl::StatusOr<annotate::TotalPlan> TotalOf(const config::SurveySettings& settings, const BeamOptions& beams,
+                                            const annotate::BeamPlan& plan, bool is_divergence_given,
+                                            Coverage coverage) {
+  if (!plan.has_track() && !beams.altitude.has_value())
+    return formats::UsageError(
+        "las: --altitude is missing; a total needs the height of the sensor above the water");
+  annotate::TotalContext context{
+      .coverage = coverage,
+      .has_surface_returns = !plan.water_classes.empty(),
+      .has_level = plan.water_level.has_value() || plan.water_level_file.has_value(),
+      .trajectory_errors = settings.trajectory.errors.empty() ? "" : "--trajectory-errors"};
+  absl::StatusOr<annotate::TotalPlan> total = annotate::PlanTotal(settings, context);
+  if (!total.ok()) return total.status();
+  if (const auto* beam = std::get_if<annotate::DivergingBeam>(&plan.footprint);
+      beam != nullptr && !is_divergence_given)
+    total->numbers.push_back(annotate::AssumedDivergence(beam->divergence));
+  if (plan.wind_from.has_value()) total->sea_axis = static_cast<float>(std::fmod(*plan.wind_from + 540, 360));
+  return total;
+}
+
+}  // namespace
+
+void AddLasOptions(CLI::App& command, LasOptions& options) {
+  AddFileOptions(command, ".las", options.files, options.existing);
+  AddBeamOptions(command, options.beams, options.flags);
+  AddSeaFlags(command, options.flags, kRareSeaFlags);
+  AddTotalFlags(command, options.flags);
+  AddFlags(command, {"--classes"}, group::kPoints, options.flags);
+  AddFlags(command, {"--details"}, group::kOutput, options.flags);
+  command
+      .add_flag(
+          "--replace", options.replace,
+          "Where the points have dimensions of these names already, as floats or doubles, replace their "
+          "values")
+      ->group(group::kOutput);
+  command
+      .add_option_function<std::string>(
+          "--format",
+          [&options](const std::string& text) {
+            options.format = text == "laz" ? formats::LasKind::kLaz : formats::LasKind::kLas;
+          },
+          "Write all outputs as las or laz (default: by the name of OUT; otherwise each as its input). With "
+          "--output-dir it also changes their extension")
+      ->check(CLI::IsMember({"las", "laz"}))
+      ->type_name("las|laz")
+      ->group(group::kOutput);
+  AddSourceOptions(command, options.source);
+  AddStyleFlags(command, options.flags, options.style);
+  EndHelp(
+      command,
+      absl::StrCat(
+          "OUT.laz is compressed, as by LASzip, OUT.las is not.\n"
+          "Where each beam went is given in one of four ways: --trajectory, --trajectory-from-returns,\n"
+          "--scanner across-track or --incidence. The water surface is --water-classes, --water-level or "
+          "both.\n"
+          "The beam's size is --footprint or --divergence; the latter needs --altitude where there is no\n"
+          "trajectory.\n",
+          kWhereAnswersComeFrom),
+      "line.laz with_uncertainty.laz --trajectory-from-returns --water-level -23.09 --classes 26 "
+      "--divergence 1.5 --wind-speed 5",
+      "surveys --output-dir annotated --recursive --trajectory sbet --water-classes 41 --divergence 1.5 "
+      "--wind-speed 5 --wind-from 250 --details");
+}
+
+absl::StatusOr<config::SurveySettings> SettingsOf(const LasOptions& options) {
+  absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (settings.ok() && (options.beams.scanner.has_value() || options.beams.incidence.has_value()))
+    settings->trajectory = options.flags.settings.trajectory;
+  return settings;
+}
+
+absl::StatusOr<annotate::LasAnnotation> Annotation(const LasOptions& options,
+                                                   const config::SurveySettings& settings) {
+  if (absl::Status status = CheckTotalFlags(options.flags, settings); !status.ok()) return status;
+  annotate::LasAnnotation annotation;
+  annotation.replace = options.replace;
+  annotation.style = options.style;
+  TakeStyle(settings.output, annotation.style);
+  annotation.details = settings.output.details.value_or(false);
+  if (!settings.output.classes.empty())
+    annotation.classes.emplace(settings.output.classes.begin(), settings.output.classes.end());
+  BeamOptions beams = options.beams;
+  const bool total = settings.wants_total();
+  if (total && !beams.divergence.has_value() && !beams.fixed[annotate::PulseInput::kFootprint].has_value()) {
+    const absl::StatusOr<config::Sensor> sensor = config::FindSensor(*settings.sensor.name);
+    if (!sensor.ok()) return sensor.status();
+    if (sensor->divergence.has_value()) beams.divergence = sensor->divergence->value;
+  }
+  absl::StatusOr<annotate::BeamPlan> plan =
+      MakePlan(beams, options.flags.settings, settings, annotation.details || total);
+  if (!plan.ok()) return plan.status();
+  plan->any_aircraft = total;
+  if (total) {
+    absl::StatusOr<annotate::TotalPlan> made =
+        TotalOf(settings, beams, *plan, options.beams.divergence.has_value(), annotation.style.coverage);
+    if (!made.ok()) return made.status();
+    annotation.total = *std::move(made);
+  }
+  // A return is either from the water surface or from the bottom: in both, every depth would be 0.
+  for (const int point_class :
+       annotation.classes.value_or(std::set<int>{formats::DefaultClass(formats::kFirstModernFormat)})) {
+    if (!plan->water_classes.contains(point_class)) continue;
+    return formats::UsageError(
+        absl::StrCat("las: class ", point_class,
+                     " is both a class of the water surface and of the bottom; name different "
+                     "classes by --water-classes and --classes"));
+  }
+  annotation.plan = *std::move(plan);
+  return annotation;
+}
+
+absl::StatusOr<std::optional<formats::LasKind>> OutputKind(const LasOptions& options) {
+  const std::vector<std::string>& files = options.files.files;
+  if (!options.files.output_folder.empty() || files.size() != 2) return options.format;
+  std::optional<formats::LasKind> named;
+  for (const formats::LasKind kind : {formats::LasKind::kLas, formats::LasKind::kLaz}) {
+    if (annotate::HasExtension(files[1], formats::Extension(kind))) named = kind;
+  }
+  if (options.format.has_value() && named.has_value() && *options.format != *named) {
+    return formats::UsageError(absl::StrCat("las: --format ", formats::Extension(*options.format).substr(1),
+                                            " and the name of the output, ", files[1],
+                                            ", contradict each other; give one of them"));
+  }
+  return options.format.has_value() ? options.format : named;
+}
+
+nlohmann::ordered_json Parameters(const annotate::LasAnnotation& annotation, const config::SeaSettings& sea,
+                                  std::optional<formats::LasKind> format) {
+  nlohmann::ordered_json json = Parameters(annotation.plan);
+  if (sea.has_waves()) json["sea"] = Parameters(sea);
+  json["classes"] = nullptr;  // The default of the point format.
+  if (annotation.classes.has_value()) json["classes"] = *annotation.classes;
+  json["details"] = annotation.details;
+  if (annotation.replace) json["replace"] = true;
+  json["format"] = nullptr;  // By the name of the output, or that of the input.
+  if (format.has_value()) json["format"] = std::string(Name(*format));
+  json.update(Parameters(annotation.style));
+  if (annotation.total.has_value()) json["total"] = Parameters(*annotation.total);
+  return json;
+}
+
+}  // namespace albtpu::programs

@@ -1,0 +1,73 @@
+// albtpu-query: the uncertainty of single pulses, of CSV files and of LAS and LAZ files.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "absl/strings/str_cat.h"
+#include "absl/synchronization/mutex.h"
+#include "annotate/run/exit_status.h"
+#include "programs/command_line/help.h"
+#include "programs/command_line/standard_output.h"
+#include "programs/command_line/usage_error.h"
+#include "programs/query/commands.h"
+#include "programs/query/report_commands.h"
+#include "tables/version.h"
+
+namespace {
+
+int Main(int argc, char** argv) {
+  using namespace albtpu::client;
+
+  CLI::App program("Per-pulse total propagated uncertainty of airborne lidar bathymetry");
+  program.name("albtpu-query");
+  program.require_subcommand(1);
+  albtpu::SetUpProgram(program, albtpu::Version(), albtpu::Commit());
+  albtpu::EndHelp(
+      program,
+      absl::StrCat("albtpu-query COMMAND --help lists the options of a command.\n", kWhereAnswersComeFrom),
+      "pulse --wind-speed 7 --incidence 12 --footprint 0.5 --depth 8",
+      "las line.las with_uncertainty.las --trajectory sbet.out --water-classes 41 --wind-speed 5 "
+      "--divergence 1");
+  Run run;
+  AddPulseCommand(program, run);
+  AddCsvCommand(program, run);
+  AddLasCommand(program, run);
+  AddPlanCommand(program, run);
+  AddReportCommand(program, run);
+  AddCrossCheckCommand(program, run);
+  AddTrajectoryCommand(program, run);
+  AddSeaCommand(program, run);
+  AddSensorsCommand(program, run);
+  AddKeysCommand(program, run);
+  AddTablesCommand(program, run);
+  AddHealthCommand(program, run);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    program.exit(help, std::cout, std::cerr);
+    return Report(albtpu::FlushStandardOutput());
+  } catch (const CLI::ParseError& error) {
+    return Report(albtpu::UsageError(albtpu::UsageMessage(program, error)));
+  }
+  return Report(run());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A file that reaches the size limit of the process makes write() fail instead of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  // Debian's Abseil searches for lock cycles at every lock that gRPC takes.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  // A closed standard error does not end the work; a closed standard output makes writing answers fail.
+  std::signal(SIGPIPE, SIG_IGN);
+  setenv("GRPC_VERBOSITY", "NONE",
+         0);  // gRPC's log repeats its errors; GRPC_VERBOSITY in the environment turns it on.
+  try {
+    return Main(argc, argv);
+  } catch (const std::exception& error) {
+    return albtpu::annotate::Report(absl::InternalError(absl::StrCat(error.what(), "; please report this")));
+  }
+}

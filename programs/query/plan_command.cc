@@ -1,0 +1,327 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
+#include "annotate/totals/plan_total.h"
+#include "programs/command_line/checks.h"
+#include "programs/command_line/help.h"
+#include "programs/command_line/standard_output.h"
+#include "programs/query/commands.h"
+#include "programs/query/options.h"
+#include "programs/query/survey_flags.h"
+#include "quality/planning/survey_plan.h"
+#include "quality/report/report_folder.h"
+#include "quality/report/report_page.h"
+
+namespace albtpu::programs {
+namespace {
+
+struct PlanOptions {
+  SurveyFlags flags;
+  SourceOptions source;
+  std::optional<double> divergence;  // mrad
+  double altitude = 400, incidence = 20;
+  std::vector<double> altitudes = {200, 300, 400, 500, 600, 700, 800};
+  std::vector<double> incidences = {0, 5, 10, 15, 20, 25};
+  std::vector<double> kds = {0.06, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4};
+  std::vector<double> winds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  std::vector<double> heights = {0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3};  // Of waves, m.
+  std::string order = "1a", output;
+  bool json = false, no_page = false, kds_given = false;
+  Existing existing = Existing::kKeep;
+};
+
+absl::StatusOr<annotate::TotalPlan> PlanOf(const config::SurveySettings& settings) {
+  const bool level = settings.surface.level.has_value();
+  return annotate::PlanTotal(settings,
+                             {.coverage = Coverage::kP95, .has_surface_returns = !level, .has_level = level});
+}
+
+// In ascending order, each once. Values too small for float32, the precision of table queries, become 0.
+std::vector<double> Rising(std::vector<double> values) {
+  for (double& value : values)
+    if (value < std::numeric_limits<float>::min()) value = 0;
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+// The sea with its waves scaled to this significant height in total.
+config::SeaSettings WithHeight(config::SeaSettings sea, double height) {
+  double energy = 0;
+  for (const JonswapWaves& each : sea.waves)
+    energy += each.significant_wave_height * each.significant_wave_height;
+  for (JonswapWaves& each : sea.waves) each.significant_wave_height *= height / std::sqrt(energy);
+  return sea;
+}
+
+class Planner {
+ public:
+  Planner(const PlanOptions& options, const config::SurveySettings& settings)
+      : options_(options), settings_(settings), sea_(settings.sea) {}
+
+  absl::StatusOr<quality::SurveyPlan> Make() {
+    const bool waves = sea_.has_waves();
+    annotate::FileProgress progress("conditions", 1,
+                                    options_.kds.size() + (waves ? options_.heights : options_.winds).size());
+    progress.NextFile();
+    annotate::FileProgress::File shown(progress, "plan");
+    if (absl::Status status = Prepare(shown); !status.ok()) return status;
+    for (std::size_t i = 0; i < plan_.seas.size(); ++i) {
+      absl::Status status = waves ? Open(WithHeight(sea_, plan_.seas[i])) : absl::OkStatus();
+      if (!status.ok() && i > 0) {  // Waves that are too steep for their period.
+        annotate::Note(
+            absl::StrCat("--wave-heights: ", plan_.seas[i], " m and more left out: ", status.message()));
+        plan_.seas.resize(i);
+        break;
+      }
+      if (status.ok()) status = AddSea(plan_.seas[i]);
+      if (!status.ok()) return status;
+      ++done_;
+      shown.Reach(done_, done_);
+    }
+    if (std::ranges::none_of(plan_.planned,
+                             [](const quality::Reaches& reaches) { return reaches.back().is_known(); }))
+      return formats::UsageError(
+          "plan: no table knows the planned beam over any of these seas; give another --incidence, "
+          "--altitude or "
+          "--divergence");
+    return std::move(plan_);
+  }
+
+ private:
+  absl::Status Prepare(annotate::FileProgress::File& shown) {
+    if (sea_.file.has_value())
+      return formats::UsageError(
+          "plan: a file of the sea is of one survey; give the waves by --hs and --tp, or the wind alone");
+    const config::SeaSettings& flags = options_.flags.settings.sea;
+    if (!sea_.has_waves() && (flags.wind_speed || flags.wind_from))
+      return formats::UsageError(
+          "plan: one wind has no effect without waves (all winds are planned); give --winds");
+    if (sea_.has_waves() &&
+        std::ranges::all_of(sea_.waves, [](const auto& each) { return each.significant_wave_height == 0; }))
+      return formats::UsageError("plan: waves of height 0 have no form; give --hs above 0, which is varied");
+    if (options_.kds_given && !wants_column())
+      return formats::UsageError(
+          "plan: --kds has no effect without the contribution of the water column; describe the water in "
+          "--survey");
+    absl::StatusOr<annotate::TotalPlan> total = PlanOf(settings_);
+    if (!total.ok()) return total.status();
+    planned_ = *std::move(total);
+    if (options_.divergence.has_value()) {
+      divergence_ = *options_.divergence;
+    } else if (planned_.divergence.has_value()) {
+      divergence_ = *planned_.divergence;
+      planned_.numbers.push_back(annotate::AssumedDivergence(divergence_));
+    } else {
+      return formats::UsageError(absl::StrCat("plan: the divergence of ", planned_.numbers.front().source,
+                                              " is not known; give it by --divergence in mrad"));
+    }
+    plan_.order = *FindS44Order(options_.order);
+    const bool waves = sea_.has_waves();
+    plan_.sea_name = waves ? "significant_wave_height" : "wind_speed";
+    plan_.sea_unit = waves ? "m" : "m/s";
+    plan_.seas = Rising(waves ? options_.heights : options_.winds);
+    plan_.altitude = options_.altitude;
+    plan_.incidence = options_.incidence;
+    plan_.numbers = planned_.numbers;
+    std::vector<double> incidences = Rising(options_.incidences);
+    if (!waves) {
+      if (absl::Status status = Open(sea_); !status.ok()) return status;
+      if (absl::Status status = KeepWithin(AxisId::kWindSpeed, "--winds", plan_.seas); !status.ok())
+        return status;
+      if (absl::Status status = KeepWithin(AxisId::kIncidence, "--incidences", incidences); !status.ok())
+        return status;
+    }
+    plan_.axes = {{"altitude", "m", Rising(options_.altitudes), {}}, {"incidence", "degree", incidences, {}}};
+    return PrepareWaters(shown);
+  }
+
+  // A total for each attenuation, if the share of the water column is wanted.
+  absl::Status PrepareWaters(annotate::FileProgress::File& shown) {
+    if (wants_column()) {
+      plan_.axes.push_back({"kd", "1/m", Rising(options_.kds), {}});
+      for (const double kd : plan_.axes.back().values) {
+        config::SurveySettings settings = settings_;
+        config::WaterSettings& water = settings.water;
+        water.kd = kd;
+        if (!water.kd_kind.has_value() || *water.kd_kind == "secchi" || *water.kd_kind == "jerlov")
+          water.kd_kind = "diffuse532";
+        water.kd_sigma = water.secchi = water.absorption = water.scattering = std::nullopt;
+        water.jerlov = std::nullopt;
+        absl::StatusOr<annotate::TotalPlan> total = PlanOf(settings);
+        if (!total.ok()) return total.status();
+        of_waters_.push_back(*std::move(total));
+        ++done_;
+        shown.Reach(done_, done_);
+      }
+    }
+    for (quality::PlannedAxis& axis : plan_.axes) axis.reaches.resize(axis.values.size());
+    return absl::OkStatus();
+  }
+
+  absl::Status Open(const config::SeaSettings& sea) {
+    absl::StatusOr<Answerer> opened = Answerer::Open(sea, options_.source);
+    if (!opened.ok()) return opened.status();
+    answerer_ = std::make_unique<Answerer>(*std::move(opened));
+    return absl::OkStatus();
+  }
+
+  // Keeps the values that the table covers; others would look like conditions under which no depth can be reached.
+  absl::Status KeepWithin(AxisId axis, const std::string& flag, std::vector<double>& values) const {
+    const client::AxisRange& range = source_table().axes[Index(axis)];
+    const auto is_outside = [&](double value) { return value < range.first || value > range.last; };
+    std::string left_out;
+    for (const double value : values)
+      if (is_outside(value)) absl::StrAppend(&left_out, left_out.empty() ? "" : ", ", value);
+    std::erase_if(values, is_outside);
+    const std::string what =
+        absl::StrCat(flag, ": ", left_out, " left out (the table has ", range.first, " to ", range.last, ")");
+    if (values.empty())
+      return formats::UsageError(absl::StrCat("plan: ", what, "; nothing is left, give others"));
+    if (!left_out.empty()) annotate::Note(what);
+    return absl::OkStatus();
+  }
+
+  absl::Status AddSea(double sea) {
+    absl::StatusOr<quality::Reaches> reaches = At(sea, planned_, options_.altitude, options_.incidence);
+    if (!reaches.ok()) return reaches.status();
+    plan_.planned.push_back(*reaches);
+    for (quality::PlannedAxis& axis : plan_.axes)
+      for (std::size_t i = 0; i < axis.values.size(); ++i) {
+        const double value = axis.values[i];
+        reaches = At(sea, axis.name == "kd" ? of_waters_[i] : planned_,
+                     axis.name == "altitude" ? value : options_.altitude,
+                     axis.name == "incidence" ? value : options_.incidence);
+        if (!reaches.ok()) return reaches.status();
+        axis.reaches[i].push_back(*reaches);
+      }
+    return absl::OkStatus();
+  }
+
+  absl::StatusOr<quality::Reaches> At(double sea, annotate::TotalPlan plan, double altitude,
+                                      double incidence) {
+    const annotate::AnswerSource source = answerer_->source();
+    quality::PlannedBeam beam{.altitude = altitude,
+                              .incidence = incidence,
+                              .footprint = quality::FootprintAt(altitude, incidence, divergence_),
+                              .wind_speed = {},
+                              .fetch = {}};
+    if (!sea_.has_waves()) {
+      annotate::FixedInputs wind;
+      TakeWind(sea_, wind);
+      const std::optional<float>& fetch = wind[annotate::PulseInput::kFetch];
+      const auto spectrum = source.table().attributes.find("spectrum");
+      beam.wind_speed = sea;
+      if (fetch.has_value()) beam.fetch = *fetch;
+      plan.wave_height = annotate::WaveHeightOfWind(
+          sea, fetch, spectrum != source.table().attributes.end() ? spectrum->second : std::string());
+    }
+    return quality::ReachOf(plan, source, beam);
+  }
+
+  // Whether the water is described, and its share not left out.
+  bool wants_column() const {
+    return IsAnyGiven(config::kWaterKeys, settings_.water) && !settings_.water.without_column();
+  }
+
+  const client::TableSummary& source_table() const { return answerer_->source().table(); }
+
+  const PlanOptions& options_;
+  const config::SurveySettings& settings_;
+  config::SeaSettings sea_;
+  std::uint64_t done_ = 0;  // Waters and seas.
+  double divergence_ = 0;   // mrad
+  annotate::TotalPlan planned_;
+  std::vector<annotate::TotalPlan> of_waters_;
+  std::unique_ptr<Answerer> answerer_;
+  quality::SurveyPlan plan_;
+};
+
+absl::Status RunPlan(const PlanOptions& options) {
+  const absl::StatusOr<config::SurveySettings> settings = SettingsOf(options.flags);
+  if (!settings.ok()) return settings.status();
+  if (!settings->wants_total())
+    return formats::UsageError("plan: the sensor is missing; name it by --sensor or in --survey");
+  if (!options.output.empty() && !options.no_page)
+    if (absl::Status status = quality::CheckPageCanBeDrawn(); !status.ok()) return status;
+  std::optional<quality::NewFolder> folder;
+  if (!options.output.empty()) {
+    folder.emplace(options.output);
+    if (absl::Status status = quality::PrepareFolder(options.output, options.existing); !status.ok())
+      return status;
+  }
+  absl::StatusOr<quality::SurveyPlan> plan = Planner(options, *settings).Make();
+  if (!plan.ok()) return plan.status();
+  const nlohmann::ordered_json json = quality::PlanJson(*plan);
+  if (!options.output.empty())
+    if (absl::Status status = quality::WritePlan(json, !options.no_page, options.output); !status.ok())
+      return status;
+  std::cout << (options.json ? json.dump(2) + "\n" : quality::PlanText(*plan));
+  return FlushStandardOutput();
+}
+
+}  // namespace
+
+void AddPlanCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* command = program.add_subcommand(
+      "plan",
+      "The depth down to which each order of S-44 can be met: for wind or waves, altitude, incidence, water");
+  AddSeaFlags(*command, options->flags, {});
+  AddTotalFlags(*command, options->flags);
+  const auto number = [&](const char* flag, auto& value, const char* help, double least, double most,
+                          const char* unit) {
+    return command->add_option(flag, value, help)->check(NumberIn(least, most, unit));
+  };
+  const auto list = [&](const char* flag, std::vector<double>& values, const char* help, double least,
+                        double most,
+                        const char* unit) { number(flag, values, help, least, most, unit)->delimiter(','); };
+  number("--altitude", options->altitude, "Planned height above the water [m]", 10, 5000, "m")
+      ->capture_default_str();
+  number("--incidence", options->incidence, "Planned angle of the beams from the vertical [degree]", 0, 60,
+         "degree")
+      ->capture_default_str();
+  number("--divergence", options->divergence, "Full angle of the beam [mrad] (default: that of the sensor)",
+         0.01, 100, "mrad");
+  list("--altitudes", options->altitudes, "Others to compare [m]", 10, 5000, "m");
+  list("--incidences", options->incidences, "Others to compare [degree]", 0, 60, "degree");
+  list("--kds", options->kds, "Diffuse attenuations at 532 nm to compare [1/m]", 0.001, 10, "1/m");
+  list("--winds", options->winds, "Wind speeds, where no waves are given [m/s]", 0, 100, "m/s");
+  list("--wave-heights", options->heights, "Significant heights of the waves of --hs and --swell [m]", 0.01,
+       30, "m");
+  std::vector<std::string> orders;
+  for (const S44Order order : kS44Orders) orders.emplace_back(Name(order));
+  command->add_option("--order", options->order, "Required order of S-44")
+      ->check(OneOf(orders))
+      ->capture_default_str();
+  command->add_option("--output", options->output, "Folder for plan.html and plan.json")
+      ->check(NotEmpty("folder"));
+  command->add_flag("--no-page", options->no_page, "Only plan.json, which needs no Python");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->add_flag_callback(
+      "--overwrite", [options] { options->existing = Existing::kReplace; }, "Replace an earlier plan");
+  AddSourceOptions(*command, options->source);
+  Group(*command, "What is planned", {"--order", "--altitude", "--incidence", "--divergence"});
+  Group(*command, "What is compared", {"--winds", "--wave-heights", "--altitudes", "--incidences", "--kds"});
+  Group(*command, group::kOutput, {"--output", "--no-page", "--json", "--overwrite"});
+  EndHelp(*command, "Whether the laser sees the bottom at these depths is another question.",
+          "--sensor riegl-vq-880-g --datum-sigma 0.08 --water-column none --order special",
+          "--survey survey.toml --altitudes 300,400,500 --order 1a --output plan");
+  command->callback([options, command, &run] {
+    options->kds_given = command->count("--kds") > 0;
+    run = [options] { return RunPlan(*options); };
+  });
+}
+
+}  // namespace albtpu::programs

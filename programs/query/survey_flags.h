@@ -1,0 +1,52 @@
+// The flags that stand for keys of the survey file, and the settings that both give together.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/batch.h"
+#include "annotate/csv/pulse_inputs.h"
+#include "config/survey_settings.h"
+#include "programs/command_line/cli_fwd.h"
+
+namespace albtpu::programs {
+
+struct SurveyFlags {
+  std::optional<std::string> survey;  // --survey
+  config::SurveySettings settings;    // what the other flags give
+};
+
+// Each adds flags under a heading of --help. `flags` must live as long as `command`.
+void AddFlags(CLI::App& command, std::initializer_list<const char*> names, const char* heading,
+              SurveyFlags& flags);
+// --survey and those of [sea] and [[sea.waves]], but for some.
+void AddSeaFlags(CLI::App& command, SurveyFlags& flags, std::span<const std::string_view> without);
+// --sensor and those that go with it on all commands.
+void AddTotalFlags(CLI::App& command, SurveyFlags& flags);
+// --coverage, --s44-order and --standard-errors.
+void AddStyleFlags(CLI::App& command, SurveyFlags& flags, annotate::AnswerStyle& style);
+
+// The flags of `sea`, `pulse` and `plan` that the survey file has for the other commands.
+inline constexpr std::array<std::string_view, 5> kRareSeaFlags = {"--gamma", "--tail", "--tail-from",
+                                                                  "--sea-gap", "--anemometer-height"};
+
+// What flags and survey file give together. Fails where what they say of the sea contradicts itself or has no effect.
+absl::StatusOr<config::SurveySettings> SettingsOf(const SurveyFlags& flags);
+
+// UsageError where a flag or [sigma] needs a sensor, and none is named.
+absl::Status CheckTotalFlags(const SurveyFlags& flags, const config::SurveySettings& settings);
+
+// The coverage and the order of the settings.
+void TakeStyle(const config::OutputSettings& output, annotate::AnswerStyle& style);
+
+// The wind and the fetch of the settings, if a table of winds answers. With waves the wind is not of the pulses.
+void TakeWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
+// The same, whatever answers.
+void StateWind(const config::SeaSettings& sea, annotate::FixedInputs& inputs);
+
+}  // namespace albtpu::programs

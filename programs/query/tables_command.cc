@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "annotate/run/exit_status.h"
+#include "programs/command_line/help.h"
+#include "programs/command_line/standard_output.h"
+#include "programs/query/commands.h"
+#include "programs/query/options.h"
+#include "service/printable_text.h"
+
+namespace albtpu::programs {
+namespace {
+
+std::string Text(const client::TableSummary& table) {
+  std::string text = absl::StrCat(PrintableText(table.name.empty() ? table.id : table.name),
+                                  table.is_default ? " (default)" : "", "\n");
+  const auto line = [&text](std::string_view label, const std::string& value) {
+    absl::StrAppend(&text, absl::StrFormat("  %-24s %s\n", PrintableText(label), PrintableText(value)));
+  };
+  line("title", table.title);
+  line("id", table.id);
+  line("version", table.version);
+  line("digest", table.digest);
+  for (const AxisId id : kAxes) {
+    const client::AxisRange& range = table.axes[Index(id)];
+    line(Describe(id).name,
+         absl::StrFormat("%g to %g %s, %d %s", range.first, range.last, std::string(Describe(id).units),
+                         range.nodes, range.nodes == 1 ? "node" : "nodes"));
+  }
+  for (const auto& [name, value] : table.attributes) line(name, value);
+  return text;
+}
+
+absl::Status RunTables(const SourceOptions& options) {
+  const absl::StatusOr<std::vector<client::TableSummary>> tables = ListTables(options);
+  if (!tables.ok()) return tables.status();
+  for (std::size_t i = 0; i < tables->size(); ++i) std::cout << (i > 0 ? "\n" : "") << Text((*tables)[i]);
+  if (tables->empty())
+    annotate::Note("there are no tables; make one with albtpu-generate, or name a file with --table");
+  return FlushStandardOutput();
+}
+
+}  // namespace
+
+void AddTablesCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<SourceOptions>();
+  CLI::App* command =
+      program.add_subcommand("tables", "List the tables with their names, ranges, digests and provenance");
+  AddSourceOptions(*command, *options);
+  EndHelp(*command,
+          "Without --server and --table, lists the installed tables, or those in the folder that the\n"
+          "environment variable ALBTPU_TABLES names.",
+          "--table-name survey", "--server 127.0.0.1:50051");
+  command->callback([options, &run] { run = [options] { return RunTables(*options); }; });
+}
+
+}  // namespace albtpu::programs

@@ -1,0 +1,292 @@
+#include "quality/annotated/annotated_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "annotate/answers/batch.h"
+#include "annotate/beams/beam_plan.h"
+#include "annotate/run/file_jobs.h"
+#include "annotate/run/summary_file.h"
+#include "formats/crs/map_frame.h"
+#include "formats/las/las_crs.h"
+#include "formats/las/las_extra_bytes.h"
+#include "formats/las/las_point_runs.h"
+#include "formats/las/las_points.h"
+#include "formats/laz/coding/little_endian.h"
+
+namespace albtpu::quality {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kRunPoints = 1 << 16;
+constexpr char kRemedy[] =
+    "; annotate its input again by albtpu-query las with --survey or --sensor and --details";
+
+struct FloatOfPoint {
+  std::string_view name;
+  float AnnotatedPoint::*member;
+};
+
+constexpr std::array kFloats = {FloatOfPoint{"total_thu", &AnnotatedPoint::thu},
+                                FloatOfPoint{"total_tvu", &AnnotatedPoint::tvu},
+                                FloatOfPoint{"tvu_air", &AnnotatedPoint::tvu_air},
+                                FloatOfPoint{"thu_sea", &AnnotatedPoint::thu_sea},
+                                FloatOfPoint{"tvu_sea", &AnnotatedPoint::tvu_sea},
+                                FloatOfPoint{"tvu_water", &AnnotatedPoint::tvu_water},
+                                FloatOfPoint{"tvu_pulse", &AnnotatedPoint::tvu_pulse},
+                                FloatOfPoint{"tvu_line", &AnnotatedPoint::tvu_line},
+                                FloatOfPoint{"bias_along_beam", &AnnotatedPoint::bias_along_beam},
+                                FloatOfPoint{"bias_vertical", &AnnotatedPoint::bias_vertical},
+                                FloatOfPoint{"VarianceX", &AnnotatedPoint::variance_x},
+                                FloatOfPoint{"VarianceY", &AnnotatedPoint::variance_y},
+                                FloatOfPoint{"VarianceZ", &AnnotatedPoint::variance_z},
+                                FloatOfPoint{"CovarianceXY", &AnnotatedPoint::covariance_xy},
+                                FloatOfPoint{"CovarianceXZ", &AnnotatedPoint::covariance_xz},
+                                FloatOfPoint{"CovarianceYZ", &AnnotatedPoint::covariance_yz},
+                                FloatOfPoint{"incidence", &AnnotatedPoint::incidence},
+                                FloatOfPoint{"water_depth", &AnnotatedPoint::depth}};
+
+constexpr double kMinUnit = 1e-3, kMaxUnit = 1e3;  // m
+constexpr float kGreatest = 1e6F;                  // m or m^2; larger values are not plausible.
+
+// Of a length or a variance: neither no-data (NaN or -1) nor beyond what is possible.
+bool IsKnown(float value) { return value >= 0 && value <= kGreatest; }
+
+float KnownOrZero(float value, bool signed_value) {
+  return IsKnown(signed_value ? std::abs(value) : value) ? value : 0;
+}
+
+// Whether a summary has what is read of it later, with the right types.
+bool IsOurs(const Json& summary) {
+  const auto object = [](const Json& in, const char* key) {
+    return in.is_object() && in.contains(key) && in[key].is_object();
+  };
+  if (!object(summary, "answers") || !object(summary, "parameters") || !object(summary, "input") ||
+      !object(summary, "output") || !object(summary, "table") || !object(summary["answers"], "outcomes"))
+    return false;
+  for (const char* const key : {"id", "version", "digest"})
+    if (!summary["table"].value(key, Json()).is_string()) return false;
+  const Json& outcomes = summary["answers"]["outcomes"];
+  return summary.value("program", Json()) == "albtpu-query" &&
+         std::ranges::all_of(outcomes, [](const Json& count) { return count.is_number_unsigned(); });
+}
+
+// Of a point without a number. Without a surface, beams of a trajectory are not known; beams known by angles are. Where
+// those `may_lack_surface`, that is the more severe of two reasons why a depth is missing.
+Gap GapOf(const AnnotatedPoint& point, bool may_lack_surface) {
+  if (point.has_number) return Gap::kNone;
+  const bool depth = point.depth >= 0, beam = std::isfinite(point.incidence);
+  if (depth) return beam ? Gap::kNoAnswer : Gap::kNoTrajectory;
+  return beam && !may_lack_surface ? Gap::kAboveWater : Gap::kNoSurface;
+}
+
+absl::Status Invalid(const fs::path& path, const std::string& problem) {
+  return absl::InvalidArgumentError(absl::StrCat(path.string(), ": ", problem));
+}
+
+}  // namespace
+
+absl::StatusOr<AnnotatedLasFile> AnnotatedLasFile::Open(const fs::path& path) {
+  absl::StatusOr<formats::LasReader> reader = formats::LasReader::Open(path);
+  if (!reader.ok()) return reader.status();
+  AnnotatedLasFile file(*std::move(reader));
+  file.path_ = path;
+  absl::Status status = file.FindFloats();
+  if (status.ok()) status = file.ReadSummary();
+  if (status.ok()) status = file.FindCrs();
+  if (!status.ok()) return status;
+  return file;
+}
+
+absl::Status AnnotatedLasFile::ReadSummary() {
+  const fs::path summary = annotate::SummaryPath(path_);
+  std::error_code error;
+  if (!fs::exists(summary, error))
+    return absl::NotFoundError(absl::StrCat(path_.string(), ": its summary ", summary.string(),
+                                            " is missing; keep it beside the file", kRemedy));
+  const Json read = annotate::ReadSummary(summary);
+  summary_ = std::make_shared<const Json>(read);
+  const Json total = IsOurs(read) ? read["answers"].value("total", Json()) : Json();
+  const std::optional<Coverage> coverage =
+      annotate::FindCoverage(total.is_object() && total.contains("coverage") && total["coverage"].is_string()
+                                 ? total["coverage"].get<std::string>()
+                                 : std::string());
+  if (!coverage.has_value()) return Invalid(summary, absl::StrCat("is no summary of a total", kRemedy));
+  coverage_ = *coverage;
+  const Json size = read["output"].value("bytes", Json());
+  if (size != reader_.file_size()) {
+    return Invalid(path_, absl::StrCat("has ", reader_.file_size(), " bytes, its summary states ",
+                                       size.dump(), " (the file was changed later)", kRemedy));
+  }
+  const Json beams = read["parameters"].value("incidence_from", Json());
+  may_lack_surface_ = beams.is_string() && annotate::IsByAngle(beams.get<std::string>()) &&
+                      read["answers"]["outcomes"].contains("NO_SURFACE");
+  const Json classes = read["parameters"].value("classes", Json());
+  if (!classes.is_null() && !classes.is_array())
+    return Invalid(summary, absl::StrCat("its classes are no list", kRemedy));
+  for (const Json& each : classes) {
+    if (!each.is_number_unsigned() || each >= formats::kClassCount)
+      return Invalid(summary, absl::StrCat("has a class that LAS files cannot have", kRemedy));
+    classes_.insert(each.get<int>());
+  }
+  if (classes_.empty()) classes_ = {formats::DefaultClass(reader_.header().point_format)};
+  const Json unit = read["parameters"].value("metres_per_unit", Json());
+  if (!unit.is_null() && !(unit.is_number() && unit >= kMinUnit && unit <= kMaxUnit))
+    return Invalid(summary, absl::StrCat("its metres_per_unit is no unit of length", kRemedy));
+  for (const auto& [outcome, count] : read["answers"]["outcomes"].items())
+    if (count > reader_.header().point_count)
+      return Invalid(summary, absl::StrCat("has more outcomes than the file has points", kRemedy));
+  return absl::OkStatus();
+}
+
+absl::Status AnnotatedLasFile::FindFloats() {
+  std::map<std::string, std::size_t, std::less<>> offsets;
+  for (const formats::VlrEntry& vlr : reader_.vlrs()) {
+    if (!vlr.Is(formats::kSpecUser, formats::kExtraBytesRecord)) continue;
+    const absl::StatusOr<std::string> record = reader_.ReadAt(vlr.data_offset, vlr.data_size);
+    if (!record.ok()) return record.status();
+    auto described = formats::FloatOffsets(reader_.name(), *record, reader_.header().extra_bytes());
+    if (!described.ok()) return described.status();
+    offsets = *std::move(described);
+  }
+  const std::size_t begin = reader_.header().record_length - reader_.header().extra_bytes();
+  for (const FloatOfPoint& each : kFloats) {
+    const auto found = offsets.find(each.name);
+    if (found == offsets.end())
+      return Invalid(path_, absl::StrCat("has no ", std::string(each.name), " in its extra bytes", kRemedy));
+    offsets_.push_back(begin + found->second);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status AnnotatedLasFile::FindCrs() {
+  const absl::StatusOr<formats::CrsDescription> description = formats::DescribeCrs(reader_);
+  if (!description.ok()) return description.status();
+  const Json& parameters = (*summary_)["parameters"];
+  formats::CrsDescription crs = *description;
+  if (const Json user = parameters.value("crs", Json()); user.is_string()) crs.user = user.get<std::string>();
+  if (!crs.empty()) {
+    const auto frame = formats::MapFrame::Create(path_.string(), crs);
+    if (frame.ok() && (*frame)->is_geographic()) {
+      return Invalid(path_, absl::StrCat("has geographic coordinates (", (*frame)->crs_name(),
+                                         "); a grid of square cells needs projected ones, such as UTM"));
+    }
+    if (frame.ok()) {
+      crs_name_ = (*frame)->crs_name();
+      crs_wkt_ = (*frame)->wkt();
+      metres_per_unit_ = metres_per_height_unit_ = (*frame)->unit();
+      if ((*frame)->metres_per_height_unit().has_value())
+        metres_per_height_unit_ = *(*frame)->metres_per_height_unit();
+    } else {
+      crs_name_ = "not understood";
+    }
+  }
+  if (const Json unit = parameters.value("metres_per_unit", Json()); unit.is_number())
+    metres_per_unit_ = metres_per_height_unit_ = unit.get<double>();
+  return absl::OkStatus();
+}
+
+std::string AnnotatedLasFile::table_digest() const {
+  const Json table = summary_->value("table", Json());
+  const Json digest = table.is_object() ? table.value("digest", Json()) : Json();
+  return digest.is_string() ? digest.get<std::string>() : "";
+}
+
+absl::Status AnnotatedLasFile::ForEach(annotate::FileProgress& progress, const Visit& visit) const {
+  annotate::FileProgress::File shown(progress, reader_.name());
+  absl::StatusOr<formats::LasPointRuns> runs = formats::LasPointRuns::Open(reader_, 0, 0);
+  if (!runs.ok()) return reader_.Named(runs.status());
+  const formats::LasHeader& header = reader_.header();
+  const formats::LasPointFields fields(header);
+  std::array<bool, formats::kClassCount> wanted = {};
+  for (const int each : classes_)
+    if (each >= 0 && each < formats::kClassCount) wanted[each] = true;
+  formats::LasRun run;
+  std::vector<AnnotatedPoint> points;
+  while (true) {
+    const absl::StatusOr<bool> more = runs->Next(kRunPoints, run);
+    if (!more.ok()) return reader_.Named(more.status());
+    if (!*more) break;
+    points.clear();
+    for (std::size_t i = 0; i < run.own; ++i) {
+      const std::string_view record =
+          std::string_view(run.records).substr(i * header.record_length, header.record_length);
+      if (!wanted[fields.Class(record)]) continue;
+      AnnotatedPoint& point = points.emplace_back();
+      point.x = fields.X(record);
+      point.y = fields.Y(record);
+      point.z = fields.Z(record) * metres_per_height_unit_;
+      if (fields.has_gps_time()) point.time = fields.GpsTime(record);
+      point.line = fields.PointSourceId(record);
+      for (std::size_t k = 0; k < kFloats.size(); ++k)
+        point.*kFloats[k].member = laz::Load<float>(record, offsets_[k]);
+      point.has_number = IsKnown(point.thu) && IsKnown(point.tvu) && IsKnown(point.variance_x) &&
+                         IsKnown(point.variance_y) && IsKnown(point.variance_z) && IsKnown(point.depth);
+      point.gap = GapOf(point, may_lack_surface_);
+      for (float AnnotatedPoint::*const length :
+           {&AnnotatedPoint::thu_sea, &AnnotatedPoint::tvu_air, &AnnotatedPoint::tvu_sea,
+            &AnnotatedPoint::tvu_water, &AnnotatedPoint::tvu_pulse, &AnnotatedPoint::tvu_line})
+        point.*length = KnownOrZero(point.*length, false);
+      for (float AnnotatedPoint::*const bias :
+           {&AnnotatedPoint::bias_along_beam, &AnnotatedPoint::bias_vertical, &AnnotatedPoint::covariance_xy,
+            &AnnotatedPoint::covariance_xz, &AnnotatedPoint::covariance_yz})
+        point.*bias = KnownOrZero(point.*bias, true);
+    }
+    visit(points);
+    const std::uint64_t done = run.first + run.own;
+    shown.Reach(header.point_count > 0 ? reader_.file_size() * done / header.point_count : 0, done);
+  }
+  return reader_.CheckUnchanged();
+}
+
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const fs::path& folder_or_file) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  if (fs::is_directory(folder_or_file, error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_or_file, error))
+      if (annotate::HasExtension(entry.path(), ".las") || annotate::HasExtension(entry.path(), ".laz"))
+        paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    if (error) return Invalid(folder_or_file, absl::StrCat("cannot be read: ", error.message()));
+    if (paths.empty())
+      return absl::NotFoundError(absl::StrCat(
+          folder_or_file.string(), ": has no LAS or LAZ file; give the folder that albtpu-query las wrote"));
+  } else {
+    paths.push_back(folder_or_file);
+  }
+  std::vector<AnnotatedLasFile> files;
+  for (const fs::path& path : paths) {
+    absl::StatusOr<AnnotatedLasFile> file = AnnotatedLasFile::Open(path);
+    if (!file.ok()) return file.status();
+    files.push_back(*std::move(file));
+    const AnnotatedLasFile &first = files.front(), &last = files.back();
+    const auto differ = [&](const std::string& what, const std::string& in_first, const std::string& in_last,
+                            const std::string& remedy) {
+      return absl::InvalidArgumentError(absl::StrCat(last.path().string(), ": its ", what, " is ", in_last,
+                                                     " (in ", first.path().string(), " it is ", in_first,
+                                                     "); ", remedy));
+    };
+    if (last.crs_name() != first.crs_name() || last.metres_per_unit() != first.metres_per_unit())
+      return differ("coordinate system", first.crs_name(), last.crs_name(), "report each system apart");
+    if (last.coverage() != first.coverage()) {
+      return differ("coverage", std::string(annotate::CoverageName(first.coverage())),
+                    std::string(annotate::CoverageName(last.coverage())),
+                    "annotate all files with one --coverage");
+    }
+    if (last.table_digest() != first.table_digest())
+      return differ("table", first.table_digest(), last.table_digest(), "annotate all files by one table");
+  }
+  return files;
+}
+
+}  // namespace albtpu::quality

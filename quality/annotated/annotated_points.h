@@ -1,0 +1,89 @@
+// The bottom points of LAS and LAZ files that `albtpu-query las --details` annotated with a total.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "annotate/run/file_progress.h"
+#include "formats/las/las_reader.h"
+#include "tables/coverage.h"
+
+namespace albtpu::quality {
+
+// Why a point has no number, in order of severity. kNoAnswer: outside the table, or no state of the sea or optics of
+// the water at it. kNoTrajectory: none at its time, or one that is too uncertain.
+enum class Gap : std::uint8_t { kNone, kAboveWater, kNoAnswer, kNoSurface, kNoTrajectory };
+
+// A point of the bathymetric classes. Lengths in m but for x and y, which are those of the file; THU and TVU at the
+// coverage of the file; variances at 1 sigma, on the axes of the file. A contribution that was left out is 0, and so is
+// an unknown bias.
+struct AnnotatedPoint {
+  double x = 0, y = 0, z = 0;
+  double time = 0;  // GPS time as the file states it, s; 0 if its points have none.
+  int line = 0;     // Point source ID.
+  Gap gap = Gap::kNone;
+  bool has_number = false;  // Otherwise only the members above are known.
+  float thu = 0, tvu = 0;
+  float tvu_air = 0, tvu_sea = 0, tvu_water = 0;  // Contributions.
+  float tvu_pulse = 0,
+        tvu_line = 0;  // The parts that are independent from pulse to pulse, and from line to line.
+  float bias_along_beam = 0, bias_vertical = 0;
+  float thu_sea = 0;
+  float variance_x = 0, variance_y = 0, variance_z = 0;
+  float covariance_xy = 0, covariance_xz = 0, covariance_yz = 0;
+  float incidence = 0;  // degree
+  float depth = 0;
+};
+
+class AnnotatedLasFile {
+ public:
+  // Fails on a file without our extra bytes or without the summary beside it, and on one that was annotated without a
+  // total, without --details or in geographic coordinates.
+  static absl::StatusOr<AnnotatedLasFile> Open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  const nlohmann::ordered_json& summary() const { return *summary_; }
+  const formats::LasReader& reader() const { return reader_; }
+  Coverage coverage() const { return coverage_; }
+  std::string table_digest() const;
+  const std::string& crs_name() const { return crs_name_; }  // "not stated" if the file states none.
+  const std::string& crs_wkt() const { return crs_wkt_; }
+  double metres_per_unit() const { return metres_per_unit_; }  // Of x and y.
+
+  using Visit = std::function<void(std::span<const AnnotatedPoint>)>;
+
+  // All bathymetric points in their order, some at a time. Fails when the file cannot be read or was modified.
+  absl::Status ForEach(annotate::FileProgress& progress, const Visit& visit) const;
+
+ private:
+  explicit AnnotatedLasFile(formats::LasReader reader) : reader_(std::move(reader)) {}
+  absl::Status ReadSummary();
+  absl::Status FindFloats();
+  absl::Status FindCrs();
+
+  std::filesystem::path path_;
+  formats::LasReader reader_;
+  std::shared_ptr<const nlohmann::ordered_json> summary_;
+  Coverage coverage_ = Coverage::kTwoSigma;
+  std::set<int> classes_;
+  bool may_lack_surface_ = false;     // Of points whose beams are known by angles.
+  std::vector<std::size_t> offsets_;  // In a record, by kFloats of the implementation.
+  std::string crs_name_ = "not stated", crs_wkt_;
+  double metres_per_unit_ = 1, metres_per_height_unit_ = 1;
+};
+
+// The annotated files in a folder by name, or the file itself. All have the same coordinate system, coverage and table.
+// Fails with the names of the first two files that differ.
+absl::StatusOr<std::vector<AnnotatedLasFile>> OpenAnnotated(const std::filesystem::path& folder_or_file);
+
+}  // namespace albtpu::quality

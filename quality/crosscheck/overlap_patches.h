@@ -1,0 +1,70 @@
+// Small square patches of the bottom that several lines saw, found in one reading of the points and filled in a second
+// one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "quality/annotated/annotated_points.h"
+#include "tables/coverage.h"
+
+namespace albtpu::quality {
+
+// A point of a line in a patch. Lengths in m, variances in m^2 at 1 sigma.
+struct PatchPoint {
+  float x = 0, y = 0, z = 0;  // From the centre of the patch; z from the datum.
+  float variance_air = 0;     // Of the height: of pulse and line, without the sea.
+  float variance_sea = 0;
+  // The horizontal entries of the same covariance, m^2, and the sea's part of them (0 to 1).
+  float xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, sea_in_horizontal = 0;
+  float depth = 0, incidence = 0;
+  std::uint16_t line = 0;
+};
+
+struct Patch {
+  double x = 0, y = 0;  // Of its centre, m.
+  std::vector<PatchPoint> points;
+};
+
+class OverlapPatches {
+ public:
+  static constexpr std::size_t kMaxKnown = 1'000'000;    // Patches.
+  static constexpr std::size_t kMostPoints = 1'000'000;  // In patches that are filled.
+
+  // `side` of a patch in m, above 0. Where memory would not suffice, a part of the patches is taken, chosen by their
+  // place and not by what is in them.
+  OverlapPatches(double side, double metres_per_unit, Coverage coverage)
+      : side_(side), metres_per_unit_(metres_per_unit), coverage_(coverage) {}
+
+  // The first reading. Points without a number do not count.
+  void Find(std::span<const AnnotatedPoint> points);
+  // Between the readings: drops the patches of one line, and samples the others if they are too many.
+  void Choose();
+  // The second reading, of the same points.
+  void Fill(std::span<const AnnotatedPoint> points);
+
+  std::vector<Patch> Take() { return std::move(patches_); }  // In the order of their first points.
+
+  double sampled() const { return 1.0 / static_cast<double>(mask_ + 1); }  // Of the patches of several lines.
+
+ private:
+  struct Known {
+    std::uint32_t points = 0;
+    std::uint16_t first_line = 0;
+    bool overlap = false;
+  };
+  // Of the patch of a point; 0 if it is not taken.
+  std::uint64_t KeyOf(const AnnotatedPoint& point) const;
+  void Thin();
+
+  double side_, metres_per_unit_;
+  Coverage coverage_;
+  std::uint64_t mask_ = 0;  // Patches whose hash has none of these bits are taken.
+  std::unordered_map<std::uint64_t, Known> known_;
+  std::unordered_map<std::uint64_t, std::uint32_t> chosen_;  // To patches_.
+  std::vector<Patch> patches_;
+};
+
+}  // namespace albtpu::quality

@@ -1,0 +1,46 @@
+// The folder of a report: report.json, grid.nc and report.html, which appear together.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "quality/annotated/annotated_points.h"
+#include "quality/report/survey_report.h"
+#include "tables/file/existing.h"
+
+namespace albtpu::quality {
+
+// Makes the folder. AlreadyExists if it has files and is to be kept; PermissionDenied if it cannot be written to.
+absl::Status PrepareFolder(const std::filesystem::path& folder, Existing existing);
+
+// Whether `folder` has the complete report of these files with these options, which are not newer than it.
+bool HasReport(const std::filesystem::path& folder, const std::vector<AnnotatedLasFile>& files,
+               const ReportOptions& options, bool with_page);
+
+// Writes a report in a hidden folder and gives its files their names when all are complete, the page last. The grid is
+// freed before the page is drawn.
+absl::Status WriteReport(SurveyReport report, bool with_page, const std::filesystem::path& folder);
+
+// Removes a folder that was not there when it was constructed, if nothing was written into it.
+class NewFolder {
+ public:
+  explicit NewFolder(std::filesystem::path folder)
+      : folder_(std::move(folder)), was_there_(std::filesystem::exists(folder_)) {}
+  ~NewFolder() {
+    std::error_code not_empty;
+    if (!was_there_) std::filesystem::remove(folder_, not_empty);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+  bool was_there_;
+};
+
+// The same for plan.json and plan.html of a planned survey.
+absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page,
+                       const std::filesystem::path& folder);
+
+}  // namespace albtpu::quality

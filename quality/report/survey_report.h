@@ -1,0 +1,49 @@
+// The report of a survey, from its annotated files: whether it meets the specification, and where and why not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "annotate/answers/json_box.h"
+#include "quality/annotated/annotated_points.h"
+#include "quality/crosscheck/overlap_check.h"
+#include "quality/report/grid_file.h"
+#include "quality/report/point_tally.h"
+#include "quality/report/specification.h"
+#include "quality/report/survey_grid.h"
+
+namespace albtpu::quality {
+
+inline constexpr double kDefaultPassShare = 95;  // %, of the points; NOAA asks it of the nodes of a surface.
+
+struct ReportOptions {
+  double cell = 1;                            // m
+  std::vector<Specification> specifications;  // All that the report covers.
+  std::string specification, wanted_class;    // The required one: names of one of them.
+  double pass_share = kDefaultPassShare;      // %
+  double patch = kDefaultPatch;               // m
+};
+
+// Everything that determines the report: the files by name and size, and the options. It is `made_from` in the JSON.
+nlohmann::ordered_json MadeFrom(const std::vector<AnnotatedLasFile>& files, const ReportOptions& options);
+
+struct SurveyReport {
+  annotate::JsonBox json;
+  SurveyGrid grid;
+  GridFileFacts facts;
+};
+
+// Reads all points of `files`, which is not empty, once for the report and once more where lines overlap. Memory is
+// bounded by the grid (SurveyGrid::kMostBytes) and the patches (OverlapPatches). FailedPrecondition if there is no
+// point of a bathymetric class.
+absl::StatusOr<SurveyReport> MakeReport(const std::vector<AnnotatedLasFile>& files,
+                                        const ReportOptions& options);
+
+}  // namespace albtpu::quality

@@ -1,0 +1,217 @@
+#include "annotate/beams/file_track.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/budget/beams/ray_flight.h"
+#include "tests/formats/trajectories/flight_text.h"
+#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::annotate {
+namespace {
+
+using namespace albtpu::testing;  // Flight, RowAt and the fields of a row.
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kWater = 0;  // m
+
+// Points below an SBET of two minutes, of which minute 0:20 to 1:20 has pulses with two returns under water. The
+// scanner turns 20 degrees around the vertical; the rays have no errors.
+class TrackFromFilesTest : public ::testing::Test {
+ protected:
+  TrackFromFilesTest() {
+    file_.name = "in.las";
+    auto map = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
+    file_.map = *map;
+    const SbetRow middle = RowAt(flight_, 50);
+    const formats::GeographicPosition position = {middle[kLatitude], middle[kLongitude]};
+    const formats::MapPosition origin = file_.map->Project(position);
+    const formats::MapMetric metric = file_.map->MetricAt(position);
+    file_.frame = {.origin_x = origin.x,
+                   .origin_y = origin.y,
+                   .metres_per_x = metric.metres_per_x,
+                   .metres_per_y = metric.metres_per_y};
+    file_.extent = {.x_min = origin.x - 2000,
+                    .x_max = origin.x + 2000,
+                    .y_min = origin.y - 2000,
+                    .y_max = origin.y + 2000};
+    file_.times = {{flight_.start + 20, flight_.start + 80}, formats::PointTimeForm::kWeekSeconds};
+    plan_.source = TrajectoryFromFiles();
+    const auto files = formats::LoadTrajectories(
+        std::vector<std::string>{folder_.Write("flight.sbet", SbetBytes(Fly(flight_)))});
+    plan_.trajectories = std::make_shared<const formats::TrajectoryFiles>(*files);
+    AddRays(3000, 0);
+  }
+
+  // `count` rays from where the sensor was; their pulses have times `delay` later than the SBET states.
+  void AddRays(int count, double delay) {
+    file_.rays.clear();
+    file_.times.span = {flight_.start + 20 + delay, flight_.start + 80 + delay};
+    for (int i = 0; i < count; ++i) {
+      const double time = 20 + 60.0 * i / count;
+      const SbetRow row = RowAt(flight_, time);
+      const formats::MapPosition at = file_.map->Project({row[kLatitude], row[kLongitude]});
+      const Eigen::Vector3d sensor(file_.frame.X(at.x), file_.frame.Y(at.y), row[kHeight]);
+      const double azimuth = 2.4 * i;  // Directions are spread evenly.
+      const double incidence = 20 * kDegree;
+      const Eigen::Vector3d direction(std::sin(incidence) * std::sin(azimuth),
+                                      std::sin(incidence) * std::cos(azimuth), -std::cos(incidence));
+      file_.rays.push_back({.time = flight_.start + time + delay,
+                            .water_point = sensor + direction * (sensor.z() - kWater) / std::cos(incidence),
+                            .direction = direction,
+                            .separation = 5});
+    }
+  }
+  TrajectoryFromFiles& source() { return std::get<TrajectoryFromFiles>(plan_.source); }
+  std::string Refusal() { return std::string(TrackFromFiles(file_, plan_).status().message()); }
+
+  const Flight flight_ = {.duration = 120, .rate = 50};
+  const TemporaryFolder folder_;
+  TrackedFile file_;
+  BeamPlan plan_;
+};
+
+TEST_F(TrackFromFilesTest, AgreesWithTheRaysOfItsFlight) {
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  EXPECT_EQ(found->json["check"]["verdict"], "agrees");
+  EXPECT_EQ(found->json["check"]["rays"], 3000);
+  // Linear steps of 0.02 s and single precision of the rays' own geometry: 1 mm of 400 m is 1.4e-4 degrees.
+  EXPECT_NEAR(found->json["check"]["mean_incidence_difference"].get<double>(), 0, 1.4e-4);
+  EXPECT_THAT(found->notes,
+              ElementsAre(HasSubstr("agrees with 3000 pulses that have two returns under water")));
+  const std::vector<double> times = {flight_.start + 50};
+  SensorPosition position;
+  TrackOutcome outcome;
+  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
+  EXPECT_EQ(outcome, TrackOutcome::kKnown);
+  EXPECT_NEAR(position.x, file_.frame.origin_x, 1e-3);
+  EXPECT_NEAR(position.z, RowAt(flight_, 50)[kHeight], 1e-3);
+}
+
+TEST_F(TrackFromFilesTest, SaysWhenRaysAreTooFewToCompare) {
+  AddRays(10, 0);
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  EXPECT_EQ(found->json["check"]["verdict"], "too few rays");
+  EXPECT_THAT(found->notes, ElementsAre(HasSubstr("not compared with the returns (10 pulses")));
+}
+
+TEST_F(TrackFromFilesTest, RefusesAGeoidSeparationThatIsNotThere) {
+  source().geoid_separation = 25;
+  EXPECT_THAT(Refusal(), HasSubstr("in.las: its returns contradict the trajectory ("));
+  EXPECT_THAT(Refusal(), HasSubstr("25.0 +- 0.0 m too low"));
+}
+
+TEST_F(TrackFromFilesTest, RefusesALeverArmThatIsNotThere) {
+  source().lever_arm = {0, 9, 0};
+  EXPECT_THAT(Refusal(), HasSubstr("9.0 +- 0.0 m"));
+}
+
+TEST_F(TrackFromFilesTest, NamesTheClockThatTheTrajectoryHas) {
+  AddRays(3000, 18);
+  EXPECT_THAT(Refusal(), HasSubstr("its times are UTC, 18 s behind GPS); give --trajectory-time utc"));
+  source().utc = true;
+  EXPECT_TRUE(TrackFromFiles(file_, plan_).ok());
+  AddRays(3000, 0);
+  EXPECT_THAT(Refusal(), HasSubstr("its times are GPS, 18 s after UTC); give --trajectory-time gps"));
+}
+
+TEST_F(TrackFromFilesTest, RefusesATrajectoryFarFromThePoints) {
+  file_.extent.x_min += 50e3;
+  file_.extent.x_max += 50e3;
+  EXPECT_THAT(Refusal(), HasSubstr("in.las"));
+}
+
+TEST_F(TrackFromFilesTest, RefusesATrajectoryOfAnotherTime) {
+  AddRays(3000, 7200);
+  EXPECT_THAT(Refusal(), HasSubstr("flight.sbet"));
+}
+
+TEST_F(TrackFromFilesTest, StatesHowWellTheTrajectoryIsKnown) {
+  const auto errors = LoadTrajectoryErrors(
+      std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(flight_.start, 121))});
+  plan_.trajectory_errors = *errors;
+  const absl::StatusOr<FileTrack> found = TrackFromFiles(file_, plan_);
+  // 50 s after its start, 0.04 m (1 + 5) down; 200 samples of a minute place the median within 0.3 s.
+  EXPECT_NEAR(found->json["sigma"]["vertical"].get<double>(), 0.24, 0.04 * 0.031);
+  EXPECT_THAT(found->notes[0], HasSubstr("trajectory known to 0.2"));
+}
+
+TEST_F(TrackFromFilesTest, RefusesErrorFilesOfAnotherTrajectory) {
+  const auto errors =
+      LoadTrajectoryErrors(std::vector<std::string>{folder_.Write("smrmsg", SmrmsgBytes(0, 60))});
+  plan_.trajectory_errors = *errors;
+  EXPECT_THAT(Refusal(), HasSubstr("in.las: no error file of --trajectory-errors covers the times"));
+}
+
+absl::StatusOr<FileTrack> FromReturns(const TrackedFile& file) {
+  return TrackFromReturns(file, kSeaWaterIndex);
+}
+
+// Rays of a straight flight without errors, 400 m above the water at 60 m/s.
+TrackedFile FlownFile(double pairs_per_second) {
+  const SimulatedFlight flight(
+      {.duration = 20, .pairs_per_second = pairs_per_second, .point_noise = 0, .wander = 0});
+  TrackedFile file;
+  file.name = "in.las";
+  file.rays = RaysOf(flight.Rays());
+  file.pairs = 2 * file.rays.size();
+  return file;
+}
+
+TEST(TrackFromReturns, StatesWhatItFound) {
+  const TrackedFile file = FlownFile(500);
+  const absl::StatusOr<FileTrack> found = FromReturns(file);
+  EXPECT_EQ(found->json["pairs"], file.pairs);
+  EXPECT_EQ(found->json["rays"], file.rays.size());
+  EXPECT_EQ(found->json["segments"], 1);
+  // Rays without errors meet at the sensor: what is left is rounding, and the floor of the noise in the fit.
+  EXPECT_NEAR(found->json["height_above_water"].get<double>(), 400, 0.003);
+  EXPECT_NEAR(found->json["speed"].get<double>(), 60, 0.003);
+  EXPECT_LT(found->json["incidence_sigma"].get<double>(), 0.3);
+}
+
+TEST(TrackFromReturns, SaysThatDirectionsAreFromGridNorthWithoutAMap) {
+  TrackedFile file = FlownFile(100);
+  absl::StatusOr<FileTrack> found = FromReturns(file);
+  EXPECT_THAT(found->notes,
+              ElementsAre(HasSubstr("trajectory from "), HasSubstr("directions are from grid north")));
+  const auto map = formats::MapFrame::Create("in.las", {.user = "EPSG:32617"});
+  file.map = *map;
+  file.frame.origin_x = 400000;
+  file.frame.origin_y = 3e6;
+  found = FromReturns(file);
+  EXPECT_THAT(found->notes, ElementsAre(HasSubstr("trajectory from ")));
+  const std::vector<double> times = {1010};
+  SensorPosition position;
+  TrackOutcome outcome;
+  found->track->PositionsAt(times, {&position, 1}, {&outcome, 1});
+  EXPECT_EQ(outcome, TrackOutcome::kKnown);
+  EXPECT_LT(position.convergence,
+            -0.4 * kDegree);  // West of the central meridian: 1 degree x sin(27 degrees).
+}
+
+TEST(TrackFromReturns, RefusesAFileWithoutRays) {
+  TrackedFile file;
+  file.name = "in.las";
+  file.pairs = 7;
+  const std::string refusal(FromReturns(file).status().message());
+  EXPECT_THAT(refusal,
+              HasSubstr("in.las: the position of the sensor cannot be derived from its returns (7 pairs"));
+  EXPECT_THAT(refusal, HasSubstr("or give a trajectory by --trajectory"));
+}
+
+TEST(TrackFromReturns, RefusesTooFewRays) {
+  TrackedFile file = FlownFile(500);
+  file.rays.resize(10);
+  EXPECT_THAT(std::string(FromReturns(file).status().message()),
+              HasSubstr("(10 pulses with two returns under water are too few"));
+}
+
+}  // namespace
+}  // namespace albtpu::annotate

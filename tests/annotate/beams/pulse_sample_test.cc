@@ -1,0 +1,78 @@
+#include "annotate/beams/pulse_sample.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace albtpu::annotate {
+namespace {
+
+PulseReturn Return(double time, int number, int count, int channel = 0) {
+  return {.record = 0,
+          .time = time,
+          .position = {time, 0, -1.0 * number},
+          .number = static_cast<std::uint8_t>(number),
+          .count = static_cast<std::uint8_t>(count),
+          .channel = static_cast<std::uint8_t>(channel),
+          .chosen = true};
+}
+
+std::vector<PulseReturn> Pulses(int pulses) {
+  std::vector<PulseReturn> returns;
+  for (int number = 1; number <= 2; ++number)
+    for (int i = 0; i < pulses; ++i) returns.push_back(Return(1.4e8 + 1e-4 * i, number, 2));
+  return returns;
+}
+
+std::set<double> TimesOf(const std::vector<PulseReturn>& returns, std::size_t most) {
+  PulseSample sample(most);
+  for (const PulseReturn& one : returns) sample.Add(one);
+  std::set<double> times;
+  for (const std::vector<PulseReturn>& pulse : sample.Take()) {
+    EXPECT_EQ(pulse.size(), 2u);
+    times.insert(pulse[0].time);
+  }
+  return times;
+}
+
+TEST(PulseSample, KeepsWholePulses) {
+  EXPECT_EQ(TimesOf(Pulses(500), 1000).size(), 500u);
+  // Of 100 000 pulses with two returns, a power of two of parts: between a half of 1000 returns and all of them, within
+  // 5 standard deviations of the number that a random part has.
+  const std::size_t pulses = TimesOf(Pulses(100000), 1000).size();
+  EXPECT_GT(pulses, 250u - 5 * 16);
+  EXPECT_LE(pulses, 500u);
+}
+
+TEST(PulseSample, DoesNotDependOnTheOrder) {
+  std::vector<PulseReturn> returns = Pulses(20000);
+  const std::set<double> times = TimesOf(returns, 1000);
+  std::mt19937 random(1);
+  std::shuffle(returns.begin(), returns.end(), random);
+  EXPECT_EQ(TimesOf(returns, 1000), times);
+}
+
+TEST(PulseSample, LeavesOutWhatIsNotOnePulse) {
+  PulseSample sample;
+  for (const PulseReturn& one : {Return(1, 1, 3), Return(1, 3, 3),                   // One pulse.
+                                 Return(2, 1, 2),                                    // Alone.
+                                 Return(3, 1, 2), Return(3, 1, 2),                   // One number.
+                                 Return(4, 1, 2), Return(4, 2, 2), Return(4, 3, 2),  // Too many.
+                                 Return(5, 1, 2, 0), Return(5, 2, 2, 1), Return(6, 1, 2), Return(6, 2, 3)})
+    sample.Add(one);
+  const auto pulses = sample.Take();
+  ASSERT_EQ(pulses.size(), 1u);
+  EXPECT_EQ(pulses[0][0].number, 1);
+  EXPECT_EQ(pulses[0][1].number, 3);
+}
+
+TEST(PulseSample, IsBoundedWhereAllTimesAreEqual) {
+  PulseSample sample(1000);
+  for (int i = 0; i < 100000; ++i) sample.Add(Return(0, 1 + i % 2, 2));
+  EXPECT_TRUE(sample.Take().empty());
+}
+
+}  // namespace
+}  // namespace albtpu::annotate

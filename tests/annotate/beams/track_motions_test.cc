@@ -1,0 +1,112 @@
+#include "annotate/beams/track_motions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/formats/trajectories/flight_text.h"
+#include "tests/formats/trajectories/sbet_flight.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::annotate {
+namespace {
+
+using albtpu::testing::Flight;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class TrajectoryMotionsTest : public ::testing::Test {
+ protected:
+  TrajectoryMotions Motions(const Flight& flight, const TrajectoryErrors& errors) {
+    const auto files = formats::LoadTrajectories(std::vector<std::string>{
+        folder_.Write("flight.sbet", albtpu::testing::SbetBytes(albtpu::testing::Fly(flight))).string()});
+    auto timeline = formats::TrajectoryTimeline::Create(
+        *files, formats::TrajectoryClock::kGps,
+        {{flight.start, flight.start + flight.duration}, formats::PointTimeForm::kWeekSeconds});
+    EXPECT_TRUE(timeline.ok()) << timeline.status();
+    return {*std::move(timeline), errors};
+  }
+  const albtpu::testing::TemporaryFolder folder_;
+};
+
+TEST_F(TrajectoryMotionsTest, StatesAttitudeVelocityAndRatesOfTheFlight) {
+  const Flight flight{.weave = 0, .climb = 0, .crab = 5};
+  const TrajectoryMotions motions = Motions(flight, {});
+  for (const double time : {10.0, 23.5, 41.25}) {
+    const std::optional<SensorMotion> motion = motions.At(flight.start + time);
+    ASSERT_TRUE(motion.has_value());
+    EXPECT_NEAR(motion->velocity[0], 60 * std::cos(30 * kDegree), 0.3);
+    EXPECT_NEAR(motion->velocity[1], 60 * std::sin(30 * kDegree), 0.3);
+    EXPECT_NEAR(motion->velocity[2], 0, 1e-6);
+    EXPECT_NEAR(motion->heading, 35, 0.2);
+    EXPECT_NEAR(motion->roll, albtpu::testing::RowAt(flight, time)[albtpu::testing::kRoll] / kDegree, 1e-3);
+    EXPECT_NEAR(motion->pitch, albtpu::testing::RowAt(flight, time)[albtpu::testing::kPitch] / kDegree, 1e-3);
+    EXPECT_TRUE(std::isnan(motion->position_sigma[0]));
+  }
+  EXPECT_FALSE(motions.At(flight.start - 1).has_value());
+  EXPECT_FALSE(motions.At(flight.start + flight.duration + 1).has_value());
+}
+
+TEST_F(TrajectoryMotionsTest, SinksWhereTheHeightFalls) {
+  const Flight flight{.weave = 0, .climb = 10};
+  const TrajectoryMotions motions = Motions(flight, {});
+  for (const double time : {11.0, 17.0}) {
+    const auto before = albtpu::testing::RowAt(flight, time - 0.01),
+               after = albtpu::testing::RowAt(flight, time + 0.01);
+    const double climbing = (after[albtpu::testing::kHeight] - before[albtpu::testing::kHeight]) / 0.02;
+    EXPECT_GT(std::abs(climbing), 0.5);
+    EXPECT_NEAR(motions.At(flight.start + time)->velocity[2], -climbing, 0.01);
+  }
+}
+
+// The file states (field + 1) cm of each field, a tenth more each second; angles are in arc minutes.
+TEST_F(TrajectoryMotionsTest, StatesTheErrorsOfItsFiles) {
+  const Flight flight;
+  const auto errors = LoadTrajectoryErrors(std::vector<std::string>{
+      folder_.Write("smrmsg.out", albtpu::testing::SmrmsgBytes(flight.start, 61)).string()});
+  const std::optional<SensorMotion> motion = Motions(flight, *errors).At(flight.start + 20);
+  ASSERT_TRUE(motion.has_value());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(motion->position_sigma[i], 0.01 * (i + 2) * 3, 1e-6);
+    EXPECT_NEAR(motion->attitude_sigma[i], 0.01 * (i + 8) * 3 / 60, 1e-6);
+  }
+}
+
+// A straight track in coordinates that are turned by 30 degrees and scaled.
+class StraightTrack final : public SensorTrack {
+ public:
+  void PositionsAt(std::span<const double> times, std::span<SensorPosition> positions,
+                   std::span<TrackOutcome> outcomes) const override {
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      positions[i] = {.x = 40 * times[i] / 0.9996,
+                      .y = 30 * times[i] / 0.9996,
+                      .z = 400 - 2 * times[i],
+                      .metres_per_x = 0.9996,
+                      .metres_per_y = 0.9996,
+                      .convergence = 30 * kDegree};
+      outcomes[i] = times[i] >= 0 && times[i] <= 10 ? TrackOutcome::kKnown : TrackOutcome::kOutside;
+    }
+  }
+};
+
+TEST(CourseMotions, AreTheTrueVelocityAndCourseOfATrack) {
+  const StraightTrack track;
+  const CourseMotions motions(track);
+  // Grid azimuth atan(40 / 30), 53.130 degrees; true 83.130.
+  for (const double time : {0.0, 5.0, 10.0}) {
+    const std::optional<SensorMotion> motion = motions.At(time);
+    ASSERT_TRUE(motion.has_value()) << time;
+    EXPECT_NEAR(motion->heading, 83.1301, 1e-3);
+    EXPECT_NEAR(motion->velocity[0], 50 * std::cos(83.1301 * kDegree), 1e-3);
+    EXPECT_NEAR(motion->velocity[1], 50 * std::sin(83.1301 * kDegree), 1e-3);
+    EXPECT_NEAR(motion->velocity[2], 2, 1e-6);
+    EXPECT_EQ(motion->roll, 0);
+    EXPECT_TRUE(std::isnan(motion->attitude_sigma[2]));
+  }
+  EXPECT_FALSE(motions.At(-1).has_value());
+  EXPECT_FALSE(motions.At(11).has_value());
+}
+
+}  // namespace
+}  // namespace albtpu::annotate

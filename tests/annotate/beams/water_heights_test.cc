@@ -1,0 +1,123 @@
+#include "annotate/beams/water_heights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace albtpu::annotate {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFoot = 0.3048;  // m, exact.
+
+// Points at these x, y = 0 and z = -5.
+SurveyPoints PointsAt(std::vector<double> x, std::vector<double> times) {
+  SurveyPoints points;
+  points.y.assign(x.size(), 0);
+  points.z.assign(x.size(), -5);
+  points.x = std::move(x);
+  points.times = std::move(times);
+  return points;
+}
+
+// The water lies at `height` [m] within a few metres of the origin of the local frame, at the time 0.
+LocalWaterSurface SurfaceAtTheOrigin(double height) {
+  SurfaceReturns returns;
+  for (int i = 0; i < 5; ++i) returns.Add(0.5 * i, 0, 0, height);
+  return returns.Finish();
+}
+
+formats::WaterLevelSeries Levels(const std::string& text) {
+  absl::StatusOr<formats::WaterLevelSeries> series = formats::WaterLevelSeries::Parse(
+      "tide.csv", "time,water_level\n" + text, formats::PointTimeForm::kAdjustedStandard);
+  EXPECT_TRUE(series.ok()) << series.status();
+  return *std::move(series);
+}
+
+struct Answer {
+  std::vector<double> heights;
+  SurfaceCounts counts;
+};
+Answer Ask(const WaterHeights& water, const SurveyPoints& points, const LocalFrame& frame = {}) {
+  Answer answer;
+  answer.heights = {99, 99, 99, 99, 99, 99, 99};  // What is left of another use does not matter.
+  water.At(points, frame, answer.heights, answer.counts);
+  EXPECT_EQ(answer.heights.size(), points.size());
+  return answer;
+}
+
+TEST(WaterHeights, TrustThePulseFirstThenReturnsNearbyThenTheLevel) {
+  const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
+  SurveyPoints points = PointsAt({0, 0, 1000, 1000}, {0, 0, 0, 0});
+  points.pulse_surface = {1, kNan, 1.5, kNan};
+  const Answer answer = Ask({.surface = &surface, .levels = nullptr, .level = 3}, points);
+  EXPECT_EQ(answer.heights, (std::vector<double>{1, 2, 1.5, 3}));
+  EXPECT_EQ(answer.counts[SurfaceFrom::kPulse], 2u);
+  EXPECT_EQ(answer.counts[SurfaceFrom::kLocal], 1u);
+  EXPECT_EQ(answer.counts[SurfaceFrom::kLevel], 1u);
+}
+
+TEST(WaterHeights, AreNotKnownWhereNoSourceKnowsThem) {
+  const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
+  const Answer answer =
+      Ask({.surface = &surface, .levels = nullptr, .level = {}}, PointsAt({0, 1000}, {0, 0}));
+  EXPECT_EQ(answer.heights[0], 2);
+  EXPECT_TRUE(std::isnan(answer.heights[1]));
+  EXPECT_EQ(answer.counts[SurfaceFrom::kLevel], 0u);
+  EXPECT_TRUE(std::isnan(Ask({}, PointsAt({0}, {0})).heights[0]));
+}
+
+TEST(WaterHeights, FollowTheLevelByTime) {
+  const formats::WaterLevelSeries levels = Levels("1000,-20\n1400,-22\n");
+  const Answer answer = Ask({.surface = nullptr, .levels = &levels, .level = {}},
+                            PointsAt({0, 0, 0, 0, 0}, {1000, 1100, 1400, 999, 1401}));
+  EXPECT_EQ(answer.heights[0], -20);
+  EXPECT_DOUBLE_EQ(answer.heights[1], -20.5);
+  EXPECT_EQ(answer.heights[2], -22);
+  EXPECT_TRUE(std::isnan(answer.heights[3]) && std::isnan(answer.heights[4]));  // Not extrapolated.
+  EXPECT_EQ(answer.counts[SurfaceFrom::kLevel], 3u);
+}
+
+TEST(WaterHeights, OfReturnsNearbyBelongToTheirTime) {
+  const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
+  const Answer answer =
+      Ask({.surface = &surface, .levels = nullptr, .level = -1}, PointsAt({0, 0}, {0, 3600}));
+  EXPECT_EQ(answer.heights, (std::vector<double>{2, -1}));
+}
+
+TEST(WaterHeights, NeedNoTimesWhereTheFileHasNone) {
+  const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
+  const Answer answer = Ask({.surface = &surface, .levels = nullptr, .level = -1}, PointsAt({0, 1000}, {}));
+  EXPECT_EQ(answer.heights, (std::vector<double>{2, -1}));
+}
+
+// A survey in feet, on the map and in height: the local surface is in the local frame, in metres, all else in feet.
+TEST(WaterHeights, AreMetresWhereThePointsAreInFeet) {
+  const LocalFrame frame = {
+      .origin_x = 5000, .origin_y = 0, .metres_per_x = kFoot, .metres_per_y = kFoot, .metres_per_z = kFoot};
+  const LocalWaterSurface surface = SurfaceAtTheOrigin(2);
+  SurveyPoints points = PointsAt({5000, 5000, 9000}, {0, 0, 0});
+  points.pulse_surface = {10, kNan, kNan};
+  const Answer constant = Ask({.surface = &surface, .levels = nullptr, .level = 20}, points, frame);
+  EXPECT_EQ(constant.heights, (std::vector<double>{10 * kFoot, 2, 20 * kFoot}));
+  const formats::WaterLevelSeries levels = Levels("-100,30\n100,30\n");
+  const Answer series = Ask({.surface = &surface, .levels = &levels, .level = {}}, points, frame);
+  EXPECT_EQ(series.heights, (std::vector<double>{10 * kFoot, 2, 30 * kFoot}));
+}
+
+TEST(SurfaceCounts, AddUpOverThePartsOfAFile) {
+  SurfaceCounts all, part;
+  all.Add(SurfaceFrom::kPulse);
+  part.Add(SurfaceFrom::kLevel);
+  part.Add(SurfaceFrom::kLocal);
+  part.Add(SurfaceFrom::kLevel);
+  all.Merge(part);
+  EXPECT_EQ(all.Json().dump(), R"({"pulse":1,"local":1,"level":2})");
+  EXPECT_EQ(all.Text(),
+            "from a return of the same pulse at 1 points, from returns nearby at 1, from the level at 2");
+}
+
+}  // namespace
+}  // namespace albtpu::annotate

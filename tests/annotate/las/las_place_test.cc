@@ -1,0 +1,59 @@
+#include "annotate/las/las_place.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/formats/las/las_builder.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::annotate {
+namespace {
+
+using albtpu::testing::BuildLas;
+using albtpu::testing::LasSpec;
+using albtpu::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+absl::StatusOr<LasPlace> PlaceOf(const LasSpec& spec, const BeamSource& source) {
+  const TemporaryFolder folder;
+  const absl::StatusOr<formats::LasReader> reader =
+      formats::LasReader::Open(folder.Write("in.las", BuildLas(spec)));
+  BeamPlan plan;
+  plan.source = source;
+  return PlaceOf(*reader, plan);
+}
+
+// A point at 80.3 degrees west and 27.1 degrees north, in steps of 1e-7 degrees.
+LasSpec InDegrees() {
+  LasSpec spec;
+  spec.scale = 1e-7;
+  spec.points = {{.x = -803000000, .y = 271000000}};
+  return spec;
+}
+
+TEST(LasPlace, AsksForTheCoordinateSystemOfPointsInDegrees) {
+  const absl::StatusOr<LasPlace> unknown = PlaceOf(InDegrees(), TrajectoryFromReturns());
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_THAT(unknown.status().message(), HasSubstr("seem to be in degrees"));
+  EXPECT_THAT(unknown.status().message(), HasSubstr("--crs"));
+  // Nothing is computed from x and y.
+  EXPECT_TRUE(PlaceOf(InDegrees(), ConstantIncidence()).ok());
+}
+
+TEST(LasPlace, TakesMetresWhereNoCoordinateSystemIsStated) {
+  LasSpec spec;
+  spec.points = {{.x = 10000, .y = 20000}};
+  const absl::StatusOr<LasPlace> place = PlaceOf(spec, TrajectoryFromReturns());
+  EXPECT_EQ(place->frame.metres_per_x, 1);
+  EXPECT_EQ(place->map, nullptr);
+}
+
+TEST(LasPlace, MeasuresDegreesInMetres) {
+  const absl::StatusOr<LasPlace> place = PlaceOf(InDegrees(), TrajectoryFromReturns{.crs = "EPSG:4326"});
+  // A degree of the WGS 84 parallel and meridian at 27.1 degrees: 111 412.84 cos p - 93.5 cos 3p = 99 167 m, and
+  // 111 132.92 - 559.82 cos 2p + 1.175 cos 4p = 110 805 m, to 1 m.
+  EXPECT_NEAR(place->frame.metres_per_x, 99167, 2);
+  EXPECT_NEAR(place->frame.metres_per_y, 110805, 2);
+}
+
+}  // namespace
+}  // namespace albtpu::annotate

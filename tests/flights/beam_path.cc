@@ -1,0 +1,59 @@
+#include "tests/flights/beam_path.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace albtpu::testing {
+namespace {
+
+constexpr double kResolution = 2e-9;  // m; heights are differences of numbers near 6.4e6 m.
+constexpr int kMaxSteps =
+    50;  // The slopes of waves and seabed make an error at least 5 times smaller a step.
+
+}  // namespace
+
+double Coast::HeightAt(const Eigen::Vector2d& east_north) const {
+  const double along = east_north.x() * std::sin(course) + east_north.y() * std::cos(course);
+  const double across = east_north.x() * std::cos(course) - east_north.y() * std::sin(course);
+  const double slope = deepest * (along - shoreline) / (deepest_at - shoreline);
+  return water_level - slope - 0.3 * std::sin(0.05 * along) * std::sin(0.03 * across);
+}
+
+// The part of the beam along the surface becomes 1/n of itself, sin(t) = sin(i)/n; the length stays 1.
+Eigen::Vector3d Refract(const Eigen::Vector3d& beam, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d along = (beam - beam.dot(normal) * normal) / kIndexOfWater;
+  return along - std::sqrt(1 - along.squaredNorm()) * normal;
+}
+
+BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam,
+                     double time) {
+  BeamPath path;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    path.water_point = sensor + path.slant_range * beam;
+    const Geodetic here = GeodeticFrom(kWgs84, path.water_point);
+    const WavySurface::Local local = scene.waves.At(scene.chart.EastNorth(here), time);
+    const Eigen::Matrix3d axes = EastNorthUp(here.latitude, here.longitude);
+    const Eigen::Vector3d east = axes.col(0), north = axes.col(1), up = axes.col(2);
+    const Eigen::Vector3d normal = (up - local.slope.x() * east - local.slope.y() * north).normalized();
+    path.water_direction = Refract(beam, normal);
+    path.incidence = std::atan2(beam.cross(up).norm(), -beam.dot(up));
+    path.azimuth = std::atan2(beam.dot(east), beam.dot(north));
+    const double above = here.height - scene.coast.water_level - local.elevation;
+    if (std::abs(above) < kResolution) break;
+    path.slant_range += above / -beam.dot(up);
+  }
+  return path;
+}
+
+double DistanceToGround(const Scene& scene, const Eigen::Vector3d& begin, const Eigen::Vector3d& beam) {
+  double distance = 0;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Geodetic here = GeodeticFrom(kWgs84, begin + distance * beam);
+    const double above = here.height - scene.coast.HeightAt(scene.chart.EastNorth(here));
+    if (std::abs(above) < kResolution) break;
+    distance += above / -beam.dot(EastNorthUp(here.latitude, here.longitude).col(2));
+  }
+  return distance;
+}
+
+}  // namespace albtpu::testing

@@ -1,0 +1,52 @@
+// The path of one beam over the curved Earth: to the water, into it, and to the seabed, in earth-centred coordinates.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "tests/flights/aircraft.h"
+#include "tests/flights/wavy_surface.h"
+
+namespace albtpu::testing {
+
+inline constexpr double kIndexOfWater = 1.34;  // At 532 nm; the value that the programs assume.
+
+// A coast in chart coordinates: a beach that slopes into the sea, with ripples of 0.3 m on it. Depth grows along the
+// course of the first line.
+struct Coast {
+  double course = 0;       // rad
+  double shoreline = 0;    // m along the course
+  double deepest_at = 1;   // m along the course
+  double deepest = 17.6;   // m there, without the ripples
+  double water_level = 0;  // m above the ellipsoid
+
+  // m above the ellipsoid.
+  double HeightAt(const Eigen::Vector2d& east_north) const;
+};
+
+struct Scene {
+  const AreaChart& chart;
+  const Coast& coast;
+  const WavySurface& waves;
+};
+
+struct BeamPath {
+  Eigen::Vector3d water_point;      // m, earth-centred
+  Eigen::Vector3d water_direction;  // Unit vector of the refracted beam.
+  double slant_range = 0;           // m, from the sensor to the water
+  double incidence = 0;  // rad, from the vertical at the water point, whatever the slope of the waves
+  double azimuth = 0;    // rad, of the beam at the water point, clockwise from true north
+};
+
+// Where the beam from `sensor` in the direction `beam` (unit vector, downwards) meets the water at `time` [s].
+BeamPath PathToWater(const Scene& scene, const Eigen::Vector3d& sensor, const Eigen::Vector3d& beam,
+                     double time);
+
+// Distance [m] from `begin` to the ground in the direction `beam`.
+double DistanceToGround(const Scene& scene, const Eigen::Vector3d& begin, const Eigen::Vector3d& beam);
+
+// Snell's law in vectors: the unit vector behind a surface with the upward unit vector `normal`, of a beam that comes
+// from air in the direction of the unit vector `beam`.
+Eigen::Vector3d Refract(const Eigen::Vector3d& beam, const Eigen::Vector3d& normal);
+
+}  // namespace albtpu::testing

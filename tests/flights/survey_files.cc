@@ -1,0 +1,129 @@
+#include "tests/flights/survey_files.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace albtpu::testing {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSecondsOfWeek = 604800;
+
+// ASPRS, LAS Domain Profile for Topo-Bathy Lidar; for formats 0 to 5, whose classes end at 31, what NOAA's older files
+// have.
+int ClassOf(ReturnKind kind, int point_format) {
+  const bool legacy = point_format < 6;
+  switch (kind) {
+    case ReturnKind::kBottom:
+      return legacy ? 26 : 40;
+    case ReturnKind::kSurface:
+      return legacy ? 27 : 41;
+    case ReturnKind::kColumn:
+      return legacy ? 25 : 45;
+    case ReturnKind::kLand:
+      return 2;
+  }
+  return 0;
+}
+
+void AppendShort(std::string& bytes, int number) {
+  bytes += static_cast<char>(number & 0xFF);
+  bytes += static_cast<char>(number >> 8 & 0xFF);
+}
+
+// OGC GeoTIFF 1.1: a projected (3072) or geographic (2048) system by its code; 4096 vertical system, 4099 unit of
+// heights.
+std::string GeoKeys(const MapGrid& grid, bool orthometric) {
+  std::vector<int> keys = {1024, 1, 3072, grid.epsg, 3076, grid.linear_unit, 4099, grid.linear_unit};
+  if (!grid.projection.has_value()) keys = {1024, 2, 2048, grid.epsg, 4099, grid.linear_unit};
+  if (orthometric) keys.insert(keys.end() - 2, {4096, 5703});
+  std::string bytes;
+  for (const int number : {1, 1, 0, static_cast<int>(keys.size() / 2)}) AppendShort(bytes, number);
+  for (std::size_t i = 0; i < keys.size(); i += 2) {
+    for (const int number : {keys[i], 0, 1, keys[i + 1]}) AppendShort(bytes, number);
+  }
+  return bytes;
+}
+
+double Degrees(double azimuth) { return std::fmod(azimuth / kDegree + 360, 360); }
+
+}  // namespace
+
+LasSpec PointsOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns,
+                 const PointOptions& options) {
+  const MapGrid grid = *FindMapGrid(survey.options.grid);
+  const bool orthometric = options.geoid_separation != 0;
+  LasSpec spec;
+  spec.version_minor = options.version_minor;
+  spec.point_format = options.point_format;
+  spec.scale = options.scale;
+  spec.adjusted_time = options.adjusted_time;
+  if (options.geotiff_keys) {
+    spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys(grid, orthometric)});
+  } else {
+    spec.vlrs.push_back({"LASF_Projection", 2112, grid.LasWkt(orthometric) + '\0'});
+  }
+  // Offsets are round numbers. Degrees need a finer resolution than heights, but a record of the builder has one for
+  // all; at 1e-8, heights reach 21 m from their offset.
+  const bool degrees = !grid.projection.has_value();
+  const GridPoint origin = grid.At(survey.options.latitude, survey.options.longitude);
+  const double round = degrees ? 1 : 10000;
+  if (degrees) spec.scale = 1e-8;
+  const double mean_height = std::round(survey.options.water_level - options.geoid_separation - 7);
+  spec.offset = {round * std::floor(origin.x / round), round * std::floor(origin.y / round),
+                 degrees ? mean_height : 0};
+  const auto steps = [&](double value, std::size_t axis) {
+    return static_cast<std::int32_t>(std::lround((value - spec.offset[axis]) / spec.scale));
+  };
+  const double time_zero = options.adjusted_time ? options.gps_week * kSecondsOfWeek - 1e9 : 0;
+  spec.points.reserve(returns.size());
+  for (const std::size_t index : returns) {
+    const SimulatedReturn& found = survey.returns[index];
+    const SimulatedPulse& pulse = survey.pulses[found.pulse];
+    const GridPoint at = grid.At(found.position.latitude, found.position.longitude);
+    const double time = options.adjusted_time ? pulse.time : std::fmod(pulse.time, kSecondsOfWeek);
+    LasPoint point;
+    point.x = steps(at.x, 0);
+    point.y = steps(at.y, 1);
+    point.z = steps((found.position.height - options.geoid_separation) / grid.metres_per_unit, 2);
+    point.classification = ClassOf(found.kind, options.point_format);
+    point.scan_angle = pulse.scan_angle / kDegree;
+    point.gps_time = time_zero + time;
+    point.point_source_id = options.no_source_id ? 0 : pulse.line;
+    point.return_number = found.number;
+    point.return_count = found.count;
+    spec.points.push_back(point);
+  }
+  return spec;
+}
+
+std::string TruthOf(const SimulatedSurvey& survey, const std::vector<std::size_t>& returns,
+                    const PointOptions& options) {
+  const MapGrid grid = *FindMapGrid(survey.options.grid);
+  std::string bytes;
+  for (const std::size_t index : returns) {
+    const SimulatedReturn& found = survey.returns[index];
+    const SimulatedPulse& pulse = survey.pulses[found.pulse];
+    const GridPoint sensor = grid.At(pulse.sensor.latitude, pulse.sensor.longitude);
+    const double row[] = {pulse.time,
+                          static_cast<double>(pulse.line),
+                          static_cast<double>(found.pulse),
+                          static_cast<double>(found.kind),
+                          pulse.incidence / kDegree,
+                          Degrees(pulse.azimuth),
+                          pulse.slant_range * options.divergence * 1e-3,
+                          found.depth,
+                          pulse.slant_range,
+                          sensor.x,
+                          sensor.y,
+                          pulse.sensor.height - options.geoid_separation,
+                          sensor.convergence / kDegree,
+                          sensor.scale};
+    static_assert(std::size(row) == std::size(kTruthColumns));
+    bytes.append(reinterpret_cast<const char*>(row), sizeof row);
+  }
+  return bytes;
+}
+
+}  // namespace albtpu::testing

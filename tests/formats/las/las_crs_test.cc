@@ -1,0 +1,120 @@
+#include "formats/las/las_crs.h"
+
+#include <gmock/gmock.h>
+
+#include "formats/laz/coding/little_endian.h"
+#include "tests/formats/las/las_builder.h"
+#include "tests/temporary_folder.h"
+
+namespace albtpu::formats {
+namespace {
+
+using laz::Store;
+std::string GeoKeys(std::initializer_list<std::pair<int, int>> keys) {
+  std::string bytes(8 * (keys.size() + 1), '\0');
+  std::size_t at = 8;
+  for (const auto& [key, value] : keys) {
+    Store(static_cast<std::uint16_t>(key), bytes.data() + at);
+    Store<std::uint16_t>(1, bytes.data() + at + 4);
+    Store(static_cast<std::uint16_t>(value), bytes.data() + at + 6);
+    at += 8;
+  }
+  return bytes;
+}
+
+TEST(LasCrs, FindsFeetInWellKnownText) {
+  for (const char* wkt : {
+           "PROJCS[\"x\",UNIT[\"US survey foot\",0.3048006096012192,AUTHORITY[\"EPSG\",\"9003\"]]]",
+           "PROJCS[\"x\",UNIT[\"metre\",1]],VERT_CS[\"NAVD88 height "
+           "(ftUS)\",UNIT[\"Foot_US\",0.304800609601219]]",
+           "PROJCRS[\"x\",LENGTHUNIT[\"foot\",0.3048]]",
+           "PROJCS[\"x\",UNIT (\"some name\", 0.3048)]",
+           "VERT_CS[\"x\",UNIT[\"ft\"]]",
+           "VERT_CS[\"x\",Unit[\"British feet\",0.30480061]]",
+       }) {
+    EXPECT_TRUE(FindFeetInWkt(wkt).has_value()) << wkt;
+  }
+}
+
+TEST(LasCrs, SearchesALongTextQuickly) {
+  std::string wkt;
+  while (wkt.size() < 1'000'000) wkt += "UNIT[";
+  EXPECT_FALSE(FindFeetInWkt(wkt + "\"metre\",1]").has_value());
+}
+
+TEST(LasCrs, FindsNoFeetInMetres) {
+  for (const char* wkt : {albtpu::testing::kMetricWkt, "", "UNIT[\"degree\",0.0174532925199433]",
+                          "UNIT[\"metre", "UNIT[", "UNITED STATES FOOT", "LENGTHUNIT[\"kilometre\",1000]"}) {
+    EXPECT_FALSE(FindFeetInWkt(wkt).has_value()) << wkt;
+  }
+}
+
+TEST(LasCrs, FindsFeetInGeoKeys) {
+  EXPECT_EQ(FindFeetInGeoKeys(GeoKeys({{1024, 1}, {3076, 9003}})), "GeoTIFF key 3076 = 9003");
+  EXPECT_EQ(FindFeetInGeoKeys(GeoKeys({{3076, 9001}, {4099, 9002}})), "GeoTIFF key 4099 = 9002");
+  EXPECT_FALSE(FindFeetInGeoKeys(GeoKeys({{3076, 9001}, {4099, 9001}, {3072, 9002}})).has_value());
+  EXPECT_FALSE(FindFeetInGeoKeys("").has_value());
+  EXPECT_FALSE(FindFeetInGeoKeys("short").has_value());
+}
+
+TEST(LasCrs, SearchesVlrsAndEvlrs) {
+  const albtpu::testing::TemporaryFolder folder;
+  const albtpu::testing::LasRecord in_feet = {"LASF_Projection", 2112, "X[UNIT[\"foot\",0.3048]]"};
+  albtpu::testing::LasSpec spec;
+  spec.points.resize(1);
+  const auto finds_feet = [&] {
+    return FindFeet(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value().has_value();
+  };
+  EXPECT_FALSE(finds_feet());
+  spec.vlrs.push_back({"somebody else", 2112, in_feet.data});
+  EXPECT_FALSE(finds_feet());
+  spec.evlrs.push_back(in_feet);
+  EXPECT_TRUE(finds_feet());
+  spec.evlrs.clear();
+  spec.vlrs.push_back({"LASF_Projection", 34735, GeoKeys({{4099, 9002}})});
+  EXPECT_TRUE(finds_feet());
+}
+
+TEST(LasCrs, DescribesGeoKeys) {
+  const CrsDescription description = DescribeGeoKeys(
+      GeoKeys({{1024, 1}, {3072, 26917}, {2048, 4269}, {3076, 9003}, {4096, 5703}, {4099, 9001}}));
+  EXPECT_EQ(description.projected, 26917);
+  EXPECT_EQ(description.geographic, 4269);
+  EXPECT_EQ(description.linear_unit, 9003);
+  EXPECT_EQ(description.vertical, 5703);
+  EXPECT_EQ(description.vertical_unit, 9001);
+  EXPECT_TRUE(DescribeGeoKeys(GeoKeys({{1024, 1}, {3072, 32767}, {2048, 0}})).empty());
+  EXPECT_TRUE(DescribeGeoKeys("").empty());
+}
+
+TEST(LasCrs, DescribesWhatTheRecordsState) {
+  const albtpu::testing::TemporaryFolder folder;
+  albtpu::testing::LasSpec spec;
+  spec.points.resize(1);
+  const auto describe = [&] {
+    return DescribeCrs(*LasReader::Open(folder.Write("in.las", BuildLas(spec)))).value();
+  };
+  EXPECT_TRUE(describe().empty());
+  const std::string wkt = albtpu::testing::kMetricWkt;
+  spec.vlrs.push_back({"LASF_Projection", 2112, wkt + std::string(3, '\0')});
+  spec.evlrs.push_back({"LASF_Projection", 34735, GeoKeys({{3072, 26917}})});
+  spec.evlrs.push_back({"LASF_Projection", 2112, "another"});
+  EXPECT_EQ(describe().wkt, wkt);
+  EXPECT_EQ(describe().projected, 26917);
+  EXPECT_TRUE(describe().user.empty());
+}
+
+// The text of a real file, of a NOAA survey of 2016. Its angles have metres as their unit.
+constexpr char kFaultyWkt[] =
+    R"wkt(PROJCS["NAD83 / UTM zone 17N",GEOGCS["NAD83 / UTM zone 17N",DATUM["NAD83",SPHEROID[")wkt"
+    R"wkt(GRS80",6378137.000,298.257222100,AUTHORITY["EPSG","0"]],AUTHORITY["EPSG","0"]],PRIME)wkt"
+    R"wkt(M["Greenwich",0.0000000000000000,AUTHORITY["EPSG","8901"]],UNIT["Meter",1.0000000000)wkt"
+    R"wkt(0000000000,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","26917"]],PROJECTION["Transver)wkt"
+    R"wkt(se_Mercator"],PARAMETER["latitude_of_origin",0.0000000000000000],PARAMETER["central_)wkt"
+    R"wkt(meridian",-81.0000000000000000],PARAMETER["scale_factor",0.9996000000000000],PARAMET)wkt"
+    R"wkt(ER["false_easting",500000.000],PARAMETER["false_northing",0.000],UNIT["Meter",1.0000)wkt"
+    R"wkt(0000000000000000,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORT)wkt"
+    R"wkt(H],AXIS["Height",UP],AUTHORITY["EPSG","26917"]])wkt";
+
+}  // namespace
+}  // namespace albtpu::formats

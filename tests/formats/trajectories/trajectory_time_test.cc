@@ -1,0 +1,121 @@
+#include "formats/trajectories/trajectory_time.h"
+
+#include <gmock/gmock.h>
+
+namespace albtpu::formats {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kWeek = 604800;
+// GPS week 1896 begins on 8 May 2016; the Florida sample was flown in it.
+constexpr double kBeginOfWeek1896 = 1896 * kWeek - 1e9;
+
+PointTimes Adjusted(double first, double last) { return {{first, last}, PointTimeForm::kAdjustedStandard}; }
+PointTimes WeekSeconds(double first, double last) { return {{first, last}, PointTimeForm::kWeekSeconds}; }
+double Offset(TimeSpan trajectory, const PointTimes& points, TrajectoryClock clock = TrajectoryClock::kGps) {
+  const absl::StatusOr<double> offset = TimeOffset("flight.sbet", trajectory, clock, points);
+  EXPECT_TRUE(offset.ok()) << offset.status();
+  return offset.value_or(-1);
+}
+std::string Refusal(TimeSpan trajectory, const PointTimes& points,
+                    TrajectoryClock clock = TrajectoryClock::kGps) {
+  return std::string(TimeOffset("flight.sbet", trajectory, clock, points).status().message());
+}
+
+TEST(TrajectoryTime, OverlapIsNegativeBetweenIntervalsApart) {
+  EXPECT_EQ(Overlap({0, 10}, {5, 20}), 5);
+  EXPECT_EQ(Overlap({5, 20}, {0, 10}), 5);
+  EXPECT_EQ(Overlap({0, 1}, {3, 4}), -2);
+}
+
+TEST(TrajectoryTime, FindsTheWeekOfAdjustedTimes) {
+  EXPECT_EQ(Offset({300000, 310000}, Adjusted(kBeginOfWeek1896 + 305000, kBeginOfWeek1896 + 305100)),
+            kBeginOfWeek1896);
+}
+
+TEST(TrajectoryTime, TakesWeekSecondsAsTheyAre) {
+  EXPECT_EQ(Offset({300000, 310000}, WeekSeconds(305000, 305100)), 0);
+}
+
+TEST(TrajectoryTime, FollowsAFlightAcrossTheEndOfTheWeek) {
+  const TimeSpan flight = {604000, 605500};
+  // Points before, on both sides, and after.
+  EXPECT_EQ(Offset(flight, Adjusted(kBeginOfWeek1896 + 604100, kBeginOfWeek1896 + 604200)), kBeginOfWeek1896);
+  EXPECT_EQ(Offset(flight, Adjusted(kBeginOfWeek1896 + 604700, kBeginOfWeek1896 + 604900)), kBeginOfWeek1896);
+  EXPECT_EQ(Offset(flight, Adjusted(kBeginOfWeek1896 + 604900, kBeginOfWeek1896 + 605000)), kBeginOfWeek1896);
+  EXPECT_EQ(Offset(flight, WeekSeconds(100, 200)), -kWeek);
+  EXPECT_EQ(Offset(flight, WeekSeconds(0, 604799)), 0);
+}
+
+TEST(TrajectoryTime, AddsLeapSecondsOfTheDate) {
+  const auto in_utc = [](double week) {
+    const double begin = week * kWeek - 1e9;
+    return Offset({300000, 310000}, Adjusted(begin + 305000, begin + 305100), TrajectoryClock::kUtc) - begin;
+  };
+  EXPECT_EQ(in_utc(1800), 16);  // July 2014
+  EXPECT_EQ(in_utc(1896), 17);  // May 2016
+  EXPECT_EQ(in_utc(2100), 18);  // April 2020
+  EXPECT_EQ(Offset({300000, 310000}, WeekSeconds(305000, 305100), TrajectoryClock::kUtc), 18);
+}
+
+TEST(TrajectoryTime, AcceptsAbsoluteTimes) {
+  const double first = kBeginOfWeek1896 + 305000;
+  EXPECT_EQ(Offset({first - 100, first + 100}, Adjusted(first, first + 1)), 0);
+  EXPECT_EQ(Offset({first + 1e9 - 100, first + 1e9 + 100}, Adjusted(first, first + 1)), -1e9);
+  EXPECT_EQ(Offset({first - 100, first + 100}, WeekSeconds(305000, 305001)), -kBeginOfWeek1896);
+  EXPECT_EQ(Offset({first + 1e9 - 100, first + 1e9 + 100}, WeekSeconds(305000, 305001)), -1896 * kWeek);
+  EXPECT_EQ(Offset({first - 100, first + 100}, WeekSeconds(305000, 305001), TrajectoryClock::kUtc),
+            17 - kBeginOfWeek1896);
+}
+
+TEST(TrajectoryTime, NamesBothRangesAndAnotherFlight) {
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(kBeginOfWeek1896 + 405000, kBeginOfWeek1896 + 405100)),
+              ::testing::AllOf(HasSubstr("300000.0 to 310000.0 s"),
+                               HasSubstr("405000.0 to 405100.0 s of GPS week 1896 (2016-05-12)"),
+                               HasSubstr("another flight")));
+}
+
+TEST(TrajectoryTime, NamesAnotherWeek) {
+  const double first = kBeginOfWeek1896 + 305000;
+  EXPECT_THAT(Refusal({first + kWeek, first + kWeek + 100}, Adjusted(first, first + 50)),
+              HasSubstr("another week: it is 1 week later"));
+  EXPECT_THAT(Refusal({first - 3 * kWeek, first - 3 * kWeek + 100}, Adjusted(first, first + 50)),
+              HasSubstr("another week: it is 3 weeks earlier"));
+  // Seconds of a week, counted on for a week and half.
+  EXPECT_THAT(Refusal({305000 + kWeek, 306000 + kWeek}, Adjusted(first, first + 50)),
+              HasSubstr("another week: it is 1 week later"));
+  EXPECT_THAT(Refusal({305000 + kWeek, 306000 + kWeek}, WeekSeconds(305000, 305100)),
+              HasSubstr("another week: it is 1 week later"));
+}
+
+TEST(TrajectoryTime, RefusesToGuessAWeek) {
+  const double first = kBeginOfWeek1896 + 305000;
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(first, first + 9 * 86400)), HasSubstr("more than one week"));
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(first, first + 90 * 86400)),
+              HasSubstr("which last 90.0 days"));
+  EXPECT_EQ(Offset({200000, 210000}, Adjusted(first, first + 6 * 86400)), kBeginOfWeek1896 + kWeek);
+}
+
+TEST(TrajectoryTime, NamesPointsWithoutTimes) {
+  EXPECT_THAT(Refusal({0, 310000}, WeekSeconds(0, 0)), HasSubstr("the points are all 0"));
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(0, 0)), HasSubstr("the points are all 0"));
+}
+
+TEST(TrajectoryTime, NamesTheWrongFormOfPointTimes) {
+  EXPECT_THAT(Refusal({300000, 310000}, WeekSeconds(kBeginOfWeek1896 + 305000, kBeginOfWeek1896 + 305100)),
+              HasSubstr("set bit 0 of its global encoding"));
+  EXPECT_THAT(Refusal({300000, 310000}, Adjusted(305000, 305100)),
+              HasSubstr("clear bit 0 of its global encoding"));
+}
+
+TEST(TrajectoryTime, NamesTheOtherClockWhereItFits) {
+  const double begin = kBeginOfWeek1896 + 305000;
+  EXPECT_THAT(Refusal({305000 - 18, 305010 - 18}, Adjusted(begin, begin + 10)),
+              HasSubstr("(its times fit as UTC); give --trajectory-time utc"));
+  EXPECT_THAT(Refusal({305000, 305010}, Adjusted(begin, begin + 10), TrajectoryClock::kUtc),
+              HasSubstr("(its times fit as GPS time); give --trajectory-time gps"));
+}
+
+}  // namespace
+}  // namespace albtpu::formats

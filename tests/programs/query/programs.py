@@ -1,0 +1,81 @@
+"""Runs the real programs in tests: albtpu-query and what it needs.
+
+Their paths are the arguments of the test script, NAME=PATH.
+"""
+
+import contextlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "e2e"))
+from serving import Server  # noqa: E402
+
+PATHS = dict(argument.split("=", 1) for argument in sys.argv[1:])
+FLAGS = ("--scanner", "across-track", "--water-level", 0, "--wind-speed", 6, "--footprint", 0.6)  # For a made flight.
+
+
+def query(*arguments, check=None, **keywords):
+    """Runs albtpu-query. Fails if `check` is given and is not its exit code."""
+    command = [PATHS["query"], *map(str, arguments)]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=300, **keywords)
+    if check is not None and result.returncode != check:
+        raise AssertionError(f"albtpu-query {arguments} exited {result.returncode}: {result.stderr}")
+    return result
+
+
+def make_table(path, *options):
+    subprocess.run([PATHS["synthetic_table"], str(path), *options], check=True)
+    return path
+
+
+def make_flight(path, *options):
+    subprocess.run([PATHS["simulated_flight"], str(path), *map(str, options)], check=True)
+    return path
+
+
+def laz_copy(source, target, *flags):
+    """The LAS or LAZ file `source` as the other kind, or of other chunks."""
+    subprocess.run([PATHS["laz_copy"], source, target, *map(str, flags)], check=True)
+    return target
+
+
+@contextlib.contextmanager
+def server(folder):
+    """A server for the tables in `folder` on a free port; yields HOST:PORT."""
+    with Server(PATHS["serve"], "--tables", folder) as running:
+        yield running.address
+
+
+class Test(unittest.TestCase):
+    """A test with its own folder and a table in it, `table`."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.table = make_table(self.folder / "quick.h5")
+
+    def toml(self, text, name="survey.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_fails(self, result, code, *parts):
+        """Checks for one clear message at the end of standard error, and nothing on standard output."""
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        last = result.stderr.rstrip("\n").split("\n")[-1]
+        self.assertTrue(last.startswith("albtpu-query: "), result.stderr)
+        self.assertRegex(last, r"\Aalbtpu-query: .+(: |; ).+")  # The problem, and what to do.
+        for part in parts:
+            self.assertIn(part, last)
+
+
+def main():
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,251 @@
+"""Totals from outside: one pulse against known covariances, LAS and LAZ with a survey file, and what is refused."""
+
+import json
+import math
+import os
+import pathlib
+import struct
+
+import numpy as np
+
+import programs
+from las_file import LasFile
+from programs import query
+from simulated_survey import SimulatedSurvey
+
+SHIPPED = pathlib.Path(__file__).resolve().parents[3] / "config/sensors/shipped"
+
+# Computed apart from this code, by automatic differentiation: NN EE DD NE ND ED, 1e-6 m^2.
+KNOWN = {"pulse": (2011.89, 1837.13, 3551.88, 17.96, -6.91, 86.27),
+         "level": (2011.89, 1954.50, 2303.08, 19.06, -5.32, -263.03)}
+SIGMA = """
+[sigma]
+position = [0.03, 0.03, 0.05]
+attitude = [0.0025, 0.0025, 0.005]
+boresight = [0.001, 0.001, 0.004]
+lever_arm = 0.02
+scan = 0.001
+time = 1e-5
+range_offset = 0.01
+bottom_range = 0.025
+surface_height = 0.05
+index = 0.001
+"""
+DECIDED = "[datum]\nsigma = 0.08\n[water]\nindex = 1.34\ncolumn = 'none'\n"
+SENSOR = "[sensor]\nname = 'riegl-vq-880-g'\nlever_arm = [0.3, -0.2, 0.5]\n"
+WIND = "[sea]\nwind_speed = 6.5\nwind_from = 100\n"
+
+
+def with_doubles(path):
+    """The bytes of a LAS file whose only extra bytes are two floats, as doubles."""
+    data = bytearray(path.read_bytes())
+    points, = struct.unpack_from("<I", data, 96)
+    length, = struct.unpack_from("<H", data, 105)
+    for name in (b"total_thu", b"total_tvu"):
+        data[data.index(name) - 2] = 10
+    struct.pack_into("<H", data, 105, length + 8)
+    records = [bytes(data[at:at + length]) for at in range(points, len(data), length)]
+    return bytes(data[:points]) + b"".join(
+        record[:-8] + struct.pack("<2d", *struct.unpack("<2f", record[-8:])) for record in records)
+
+
+class TotalsTest(programs.Test):
+    def setUp(self):
+        super().setUp()
+        os.environ["ALBTPU_SENSORS"] = str(SHIPPED)
+
+    def pulse(self, text, *flags):
+        turn = math.radians(30)
+        velocity = f"{70 * math.cos(turn) - 2 * math.sin(turn)},{70 * math.sin(turn) + 2 * math.cos(turn)},0"
+        rates = ",".join(str(math.degrees(rate)) for rate in (0.01, 0.02, 0.03))
+        return query("pulse", "--survey", self.toml(text), "--table", self.table, "--incidence", 20,
+                     "--beam-azimuth", 90, "--altitude", 400, "--depth", 10, "--attitude", "3,4,30", "--velocity",
+                     velocity, "--rates", rates, "--json", *flags)
+
+    def test_pulse_has_the_known_covariance_of_the_air_side(self):
+        for located, known in KNOWN.items():
+            answer = self.pulse(SENSOR + DECIDED + WIND + SIGMA + f"[surface]\nlocated = '{located}'\n")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            total = json.loads(answer.stdout)
+            for entry, value in zip(("NN", "EE", "DD", "NE", "ND", "ED"), known):
+                self.assertAlmostEqual(1e6 * total["covariance_air"][entry], value, delta=0.0051, msg=located + entry)
+                parts = total["covariance_air"][entry] + total["covariance_sea"][entry]
+                datum = 0.08 ** 2 if entry == "DD" else 0
+                self.assertAlmostEqual(total["covariance_total"][entry], parts + datum, delta=1e-7)
+                groups = sum(group[entry] for group in total["groups"].values())
+                self.assertAlmostEqual(total["covariance_total"][entry], groups, delta=1e-7)
+            covariance = total["covariance_total"]
+            self.assertAlmostEqual(total["thu"], 2 * math.sqrt(covariance["NN"] + covariance["EE"]), delta=1e-6)
+            self.assertAlmostEqual(total["tvu"], 2 * math.sqrt(covariance["DD"]), delta=1e-6)
+            self.assertAlmostEqual(total["semi_major"] ** 2 + total["semi_minor"] ** 2,
+                                   covariance["NN"] + covariance["EE"], delta=1e-7)
+            self.assertEqual(total["assumed"], ["divergence 1 mrad (assumed: the default of the sensor)"])
+
+    def test_pulse_is_stated_at_each_coverage(self):
+        text = SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'pulse'\n"
+        two, one, p95 = (json.loads(self.pulse(text, "--coverage", coverage).stdout)
+                         for coverage in ("2sigma", "1sigma", "p95"))
+        self.assertAlmostEqual(two["thu"], 2 * one["thu"], delta=1e-6)
+        self.assertAlmostEqual(p95["tvu"], 1.959964 * one["tvu"], delta=1e-6)
+        self.assertLess(p95["thu"], two["thu"])
+
+    def test_las_has_the_total_its_shares_and_its_covariance(self):
+        flight = SimulatedSurvey(self.folder / "flight").folder
+        text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\nerrors = ['{flight}/smrmsg.out']\n"
+                "[surface]\nclasses = [41]\n" + WIND + DECIDED +
+                "[output]\nclasses = [40]\ncoverage = '2sigma'\ndetails = true\ns44_order = '1a'\n")
+        out = self.folder / "out.las"
+        arguments = ("las", "--survey", self.toml(text), "--table", self.table, flight / "flight.las")
+        query(*arguments, out, check=0)
+        las = LasFile(out)
+        names = las.extra_dimensions()
+        self.assertEqual(list(names)[:2], ["total_thu", "total_tvu"])
+        number = {name: las.field(where[0], "<f4").astype(float) for name, where in names.items()}
+        answered = number["total_thu"] >= 0
+        self.assertGreater(answered.sum(), 1000)
+        self.assertTrue((number["thu_water"] == -1).all())
+        of = {name: values[answered] for name, values in number.items()}
+        np.testing.assert_allclose(2 * np.sqrt(of["VarianceX"] + of["VarianceY"]), of["total_thu"], rtol=1e-5)
+        np.testing.assert_allclose(2 * np.sqrt(of["VarianceZ"]), of["total_tvu"], rtol=1e-5)
+        np.testing.assert_allclose(np.hypot(of["thu_air"], of["thu_sea"]), of["total_thu"], rtol=1e-5)
+        np.testing.assert_allclose(np.sqrt(of["tvu_air"]**2 + of["tvu_sea"]**2 + (2 * 0.08)**2), of["total_tvu"],
+                                   rtol=1e-5)
+        # What neither pulses nor lines draw anew is of the survey: the datum is in it.
+        of_survey = of["total_tvu"]**2 - of["tvu_pulse"]**2 - of["tvu_line"]**2
+        self.assertGreater(of_survey.min(), (2 * 0.08)**2)
+        np.testing.assert_array_less(of["tvu_sea"], of["tvu_pulse"])
+        self.assertTrue((of["CovarianceXY"]**2 <= of["VarianceX"] * of["VarianceY"]).all())
+        summary = json.loads((self.folder / "out.las.json").read_text())
+        total = summary["answers"]["total"]
+        self.assertEqual(total["pulses"], answered.sum())
+        self.assertEqual(total["coverage"], "2sigma")
+        self.assertTrue(any("boresight" in line for line in total["assumed"]))
+        self.assertFalse(any("position" in line for line in total["assumed"]))
+        self.assertEqual(sum(line["pulses"] for line in total["lines"].values()), answered.sum())
+        # The same from LAS to LAZ and back, and through a server.
+        laz, again = self.folder / "out.laz", self.folder / "again.las"
+        query(*arguments, laz, check=0)
+        with programs.server(self.folder) as address:
+            query(*arguments[:3], *arguments[5:], again, "--server", address, check=0)
+        self.assertEqual(again.read_bytes(), out.read_bytes())
+
+    def test_replaces_the_numbers_of_an_earlier_run(self):
+        flight = SimulatedSurvey(self.folder / "flight").folder
+        text = (SENSOR + f"[trajectory]\nfiles = ['{flight}/sbet.out']\n[surface]\nclasses = [41]\n" + DECIDED +
+                "[sea]\nwind_speed = {wind}\nwind_from = 100\n[output]\nclasses = [40]\n")
+
+        def annotate(source, name, wind, *flags, code=0):
+            survey = self.toml(text.format(wind=wind), f"wind_{wind}.toml")
+            result = query("las", "--survey", survey, "--table", self.table, source, self.folder / name, *flags)
+            self.assertEqual(result.returncode, code, result.stderr)
+            return result.stderr if code else self.folder / name
+
+        first = annotate(flight / "flight.las", "first.las", 4)
+        other = annotate(flight / "flight.las", "other.las", 6.5)
+        self.assertNotEqual(first.read_bytes(), other.read_bytes())
+        self.assertIn("--replace", annotate(first, "again.las", 6.5, code=1))
+        self.assertFalse((self.folder / "again.las").exists())
+        self.assertEqual(annotate(first, "again.las", 6.5, "--replace").read_bytes(), other.read_bytes())
+        # Compressed, and with details, of which two are there already.
+        packed = annotate(flight / "flight.las", "packed.laz", 4)
+        self.assertEqual(annotate(packed, "unpacked.las", 6.5, "--replace").read_bytes(), other.read_bytes())
+        detailed = LasFile(annotate(first, "detailed.las", 6.5, "--replace", "--details"))
+        expected = LasFile(annotate(flight / "flight.las", "expected.las", 6.5, "--details"))
+        self.assertEqual(list(detailed.extra_dimensions()), list(expected.extra_dimensions()))
+        for name, where in expected.extra_dimensions().items():
+            np.testing.assert_array_equal(detailed.field(detailed.extra_dimensions()[name][0], "<f4"),
+                                          expected.field(where[0], "<f4"), name)
+        # Doubles of another tool.
+        doubles = self.folder / "doubles.las"
+        doubles.write_bytes(with_doubles(first))
+        replaced = LasFile(annotate(doubles, "replaced.las", 6.5, "--replace"))
+        plain = LasFile(other)
+        for i, name in enumerate(("total_thu", "total_tvu")):
+            begin = plain.extra_dimensions()["total_thu"][0]
+            np.testing.assert_array_equal(replaced.field(begin + 8 * i, "<f8"),
+                                          plain.field(begin + 4 * i, "<f4").astype(float), name)
+
+    def csv(self, rows, *flags, text=SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n"):
+        path, out = self.folder / "pulses.csv", self.folder / "totals.csv"
+        path.write_text(rows)
+        result = query("csv", path, out, "--survey", self.toml(text), "--table", self.table, "--overwrite", *flags)
+        return result, [line.split(",") for line in out.read_text().splitlines()] if out.exists() else None
+
+    def test_csv_has_the_bits_of_one_pulse(self):
+        header = "incidence,beam_azimuth,depth,altitude,roll,pitch,heading\n"
+        pulses = [(20, 90, 10, 400, 3, 4, 30), (18.5, 210.25, 4.5, 380, -1, 2, 31), (5, 0, 12, 410, 0, 0, 29)]
+        rows = header + "".join(",".join(map(str, pulse)) + "\n" for pulse in pulses)
+        result, lines = self.csv(rows, "--details", "--divergence", 1, "--s44-order", "1b")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(lines[0][7:], ["total_thu", "total_tvu", "thu_air", "tvu_air", "thu_sea", "tvu_sea",
+                                        *(f"covariance_{entry}" for entry in ("NN", "EE", "DD", "NE", "ND", "ED")),
+                                        "bias_along_beam", "bias_vertical", "outcome", "s44_order_met"])
+        survey = self.toml(SENSOR + DECIDED + WIND + SIGMA + "[surface]\nlocated = 'level'\n")
+        for pulse, line in zip(pulses, lines[1:]):
+            answer = json.loads(query(
+                "pulse", "--survey", survey, "--table", self.table, "--json", "--divergence", 1,
+                "--incidence", pulse[0], "--beam-azimuth", pulse[1], "--depth", pulse[2], "--altitude", pulse[3],
+                "--attitude", f"{pulse[4]},{pulse[5]},{pulse[6]}", check=0).stdout)
+            row = dict(zip(lines[0], line))
+            for cell, name in (("total_thu", "thu"), ("total_tvu", "tvu"), ("thu_air", "thu_air"),
+                               ("tvu_sea", "tvu_sea"), ("bias_vertical", "bias_vertical")):
+                self.assertEqual(np.float32(row[cell]), np.float32(answer[name]), cell)
+            for entry, value in answer["covariance_total"].items():
+                self.assertEqual(np.float32(row[f"covariance_{entry}"]), np.float32(value), entry)
+            self.assertEqual(row["outcome"], "INTERPOLATED")
+            self.assertEqual(row["s44_order_met"], answer["s44_order_met"])
+        summary = json.loads((self.folder / "totals.csv.json").read_text())
+        self.assertEqual(summary["answers"]["total"]["pulses"], 3)
+
+    def test_csv_takes_the_divergence_of_the_sensor(self):
+        result, lines = self.csv("incidence,beam_azimuth,depth,altitude\n20,90,10,400\n")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        assumed = "divergence 1 mrad (assumed: the default of the sensor)"
+        self.assertIn(assumed, result.stderr)
+        self.assertIn(assumed, json.loads((self.folder / "totals.csv.json").read_text())["answers"]["total"]["assumed"])
+        told, with_flag = self.csv("incidence,beam_azimuth,depth,altitude\n20,90,10,400\n", "--divergence", 1)
+        self.assertEqual(with_flag, lines)
+        self.assertNotIn(assumed, told.stderr)
+
+    def test_csv_without_a_direction_states_lengths_alone(self):
+        result, lines = self.csv("incidence,beam_azimuth,depth\n20,,10\n20,90,10\n", "--altitude", 400, "--details")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        first, second = (dict(zip(lines[0], line)) for line in lines[1:])
+        self.assertEqual([first["covariance_NN"], first["covariance_NE"]], ["", ""])
+        self.assertGreater(float(first["total_thu"]), 0)
+        # A beam straight ahead stands for it: roll and pitch are equally uncertain, so that heights hardly change.
+        np.testing.assert_allclose(float(first["tvu_air"]), float(second["tvu_air"]), rtol=1e-4)
+        self.assertNotEqual(second["covariance_NE"], "")
+
+    def test_csv_needs_an_altitude(self):
+        text = SENSOR + DECIDED + SIGMA + "[sea]\nwind_speed = 6.5\n[surface]\nlocated = 'level'\n"
+        result, _ = self.csv("incidence,footprint,depth\n20,0.5,10\n", text=text)
+        self.assert_fails(result, 1, "no column 'altitude'", "--altitude")
+        result, _ = self.csv("incidence,footprint,depth,altitude\n20,0.5,10,high\n", text=text)
+        self.assert_fails(result, 1, "line 2, column 'altitude': 'high' is not a number")
+
+    def test_refuses_what_is_no_total(self):
+        las = self.folder / "line.las"
+        programs.make_flight(las)
+        out = self.folder / "out.las"
+
+        def refused(text, *parts, flags=()):
+            result = query("las", las, out, "--survey", self.toml(text), "--table", self.table, "--water-level", -23,
+                           "--incidence", 20, "--altitude", 400, "--divergence", 1, "--wind-speed", 5, *flags)
+            self.assert_fails(result, 2, *parts)
+            self.assertFalse(out.exists())
+
+        refused(SENSOR, "the vertical datum is not decided", "[datum] sigma")
+        refused(SENSOR + "[datum]\nsigma = 0\n", "the water column is not decided", "column = \"none\"")
+        refused("[sensor]\nname = 'usgs-eaarl-b'\n" + DECIDED, "no source gives scan (degree)")
+        refused("[sigma]\nscan = 0.1\n", "[sigma] has no effect without a sensor")
+        refused("", "--datum-sigma has no effect without --sensor", flags=("--datum-sigma", 0.1))
+        refused(SENSOR + DECIDED + "[surface]\nlocated = 'pulse'\n", "needs returns from the surface")
+        result = query("las", las, out, "--sensor", "riegl-vq-88-g", "--datum-sigma", 0, "--water-column", "none",
+                       "--table", self.table, "--water-level", -23, "--incidence", 20, "--altitude", 400,
+                       "--divergence", 1, "--wind-speed", 5)
+        self.assert_fails(result, 1, "did you mean riegl-vq-880-g?")
+
+
+if __name__ == "__main__":
+    programs.main()

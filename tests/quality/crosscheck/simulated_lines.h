@@ -1,0 +1,33 @@
+// Points of overlapping lines with errors that are drawn from the exact model of the air side and of refraction at a
+// tilted surface, and with the uncertainty that the budget predicts for what is declared.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "budget/air/air_errors.h"
+#include "quality/annotated/annotated_points.h"
+
+namespace albtpu::testing {
+
+struct SimulatedLines {
+  std::uint64_t seed = 1;
+  int lines = 12, cross_lines = 3;
+  bool to_and_fro = true;      // Otherwise all lines are flown in one direction.
+  double length = 3000;        // m
+  double spacing = 2;          // m between points, of each line.
+  double wave_slope = 0.05;    // One sigma of each component of the slope of the surface.
+  double memory = 5;           // s, over which the errors of the trajectory are correlated.
+  double bottom_slope = 0;     // Root mean square in the direction of x, of ridges, beside gentle slopes.
+  double bottom_waves = 0;     // m, one sigma of a rough bottom whose waves are some metres long.
+  double roll_of_scanner = 0;  // degree: a boresight that nobody knows of.
+  double declared = 1;         // What is declared of the air side, by what it is.
+};
+
+// The errors of the air side that are drawn; what is declared is `declared` times as large.
+AirErrors TrueErrors();
+
+// At 1 sigma, in m, z up. Lines lie side by side along x, cross lines along y.
+std::vector<quality::AnnotatedPoint> Simulate(const SimulatedLines& options);
+
+}  // namespace albtpu::testing

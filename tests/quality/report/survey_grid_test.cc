@@ -1,0 +1,128 @@
+#include "quality/report/survey_grid.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace albtpu::quality {
+namespace {
+
+using ::testing::HasSubstr;
+
+AnnotatedPoint RandomPoint(std::mt19937& random) {
+  const auto between = [&](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  AnnotatedPoint point;
+  point.x = between(-200, 300);
+  point.y = between(4'000'000, 4'000'090);
+  point.has_number = between(0, 1) < 0.8;
+  point.depth = static_cast<float>(between(0, 20));
+  point.thu = static_cast<float>(between(0.2, 2));
+  point.tvu = 2;
+  point.variance_z = 1;
+  point.tvu_air = static_cast<float>(between(0, 1));
+  point.tvu_sea = static_cast<float>(between(0, 1));
+  point.tvu_water = static_cast<float>(between(0, 1));
+  return point;
+}
+
+// The slow twin: every point in a map.
+TEST(SurveyGrid, HasTheMeansOfThePointsOfEachCell) {
+  constexpr double kCell = 2.5;
+  std::mt19937 random(3);
+  std::map<std::pair<long, long>, std::vector<AnnotatedPoint>> twin;
+  SurveyGrid grid(kCell, Coverage::kTwoSigma);
+  std::uint32_t added = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    const AnnotatedPoint point = RandomPoint(random);
+    twin[{std::lround(std::floor(point.x / kCell)), std::lround(std::floor(point.y / kCell))}].push_back(
+        point);
+    grid.Add(point, static_cast<std::uint8_t>(1 + i % 5));
+    ++added;
+  }
+  ASSERT_TRUE(grid.status().ok());
+  std::uint32_t points = 0;
+  std::size_t filled = 0;
+  for (std::size_t strip = 0; strip < grid.rows() / SurveyGrid::kTile; ++strip) {
+    std::vector<GridCell> cells;
+    grid.Strip(strip, cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const GridCell& cell = cells[i];
+      points += cell.points;
+      if (cell.points == 0) continue;
+      ++filled;
+      const long column =
+          static_cast<long>(grid.first_column() + static_cast<std::int64_t>(i % grid.columns()));
+      const long row = static_cast<long>(
+          grid.first_row() + static_cast<std::int64_t>(strip * SurveyGrid::kTile + i / grid.columns()));
+      const std::vector<AnnotatedPoint>& of_cell = twin.at({column, row});
+      ASSERT_EQ(cell.points, of_cell.size());
+      double depth = 0, thu = 0, air = 0, datum = 0, count = 0;
+      for (const AnnotatedPoint& point : of_cell) {
+        if (!point.has_number) continue;
+        ++count;
+        depth += point.depth;
+        thu += point.thu;
+        air += std::pow(point.tvu_air / 2, 2);
+        datum +=
+            1 - (std::pow(point.tvu_air, 2) + std::pow(point.tvu_sea, 2) + std::pow(point.tvu_water, 2)) / 4;
+      }
+      ASSERT_EQ(cell.with_number, count);
+      if (count == 0) continue;
+      EXPECT_NEAR(cell.depth, depth / count, 1e-5 * depth / count);
+      EXPECT_NEAR(cell.thu, thu / count, 1e-6);
+      EXPECT_NEAR(cell.shares[0], air / count, 1e-6);
+      EXPECT_NEAR(cell.shares[3], datum / count, 1e-6);
+    }
+  }
+  EXPECT_EQ(points, added);
+  EXPECT_EQ(filled, twin.size());
+}
+
+TEST(SurveyGrid, KeepsTheLeastStrictOrderOfACell) {
+  SurveyGrid grid(10, Coverage::kTwoSigma);
+  AnnotatedPoint point;
+  point.has_number = true;
+  const auto worst = [&](std::vector<std::uint8_t> orders) {
+    SurveyGrid cell(10, Coverage::kTwoSigma);
+    for (const std::uint8_t order : orders) cell.Add(point, order);
+    std::vector<GridCell> cells;
+    cell.Strip(0, cells);
+    return static_cast<int>(cells[0].worst_order);
+  };
+  EXPECT_EQ(worst({2, 4, 1}), 4);
+  EXPECT_EQ(worst({2, 0, 1}), 6);  // A point meets none.
+}
+
+TEST(SurveyGrid, RefusesWhatIsTooLarge) {
+  const SurveyGrid grid(1, Coverage::kTwoSigma);
+  EXPECT_TRUE(grid.CheckExtent(0, 10'000, 0, 10'000).ok());
+  const absl::Status status = grid.CheckExtent(0, 40'000, 0, 25'000);  // 10^9 cells.
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(status.message(), HasSubstr("larger cells by --cell"));
+  // The points lie elsewhere than the header says.
+  SurveyGrid lied(1, Coverage::kTwoSigma);
+  AnnotatedPoint point;
+  lied.Add(point, 1);
+  point.x = point.y = 1e6;
+  lied.Add(point, 1);
+  EXPECT_EQ(lied.status().code(), absl::StatusCode::kResourceExhausted);
+}
+
+TEST(SurveyGrid, BoundsItsMemory) {
+  SurveyGrid grid(1, Coverage::kTwoSigma);
+  AnnotatedPoint point;
+  for (int column = 0; column < 200 && grid.status().ok(); ++column)
+    for (int row = 0; row < 200; ++row) {
+      point.x = column * SurveyGrid::kTile;
+      point.y = row * SurveyGrid::kTile;
+      grid.Add(point, 1);
+    }
+  EXPECT_THAT(grid.status().message(), HasSubstr("MiB"));
+}
+
+}  // namespace
+}  // namespace albtpu::quality
