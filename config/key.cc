@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 
 namespace albtpu::config {
 namespace {

@@ -10,7 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 #include "formats/text/usage_error.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"

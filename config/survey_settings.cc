@@ -1,9 +1,15 @@
 #include "config/survey_settings.h"
 
 #include <cassert>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "config/sensors/sensor.h"
+#include "config/toml/toml_keys.h"
+#include "sea/sea_time.h"
 
 namespace albtpu::config {
-
 FlagKey FindFlag(std::string_view flag) {
   FlagKey found;
   ForEachSection([&](const char*, const auto& keys, const auto& section) {
@@ -31,6 +37,168 @@ SurveySettings Merge(const SurveySettings& flags, SurveySettings file) {
   });
   if (!flags.sea.waves.empty()) file.sea.waves = flags.sea.waves;
   return file;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr TomlKind kSurveyFile = {"a survey file", "the survey", "the path of --survey"};
+
+JonswapWaves ReadWaves(TomlKeys& keys) {
+  WaveSettings waves;
+  ReadKeys(keys, kWaveKeys, "", waves);
+  keys.Finish();
+  const std::string problem = ProblemOf(waves, false);
+  if (problem.empty()) return WavesOf(waves);
+  keys.Fail(problem);
+  return {};
+}
+
+// What of a section is not in the table of its keys.
+void ReadMore(TomlKeys& keys, SeaSettings& sea) {
+  if (sea.time.has_value() && !ParseSeaTime(*sea.time).has_value())
+    keys.Fail("time is no time; give UTC as \"2020-06-08T03:50Z\"");
+  for (TomlKeys& waves : keys.Tables("waves")) sea.waves.push_back(ReadWaves(waves));
+}
+void ReadMore(TomlKeys& keys, WaterSettings& water) {
+  for (TomlKeys& table : keys.Table("calibration")) {
+    ReadKeys(table, kCalibrationKeys, "", water.calibration.emplace());
+    table.Finish();
+  }
+}
+template <typename Settings>
+void ReadMore(TomlKeys&, Settings&) {}
+
+// Keys that contradict each other.
+void CheckTogether(TomlKeys& keys, const TrajectorySettings& trajectory) {
+  if (!trajectory.from_returns.value_or(false)) return;
+  for (const std::string_view key : {"files", "errors", "time"})
+    if (keys.Has(key))
+      keys.Fail(key, "contradicts from_returns (a trajectory is one or the other); give one of them");
+}
+void CheckTogether(TomlKeys& keys, const SurfaceSettings& surface) {
+  if (!keys.Has("level") || surface.located.value_or("level") == "level") return;
+  keys.Fail("level", "contradicts located = \"" + *surface.located +
+                         "\" (returns of the lidar locate the surface, or a level does); give one of them");
+}
+template <typename Settings>
+void CheckTogether(TomlKeys&, const Settings&) {}
+
+}  // namespace
+
+absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const fs::path& folder) {
+  const absl::StatusOr<toml::table> root = ParseToml(text, kSurveyFile);
+  if (!root.ok()) return root.status();
+  TomlProblem problem(kSurveyFile);
+  TomlKeys keys(*root, "", problem);
+  SurveySettings survey;
+  ForEachSection([&](std::string_view name, const auto& table, const auto& section) {
+    if (name.find('.') != name.npos) return;  // A table in a section.
+    for (TomlKeys& given : keys.Table(name)) {
+      ReadKeys(given, table, folder, section(survey));
+      ReadMore(given, section(survey));
+      given.Finish();
+      CheckTogether(given, section(survey));
+    }
+  });
+  for (TomlKeys& section : keys.Table("sigma")) {
+    for (std::size_t i = 0; i < kErrorSourceCount; ++i)
+      config::ReadErrors(section, kErrorSources[i].name, i, survey.sigma);
+    section.Finish();
+  }
+  keys.Finish();
+  if (!problem.status().ok()) return problem.status();
+  std::optional<std::string>& sensor = survey.sensor.name;
+  if (sensor.has_value() && config::IsSensorFile(*sensor)) sensor = (folder / *sensor).string();
+  return survey;
+}
+
+absl::StatusOr<SurveySettings> ReadSurvey(const fs::path& path) {
+  const absl::StatusOr<std::string> text = ReadTomlText(path, kSurveyFile);
+  if (!text.ok()) return text.status();
+  absl::StatusOr<SurveySettings> survey = ParseSurvey(*text, path.parent_path());
+  if (!survey.ok()) return InFile(path, survey.status());
+  return survey;
+}
+
+namespace {
+
+std::string UnitText(std::string_view unit) { return unit == "1" ? "" : std::string(unit); }
+
+struct Describe {
+  ValueFacts operator()(const Number& number) const {
+    return {"number", UnitText(number.unit), number.least, number.greatest, {}, "NUMBER"};
+  }
+  ValueFacts operator()(const ThreeNumbers& numbers) const {
+    return {"3 numbers", UnitText(numbers.unit),    numbers.least, numbers.greatest,
+            {},          std::string(numbers.shown)};
+  }
+  ValueFacts operator()(const Word& word) const {
+    const std::vector<std::string> words(word.words.begin(), word.words.end());
+    return {"one of", "", {}, {}, words, absl::StrJoin(words, "|")};
+  }
+  ValueFacts operator()(const Text& text) const { return {"text", "", {}, {}, {}, std::string(text.shown)}; }
+  ValueFacts operator()(const Path& path) const { return {"path", "", {}, {}, {}, std::string(path.shown)}; }
+  ValueFacts operator()(const Paths&) const { return {"list of paths", "", {}, {}, {}, "PATH"}; }
+  ValueFacts operator()(const NumberOrPath& either) const {
+    ValueFacts facts = (*this)(either.number);
+    facts.type = "number or path";
+    facts.shown = either.shown;
+    return facts;
+  }
+  ValueFacts operator()(const WholeNumbers& range) const {
+    return {"list of whole numbers", "", range.least, range.greatest, {}, "N,N"};
+  }
+  ValueFacts operator()(const YesOrNo&) const { return {"true or false", "", {}, {}, {}, ""}; }
+};
+
+template <typename Table>
+void AddTable(const char* section, const Table& table, std::vector<ListedKey>& list) {
+  for (const auto& each : table) {
+    const KeyDeclaration& key = each.declaration;
+    list.push_back({section, std::string(key.key), std::string(key.flag), std::string(key.absent),
+                    std::string(key.help), FactsOf(key.values)});
+  }
+}
+
+void AddSigma(std::vector<ListedKey>& list) {
+  for (const ErrorSource& source : kErrorSources) {
+    const bool one = source.size() == 1;
+    list.push_back(
+        {"sigma",
+         std::string(source.name),
+         "",
+         "of the error files, the sensor, or assumed",
+         absl::StrCat("Standard deviation", one ? ": " : absl::StrCat("s ", config::PartsText(source), ": "),
+                      std::string(source.doc)),
+         {one ? "number" : "3 numbers", UnitText(source.unit), 0, source.greatest, {}, ""}});
+  }
+}
+
+}  // namespace
+
+ValueFacts FactsOf(const KeyValues& values) { return std::visit(Describe(), values); }
+
+std::vector<ListedKey> ListKeys() {
+  std::vector<ListedKey> list;
+  ForEachSection([&](std::string_view section, const auto& table, const auto&) {
+    if (section == "output") AddSigma(list);
+    AddTable(section.data(), table, list);
+    if (section == "water") AddTable("water.calibration", kCalibrationKeys, list);
+  });
+  return list;
+}
+
+std::string HelpText(const KeyDeclaration& key) {
+  const std::string unit = FactsOf(key.values).unit;
+  return absl::StrCat(std::string(key.help), unit.empty() ? "" : absl::StrCat(" [", unit, "]"),
+                      key.absent.empty() ? "" : absl::StrCat(" (default: ", std::string(key.absent), ")"));
+}
+
+std::string RangeText(const ValueFacts& values) {
+  if (!values.words.empty()) return absl::StrJoin(values.words, ", ");
+  return values.least.has_value() ? absl::StrCat(*values.least, " to ", *values.greatest) : "";
 }
 
 }  // namespace albtpu::config

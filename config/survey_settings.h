@@ -3,16 +3,18 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "budget/water/water_share.h"
 #include "config/key.h"
 #include "config/sea_settings.h"
-#include "config/sensors/stated_errors.h"
+#include "config/sensors/sensor.h"
 #include "tables/s44.h"
 
 namespace albtpu::config {
@@ -239,5 +241,41 @@ FlagKey FindFlag(std::string_view flag);
 // flags, in whatever form, override the sea of the file with all that goes with its waves, and a trajectory of flags
 // that of the file.
 SurveySettings Merge(const SurveySettings& flags, SurveySettings file);
+
+// The survey file: what is known of a survey beside its points, as TOML. docs/survey.md has its keys.
+
+// InvalidArgument "line 3: ..." at the first problem: what is no TOML, a key that is unknown, of another type or out of
+// range, keys that contradict each other, and waves that are incomplete. `folder` is that of relative paths.
+absl::StatusOr<SurveySettings> ParseSurvey(std::string_view text, const std::filesystem::path& folder);
+
+// The same of a file, whose path begins the message.
+absl::StatusOr<SurveySettings> ReadSurvey(const std::filesystem::path& path);
+
+// All keys of the survey file, for people and for programs that describe them.
+
+// What a key takes, in words.
+struct ValueFacts {
+  std::string type;  // "number", "3 numbers", "one of", "text", "path", "paths", "number or path" ...
+  std::string unit;  // empty: none
+  std::optional<double> least, greatest;  // of numbers
+  std::vector<std::string> words;         // of which it is one
+  std::string shown;                      // in --help: "NUMBER"
+};
+ValueFacts FactsOf(const KeyValues& values);
+
+struct ListedKey {
+  std::string section;  // "sea.waves"
+  std::string key, flag, absent, help;
+  ValueFacts values;
+};
+
+// By section, in the order of the tables.
+std::vector<ListedKey> ListKeys();
+
+// "Depth of the water that the waves travel in [m] (default: ...)"
+std::string HelpText(const KeyDeclaration& key);
+
+// "0.1 to 20000", "relax, wind, level, none"; empty where every value is taken.
+std::string RangeText(const ValueFacts& values);
 
 }  // namespace albtpu::config

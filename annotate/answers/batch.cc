@@ -1,10 +1,12 @@
 #include "annotate/answers/batch.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "sea/table/sea_attributes.h"
 #include "tables/pulse.h"
 
 namespace albtpu::annotate {
-
 PulseColumns PulseBatch::columns() const {
   PulseColumns columns{.size = size, .axis = {}};
   for (std::size_t i = 0; i < kAxisCount; ++i) columns.axis[i] = axis[i];
@@ -84,5 +86,18 @@ absl::Status AnswerPulses(const AnswerSource& source, const Query& query, const 
   if (status.ok()) answers.FindSides(pulses, source.table().axes);
   return status;
 }
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerMilliradian = 1e-3;
+
+}  // namespace
+
+double FootprintDiameter(double altitude, double divergence, double incidence) {
+  return altitude / std::cos(incidence * kRadiansPerDegree) * (divergence * kRadiansPerMilliradian);
+}
+
+double AzimuthFromDownwind(double beam_azimuth, double wind_from) { return beam_azimuth - (wind_from + 180); }
 
 }  // namespace albtpu::annotate

@@ -1,14 +1,108 @@
 #include "annotate/answers/uncertainty_summary.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "formats/text/number_text.h"
+#include "absl/strings/str_split.h"
+#include "formats/text/text.h"
 
 namespace albtpu::annotate {
+namespace {
+
+// A bin has the numbers of one sign and exponent whose first three bits of the mantissa are the same: its width is at
+// most 1/8 of a number in it, and so its middle within 1/16.
+constexpr int kDroppedBits = 20;
+constexpr std::size_t kBins = std::size_t{1} << (32 - kDroppedBits);
+constexpr std::uint32_t kSignBit = 1u << 31;
+
+// Bits that increase with the number: IEEE 754 stores sign and magnitude.
+std::uint32_t OrderedBits(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return (bits & kSignBit) != 0 ? ~bits : bits | kSignBit;
+}
+
+float FromOrderedBits(std::uint32_t bits) {
+  return std::bit_cast<float>((bits & kSignBit) != 0 ? bits & ~kSignBit : ~bits);
+}
+
+}  // namespace
+
+void CoordinateSpread::Add(float value) {
+  if (bins_.empty()) bins_.resize(kBins);
+  ++count_;
+  ++bins_[OrderedBits(value) >> kDroppedBits];
+  least_ = std::min(least_, value);
+  greatest_ = std::max(greatest_, value);
+}
+
+void CoordinateSpread::Merge(const CoordinateSpread& other) {
+  if (other.count_ == 0) return;
+  if (bins_.empty()) bins_.resize(kBins);
+  count_ += other.count_;
+  for (std::size_t i = 0; i < kBins; ++i) bins_[i] += other.bins_[i];
+  least_ = std::min(least_, other.least_);
+  greatest_ = std::max(greatest_, other.greatest_);
+}
+
+float CoordinateSpread::middle() const {
+  std::uint64_t below = 0;
+  std::size_t bin = 0;
+  while (2 * (below + bins_[bin]) < count_) below += bins_[bin++];
+  const std::uint32_t center = (static_cast<std::uint32_t>(bin) << kDroppedBits) | (1u << (kDroppedBits - 1));
+  return std::clamp(FromOrderedBits(center), least_, greatest_);
+}
+
+namespace {
+
+// Of an attribute: rms, 99th percentile, maximum, noise, number of pulses. nullopt if no pulse was compared, or if a
+// server sends something else.
+std::optional<InterpolationError> Parse(Quantity quantity, const std::string& attribute) {
+  std::vector<double> numbers;
+  for (const absl::string_view text : absl::StrSplit(attribute, ", ")) {
+    double number = 0;
+    if (!absl::SimpleAtod(text, &number) || !std::isfinite(number)) return std::nullopt;
+    numbers.push_back(number);
+  }
+  if (numbers.size() != 5 || numbers[4] <= 0) return std::nullopt;
+  return InterpolationError{quantity, numbers[0], numbers[1]};
+}
+
+}  // namespace
+
+std::vector<InterpolationError> InterpolationErrors(const client::TableSummary& table) {
+  std::vector<InterpolationError> errors;
+  for (const Quantity quantity : kQuantities) {
+    const auto attribute =
+        table.attributes.find("interpolation_error_" + std::string(Describe(quantity).name));
+    if (attribute == table.attributes.end()) continue;
+    const std::optional<InterpolationError> error = Parse(quantity, attribute->second);
+    if (error.has_value()) errors.push_back(*error);
+  }
+  return errors;
+}
+
+std::string Text(const InterpolationError& error) {
+  return absl::StrCat(formats::PercentText(error.rms), " rms, ", formats::PercentText(error.percentile_99),
+                      " at the 99th percentile");
+}
+
+std::string InterpolationErrorNote(const client::TableSummary& table) {
+  const std::vector<InterpolationError> errors = InterpolationErrors(table);
+  if (errors.empty()) return "interpolation error: not known (the table does not state it)";
+  std::string note = "interpolation error, relative, at random pulses all over the table: ";
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    absl::StrAppend(&note, i > 0 ? "; " : "", std::string(Describe(errors[i].quantity).name), " ",
+                    Text(errors[i]));
+  }
+  return note;
+}
+
 namespace {
 
 using nlohmann::ordered_json;

@@ -8,13 +8,53 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "annotate/answers/answer_tally.h"
+#include "annotate/answers/answer_counts.h"
 #include "annotate/answers/batch.h"
-#include "annotate/answers/coordinate_spread.h"
-#include "annotate/answers/outcome_counts.h"
+#include "service/client/uncertainty_source.h"
+#include "tables/schema.h"
 
 namespace albtpu::annotate {
+
+// The minimum, the maximum and the approximate median of many numbers, in one pass and in little memory.
+
+// Does not depend on the order of the numbers, nor on the order of merging.
+class CoordinateSpread {
+ public:
+  void Add(float value);  // Finite.
+  void Merge(const CoordinateSpread& other);
+
+  std::uint64_t count() const { return count_; }
+  // Of at least one number.
+  float least() const { return least_; }
+  float greatest() const { return greatest_; }
+  // The median to 1/16 of itself; exactly, where all numbers are the same.
+  float middle() const;
+
+ private:
+  std::uint64_t count_ = 0;
+  float least_ = std::numeric_limits<float>::infinity(), greatest_ = -least_;
+  std::vector<std::uint64_t> bins_;  // Empty until the first number.
+};
+
+// The interpolation error of a table. It was measured when the table was made, at random pulses all over the table, and
+// is in its attributes `interpolation_error_*` (tables/FORMAT.md).
+
+// Of one quantity. Errors are fractions of the directly computed value.
+struct InterpolationError {
+  Quantity quantity;
+  double rms, percentile_99;
+};
+
+// Of each quantity for which the table states it. Empty if it is not known, as for published tables.
+std::vector<InterpolationError> InterpolationErrors(const client::TableSummary& table);
+
+// "0.28 % rms, 1.1 % at the 99th percentile".
+std::string Text(const InterpolationError& error);
+
+// All of them in one line, for a note beside the output of many pulses.
+std::string InterpolationErrorNote(const client::TableSummary& table);
 
 // The last bits of the sums depend on how the pulses were divided into batches and on the order in which the
 // batches were merged.

@@ -1,12 +1,91 @@
 #include "annotate/beams/beam_plan.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
-#include "formats/text/number_text.h"
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "formats/text/text.h"
+#include "sea/angle.h"
 
 namespace albtpu::annotate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSamples = 200;  // Of each run of the timeline.
+
+absl::StatusOr<std::vector<fs::path>> ErrorFilesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    const std::string name = absl::AsciiStrToLower(entry->path().filename().string());
+    const bool is_named = absl::StrContains(name, "smrmsg") || absl::StrContains(name, "rms");
+    if (is_named && entry->is_regular_file(ignored)) files.push_back(entry->path());
+  }
+  if (error) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(folder.string(), ": ", error.message(), "; give a folder that can be read"));
+  }
+  if (files.empty()) {
+    return absl::NotFoundError(absl::StrCat(
+        folder.string(), ": no error file in this folder (no name contains smrmsg or rms); name the files"));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths) {
+  TrajectoryErrors errors;
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    absl::StatusOr<std::vector<fs::path>> files = std::vector<fs::path>{path};
+    if (fs::is_directory(path, ignored)) files = ErrorFilesIn(path);
+    if (!files.ok()) return files.status();
+    for (const fs::path& file : *files) {
+      absl::StatusOr<formats::SmrmsgFile> smrmsg = formats::SmrmsgFile::Open(file);
+      if (!smrmsg.ok()) return smrmsg.status();
+      errors.push_back(std::make_shared<const formats::SmrmsgFile>(*std::move(smrmsg)));
+    }
+  }
+  return errors;
+}
+
+std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
+                                               const formats::TrajectoryTimeline& timeline) {
+  std::vector<double> horizontal, vertical;
+  for (const formats::TimelineRun& run : timeline.runs()) {
+    const double first = std::max(run.span().first, timeline.points().span.first);
+    const double last = std::min(run.span().last, timeline.points().span.last);
+    for (int i = 0; first <= last && i < kSamples; ++i) {
+      const double time = first + (last - first) * i / (kSamples - 1) - run.offset;
+      for (const std::shared_ptr<const formats::SmrmsgFile>& file : errors) {
+        const std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time);
+        if (!sigma.has_value()) continue;
+        horizontal.push_back(std::hypot(sigma->north, sigma->east));
+        vertical.push_back(sigma->down);
+        break;
+      }
+    }
+  }
+  if (horizontal.empty()) return std::nullopt;
+  return TrajectoryPrecision{MedianOf(std::move(horizontal)), MedianOf(std::move(vertical))};
+}
 
 using nlohmann::ordered_json;
 
@@ -83,6 +162,76 @@ ordered_json Parameters(const BeamPlan& plan) {
     json["footprint"] = formats::JsonNumber(std::get<float>(plan.footprint));
   }
   return json;
+}
+
+namespace {
+
+double Course(double north, double east) {
+  const double course = DegreesOfRadians(std::atan2(east, north));
+  return course < 0 ? course + 360 : course;
+}
+
+double Or(double stated, double otherwise) { return std::isfinite(stated) ? stated : otherwise; }
+
+}  // namespace
+
+std::optional<formats::TrajectorySigma> TrajectoryMotions::SigmaAt(double time) const {
+  for (const formats::TimelineRun& run : timeline_.runs()) {
+    if (!(time >= run.span().first && time <= run.span().last)) continue;
+    for (const std::shared_ptr<const formats::SmrmsgFile>& file : errors_) {
+      std::optional<formats::TrajectorySigma> sigma = file->SigmaAt(time - run.offset);
+      if (sigma.has_value()) return sigma;
+    }
+    std::size_t low = run.begin, high = run.end - 1;  // The last record at or before `time`.
+    while (low < high) {
+      const std::size_t middle = low + (high - low + 1) / 2;
+      (run.TimeAt(middle) <= time ? low : high) = run.TimeAt(middle) <= time ? middle : middle - 1;
+    }
+    return run.trajectory->SigmaAt(low);
+  }
+  return std::nullopt;
+}
+
+std::optional<SensorMotion> TrajectoryMotions::At(double time) const {
+  const std::optional<formats::TrajectoryRecord> record = timeline_.RecordAt(time);
+  if (!record.has_value()) return std::nullopt;
+  SensorMotion motion;
+  motion.velocity = {Or(record->velocity_north, 0), Or(record->velocity_east, 0),
+                     -Or(record->velocity_up, 0)};
+  motion.roll = DegreesOfRadians(Or(record->roll, 0));
+  motion.pitch = DegreesOfRadians(Or(record->pitch, 0));
+  motion.heading = std::isfinite(record->heading) ? DegreesOfRadians(record->heading)
+                                                  : Course(motion.velocity[0], motion.velocity[1]);
+  motion.rates = {DegreesOfRadians(Or(record->rate_forward, 0)), DegreesOfRadians(Or(record->rate_right, 0)),
+                  DegreesOfRadians(Or(record->rate_down, 0))};
+  if (const std::optional<formats::TrajectorySigma> sigma = SigmaAt(time); sigma.has_value()) {
+    motion.position_sigma = {sigma->north, sigma->east, sigma->down};
+    motion.attitude_sigma = {DegreesOfRadians(sigma->roll), DegreesOfRadians(sigma->pitch),
+                             DegreesOfRadians(sigma->heading)};
+  }
+  return motion;
+}
+
+std::optional<SensorMotion> CourseMotions::At(double time) const {
+  constexpr double kStep =
+      0.1;  // s, over which the velocity is taken: twice as far where the track begins or ends.
+  const std::array<double, 3> times = {time - kStep, time, time + kStep};
+  std::array<SensorPosition, 3> positions;
+  std::array<TrackOutcome, 3> outcomes;
+  track_.PositionsAt(times, positions, outcomes);
+  const std::size_t first = outcomes[0] == TrackOutcome::kKnown ? 0 : 1;
+  const std::size_t last = outcomes[2] == TrackOutcome::kKnown ? 2 : 1;
+  if (first == last || outcomes[1] != TrackOutcome::kKnown) return std::nullopt;
+  const SensorPosition &from = positions[first], &to = positions[last];
+  const double seconds = times[last] - times[first];
+  const double x = (to.x - from.x) * from.metres_per_x / seconds,
+               y = (to.y - from.y) * from.metres_per_y / seconds;
+  // True azimuth = grid azimuth + convergence.
+  const double c = std::cos(from.convergence), s = std::sin(from.convergence);
+  SensorMotion motion;
+  motion.velocity = {y * c - x * s, x * c + y * s, -(to.z - from.z) / seconds};
+  motion.heading = Course(motion.velocity[0], motion.velocity[1]);
+  return motion;
 }
 
 }  // namespace albtpu::annotate

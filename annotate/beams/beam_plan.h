@@ -6,16 +6,37 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "annotate/beams/trajectory_errors.h"
+#include "absl/status/statusor.h"
+#include "budget/air/sensor_motion.h"
 #include "budget/beams/refracted_path.h"
-#include "formats/trajectories/trajectory_set.h"
+#include "budget/beams/track_spline.h"
+#include "formats/trajectories/sbet_file.h"
+#include "formats/trajectories/trajectory_timeline.h"
 
 namespace albtpu::annotate {
+
+// The error files (SMRMSG) of a trajectory: the uncertainty of a trajectory at the points of a file.
+
+using TrajectoryErrors = std::vector<std::shared_ptr<const formats::SmrmsgFile>>;
+
+// Opens files and folders. A folder stands for all files in it whose names contain "smrmsg" or "rms", in any case,
+// ordered by name. Fails on the first file that is not an SMRMSG, and on a folder without any.
+absl::StatusOr<TrajectoryErrors> LoadTrajectoryErrors(std::span<const std::string> paths);
+
+// Medians over the part of the trajectory that has points, one standard deviation.
+struct TrajectoryPrecision {
+  double horizontal = 0, vertical = 0;  // m; horizontal: the root of the sum of squares of north and east.
+};
+
+// nullopt where no error file has records at these times.
+std::optional<TrajectoryPrecision> PrecisionOf(const TrajectoryErrors& errors,
+                                               const formats::TrajectoryTimeline& timeline);
 
 // One incidence for all pulses, as of a cone around the vertical.
 struct ConstantIncidence {
@@ -96,5 +117,35 @@ std::vector<std::string> FilesOf(const BeamPlan& plan);
 
 // The plan as JSON for a summary.
 nlohmann::ordered_json Parameters(const BeamPlan& plan);
+
+// The motion of the aircraft, from the files of its trajectory or from a track fitted to the returns.
+
+// Attitude, velocity and rates as the trajectory states them. Where it states no heading, the course; no velocity: that
+// of its positions. Standard deviations are those of the error files, or those of the trajectory file itself.
+class TrajectoryMotions final : public SensorMotions {
+ public:
+  TrajectoryMotions(formats::TrajectoryTimeline timeline, TrajectoryErrors errors)
+      : timeline_(std::move(timeline)), errors_(std::move(errors)) {}
+
+  std::optional<SensorMotion> At(double time) const override;
+
+ private:
+  std::optional<formats::TrajectorySigma> SigmaAt(double time) const;
+
+  formats::TrajectoryTimeline timeline_;
+  TrajectoryErrors errors_;
+};
+
+// Velocity and course of any track of the sensor; no attitude.
+class CourseMotions final : public SensorMotions {
+ public:
+  // `track` must outlive it.
+  explicit CourseMotions(const SensorTrack& track) : track_(track) {}
+
+  std::optional<SensorMotion> At(double time) const override;
+
+ private:
+  const SensorTrack& track_;
+};
 
 }  // namespace albtpu::annotate

@@ -2,6 +2,7 @@
 // returns, or from these rays alone.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,15 +11,30 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/json_box.h"
 #include "annotate/beams/beam_plan.h"
-#include "annotate/beams/local_frame.h"
 #include "annotate/beams/trajectory_checks.h"
 #include "budget/air/sensor_motion.h"
+#include "budget/beams/ray_track.h"
 #include "budget/beams/return_pair.h"
-#include "budget/beams/sensor_track.h"
+#include "budget/beams/track_spline.h"
 #include "formats/crs/map_frame.h"
 #include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::annotate {
+
+// A frame in metres around the middle of a file: what the geometry of neighbouring points is computed in.
+
+// x points to grid east, y to grid north, z up in the vertical datum of the points. Horizontal distances are true
+// metres at the origin: the scale of a map projection is divided out.
+struct LocalFrame {
+  double origin_x = 0, origin_y = 0;  // In the horizontal unit of the points.
+  double metres_per_x = 1, metres_per_y = 1;
+  double metres_per_z = 1;  // Of the vertical unit.
+
+  double X(double x) const { return (x - origin_x) * metres_per_x; }
+  double Y(double y) const { return (y - origin_y) * metres_per_y; }
+  double Z(double z) const { return z * metres_per_z; }
+  Eigen::Vector3d At(double x, double y, double z) const { return {X(x), Y(y), Z(z)}; }
+};
 
 // The inputs of a track.
 struct TrackedFile {
@@ -45,5 +61,26 @@ absl::StatusOr<FileTrack> TrackFromFiles(const TrackedFile& file, const BeamPlan
 
 // From the rays, of water of index `index`. Fails when they are too few to determine the position of the sensor.
 absl::StatusOr<FileTrack> TrackFromReturns(const TrackedFile& file, double index);
+
+// The track that was fitted to the returns of a file, in the coordinates of its points.
+
+class FittedTrack final : public SensorTrack {
+ public:
+  // `track` is in `frame`. Without `map`, grid north is taken for true north.
+  FittedTrack(RayTrack track, const LocalFrame& frame, const formats::MapFrame* map);
+
+  void PositionsAt(std::span<const double> times, std::span<SensorPosition> positions,
+                   std::span<TrackOutcome> outcomes) const override;
+
+  const RayTrack& track() const { return track_; }
+
+ private:
+  RayTrack track_;
+  LocalFrame frame_;
+  // The convergence is taken as linear in the local coordinates. It is about (longitude - central meridian) times
+  // sin(latitude), so that 15 km from the middle, a file leaves 1e-5 rad of it out.
+  double convergence_ = 0;
+  Eigen::Vector2d convergence_slope_ = Eigen::Vector2d::Zero();  // rad/m
+};
 
 }  // namespace albtpu::annotate

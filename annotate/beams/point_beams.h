@@ -7,14 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "annotate/answers/answer_counts.h"
 #include "annotate/answers/batch.h"
-#include "annotate/answers/outcome_counts.h"
 #include "annotate/beams/beam_plan.h"
-#include "annotate/beams/local_frame.h"
-#include "annotate/beams/survey_points.h"
+#include "annotate/beams/file_track.h"
 #include "annotate/beams/water_heights.h"
 #include "budget/air/sensor_motion.h"
-#include "budget/beams/sensor_track.h"
+#include "budget/beams/track_spline.h"
 #include "budget/total/budget_columns.h"
 
 namespace albtpu::annotate {

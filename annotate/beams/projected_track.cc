@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/trajectories/gps_time.h"
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::annotate {
 namespace {

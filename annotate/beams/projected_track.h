@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "budget/beams/sensor_track.h"
+#include "budget/beams/track_spline.h"
 #include "formats/crs/map_frame.h"
 #include "formats/trajectories/trajectory_timeline.h"
 

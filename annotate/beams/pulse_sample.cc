@@ -1,12 +1,75 @@
 #include "annotate/beams/pulse_sample.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
-#include "annotate/beams/pair_sample.h"
-
 namespace albtpu::annotate {
+std::uint64_t HashOfTime(double time) {
+  auto bits = std::bit_cast<std::uint64_t>(time) + 0x9E3779B97F4A7C15u;
+  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
+  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
+  return bits ^ (bits >> 31);
+}
+
+void PairSample::Add(const ReturnPair& pair) {
+  ++seen_;
+  pairs_.push_back(pair);
+  if (pairs_.size() >= 2 * size_.pairs) Thin(size_.pairs);
+}
+
+std::vector<ReturnPair> PairSample::Take() {
+  Thin(size_.pairs);
+  const auto order = [](const ReturnPair& pair) {
+    return std::tuple(pair.time, pair.lower.z(), pair.upper.z(), pair.lower.x(), pair.upper.x());
+  };
+  std::sort(pairs_.begin(), pairs_.end(),
+            [&](const ReturnPair& a, const ReturnPair& b) { return order(a) < order(b); });
+  return std::exchange(pairs_, {});
+}
+
+void PairSample::Thin(std::size_t most) {
+  // Sorted in place of the pairs, which are three times as long.
+  struct Rank {
+    double bin;
+    std::uint64_t hash;
+    std::size_t pair;
+  };
+  const auto order = [this](const Rank& rank) {
+    const ReturnPair& pair = pairs_[rank.pair];
+    return std::tuple(rank.bin, rank.hash, pair.lower.z(), pair.upper.z());
+  };
+  std::vector<Rank> ranks(pairs_.size());
+  std::vector<bool> is_kept(pairs_.size());
+  while (true) {
+    for (std::size_t i = 0; i < ranks.size(); ++i) {
+      ranks[i] = {std::floor(pairs_[i].time / size_.bin), HashOfTime(pairs_[i].time), i};
+    }
+    std::sort(ranks.begin(), ranks.end(), [&](const Rank& a, const Rank& b) { return order(a) < order(b); });
+    is_kept.assign(pairs_.size(), false);
+    std::size_t kept = 0, in_bin = 0;
+    for (std::size_t i = 0; i < ranks.size(); ++i) {
+      in_bin = i > 0 && ranks[i].bin == ranks[i - 1].bin ? in_bin + 1 : 0;
+      if (in_bin >= size_.pairs_per_bin) continue;
+      is_kept[ranks[i].pair] = true;
+      ++kept;
+    }
+    if (kept <= most) break;
+    if (size_.pairs_per_bin > 1) {
+      size_.pairs_per_bin = (size_.pairs_per_bin + 1) / 2;
+    } else {
+      size_.bin *= 2;
+    }
+  }
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (is_kept[i]) pairs_[end++] = pairs_[i];
+  }
+  pairs_.resize(end);
+}
+
 namespace {
 
 auto PulseOf(const PulseReturn& a) { return std::tuple(a.time, a.channel, a.count); }

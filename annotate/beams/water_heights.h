@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -9,12 +10,26 @@
 #include <string>
 #include <vector>
 
-#include "annotate/beams/local_frame.h"
-#include "annotate/beams/survey_points.h"
+#include "annotate/beams/file_track.h"
+#include "budget/beams/return_pair.h"
 #include "budget/beams/water_surface.h"
 #include "formats/trajectories/water_level_file.h"
 
 namespace albtpu::annotate {
+
+// The chosen points of a part of a file as columns, in the coordinates of the file.
+
+// Element i of each column belongs to point i. Columns that the source of the incidence does not need may be empty.
+struct SurveyPoints {
+  std::vector<double> x, y;         // In the horizontal unit of the file: metres, feet or degrees.
+  std::vector<double> z;            // In the vertical unit.
+  std::vector<double> times;        // GPS time as the file states it.
+  std::vector<double> scan_angles;  // degree, positive to the right of the flight direction.
+  std::vector<double>
+      pulse_surface;  // z of the return from the water surface of the same pulse; NaN if there is none.
+
+  std::size_t size() const { return z.size(); }
+};
 
 // In order of trust.
 enum class SurfaceFrom : std::uint8_t {
@@ -48,5 +63,12 @@ struct WaterHeights {
   void At(const SurveyPoints& points, const LocalFrame& frame, std::vector<double>& heights,
           SurfaceCounts& counts) const;
 };
+
+// The rays in air of pairs of returns, over the water surface that is known there.
+
+// `pairs` are in order of time and in the local frame. Of the pairs of one pulse, the longest that makes a ray counts.
+// `index` is that of the water.
+std::vector<AirRay> RaysOfPairs(std::span<const ReturnPair> pairs, const WaterHeights& water,
+                                const LocalFrame& frame, double index);
 
 }  // namespace albtpu::annotate

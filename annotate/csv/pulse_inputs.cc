@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/answers/beam_coordinates.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/answers/batch.h"
+#include "annotate/run/file_progress.h"
 
 namespace albtpu::annotate {
 namespace {

@@ -12,11 +12,11 @@
 #include "annotate/seas/sea_facts.h"
 #include "formats/files/ordered_pipeline.h"
 #include "formats/las/las_extra_bytes.h"
-#include "formats/las/las_point_runs.h"
+#include "formats/las/las_points.h"
 #include "formats/las/las_reader.h"
 #include "formats/las/las_writer.h"
 #include "formats/laz/items/chunk_encoder.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 
 namespace albtpu::annotate {
 namespace {

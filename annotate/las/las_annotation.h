@@ -14,8 +14,8 @@
 #include "annotate/las/las_chunk.h"
 #include "annotate/run/file_progress.h"
 #include "formats/files/output_file.h"
-#include "formats/las/las_kind.h"
 #include "formats/las/las_points.h"
+#include "formats/las/las_reader.h"
 #include "service/client/uncertainty_source.h"
 
 namespace albtpu::annotate {

@@ -12,7 +12,6 @@
 
 #include "absl/status/status.h"
 #include "annotate/answers/batch.h"
-#include "annotate/answers/coordinate_spread.h"
 #include "annotate/answers/uncertainty_summary.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/beams/point_beams.h"
@@ -20,7 +19,6 @@
 #include "annotate/totals/total_summary.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
-#include "formats/las/las_point_runs.h"
 #include "formats/las/las_points.h"
 
 namespace albtpu::annotate {

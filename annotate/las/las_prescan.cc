@@ -6,10 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "annotate/beams/pair_sample.h"
 #include "annotate/beams/pulse_sample.h"
 #include "formats/files/ordered_pipeline.h"
-#include "formats/las/las_point_runs.h"
 #include "formats/las/las_points.h"
 
 namespace albtpu::annotate {

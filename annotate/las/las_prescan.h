@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "annotate/beams/local_frame.h"
+#include "annotate/beams/file_track.h"
 #include "budget/beams/return_pair.h"
 #include "budget/beams/water_surface.h"
 #include "formats/las/las_reader.h"

@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 
 namespace albtpu::annotate {
 namespace {

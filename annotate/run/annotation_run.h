@@ -10,7 +10,6 @@
 #include "annotate/answers/run_verdict.h"
 #include "annotate/run/file_jobs.h"
 #include "annotate/run/file_progress.h"
-#include "annotate/run/summary_file.h"
 #include "formats/files/output_file.h"
 #include "service/client/uncertainty_source.h"
 

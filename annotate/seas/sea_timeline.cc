@@ -9,7 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 #include "sea/angle.h"
 #include "sea/sea_time.h"
 

@@ -3,18 +3,41 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "annotate/run/exit_status.h"
-#include "config/sensors/installed_sensors.h"
+#include "annotate/run/file_progress.h"
+#include "config/sensors/sensor.h"
+#include "sea/sea_state.h"
 #include "sea/spectra/spectrum_moments.h"
-#include "sea/wave_state.h"
 
 namespace albtpu::annotate {
+StatedNumber AssumedDivergence(double milliradians) {
+  return {"divergence", absl::StrCat(milliradians, " mrad"), "assumed: the default of the sensor", true};
+}
+
+nlohmann::ordered_json Parameters(const TotalPlan& plan) {
+  nlohmann::ordered_json json;
+  json["located"] = std::string(kSurfaceLocationNames[static_cast<std::size_t>(plan.options.located)]);
+  for (const StatedNumber& number : plan.numbers)
+    json["numbers"][number.name] = {
+        {"value", number.value}, {"source", number.source}, {"assumed", number.assumed}};
+  return json;
+}
+
+std::vector<std::string> Assumptions(const TotalPlan& plan) {
+  std::vector<std::string> lines;
+  for (const StatedNumber& number : plan.numbers) {
+    if (number.assumed)
+      lines.push_back(absl::StrCat(number.name, " ", number.value, " (", number.source, ")"));
+  }
+  return lines;
+}
+
 namespace {
 
 // Of the index: by refractive_index.h 0.9e-4 for a degree and 1.9e-4 for a salinity of 1.

@@ -7,11 +7,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/answers/answer_cells.h"
+#include "annotate/answers/answer_counts.h"
 #include "annotate/totals/pulse_totals.h"
 #include "budget/air/air_sources.h"
-#include "budget/total/horizontal_ellipse.h"
-#include "formats/text/number_text.h"
+#include "budget/total/error_ellipse.h"
+#include "formats/text/text.h"
 
 namespace albtpu::annotate {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
-#include "annotate/totals/total_plan.h"
+#include "annotate/totals/plan_total.h"
 
 namespace albtpu::annotate {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "annotate/answers/batch.h"
-#include "annotate/totals/total_plan.h"
+#include "annotate/totals/plan_total.h"
 #include "budget/query/budget_query.h"
 
 namespace albtpu::annotate {

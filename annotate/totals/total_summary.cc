@@ -7,7 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 
 namespace albtpu::annotate {
 namespace {

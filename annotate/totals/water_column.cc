@@ -9,7 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "sea/angle.h"
 #include "tables/default_tables.h"
 #include "tables/file/table_io.h"

@@ -3,16 +3,23 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "annotate/answers/batch.h"
-#include "annotate/totals/stated_number.h"
 #include "budget/water/refractive_index.h"
 #include "budget/water/water_share.h"
 #include "config/survey_settings.h"
 
 namespace albtpu::annotate {
+
+// A number that a total takes, and where it comes from.
+
+struct StatedNumber {
+  std::string name, value, source;  // "scan", "0.02 degree", "riegl-vq-880-g: cBLUE 4.2"
+  bool assumed = false;             // By albtpu, where neither the user nor the sensor's file says it.
+};
 
 // What a total takes of the water.
 struct WaterPlan {

@@ -14,7 +14,7 @@
 
 #include <hwy/highway.h>
 
-#include "budget/air/air_constants.h"
+#include "budget/air/air_sources.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace albtpu {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -52,5 +53,30 @@ std::vector<AirSource> AirSources(const AirPulse& pulse, SurfaceLocation located
 // By how much the point errs for each metre by which the surface at this pulse lies above where it was located, which
 // is what a wave does that the location does not see: north, east, down.
 Eigen::Vector3d ErrorOfSurfaceHeight(const AirPulse& pulse);
+
+// What all pulses of a batch have in common on the air side.
+
+// AirErrors in single precision, with angles in radians, and constants made of them.
+struct AirConstants {
+  // `lever_arm`: m; forward, right, down.
+  AirConstants(const AirErrors& errors, SurfaceLocation located, double index,
+               const std::array<double, 3>& lever_arm);
+
+  // A standard deviation. That of the range to the surface is 0 unless the pulse's own return located it.
+  template <auto source>
+  float Sigma(std::size_t i = 0) const {
+    constexpr std::size_t kFirst = FirstNumber(source);
+    return sigmas[kFirst + i];
+  }
+
+  float inverse_index, inverse_square_index;
+  // 1 where the height of the surface is given, 0 where the lidar located it: for all errors, and for the scan angle.
+  float given, scan_given;
+  float forward, right, down;          // The lever arm, m.
+  float surface_height[kErrorGroups];  // In its group, else 0.
+
+ private:
+  std::array<float, kErrorNumberCount> sigmas;  // In the order of kErrorSources.
+};
 
 }  // namespace albtpu

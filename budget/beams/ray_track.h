@@ -26,7 +26,7 @@
 
 #include "budget/beams/return_pair.h"
 #include "budget/beams/segment_fit.h"
-#include "budget/beams/sensor_track.h"
+#include "budget/beams/track_spline.h"
 
 namespace albtpu {
 

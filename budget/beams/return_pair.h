@@ -13,10 +13,49 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "budget/beams/track_spline.h"
+
 namespace albtpu {
+
+// A model of the errors of ray directions, estimated from their residuals to a track.
+
+// The angle between a ray and the line from the sensor to its water point has two components, of which each has the
+// variance, in rad^2,
+//     sigma^2 = slopes^2 + (points / separation)^2
+// for a good ray: the slopes of the water turn all rays alike, the errors of the returns (`points` in m) turn those of
+// long separation less. A fraction of the rays (mixed returns, vegetation) has the variance `outlier_sigma`^2 instead.
+struct RayNoise {
+  double slopes = 0.02, points = 0.05;
+  double outlier_share = 0.1, outlier_sigma = 0.3;
+
+  double Variance(double separation) const {
+    const double p = points / separation;
+    return slopes * slopes + p * p;
+  }
+};
+
+// The weight of a ray whose squared residual is `square` [rad^2], in 1/rad^2: 1/sigma^2 times the probability that it
+// is good, and 1/outlier_sigma^2 times the rest; -weight times the residual is the gradient of the log-likelihood.
+// `response` is minus half of the divergence of that gradient: what the weight contributes to the curvature of the
+// likelihood, less than `weight` between good and outlying residuals.
+struct RayWeight {
+  double good = 0;  // The probability.
+  double weight = 0, response = 0;
+};
+RayWeight WeightOf(const RayNoise& noise, double separation, double square);
+
+// Fits the noise to residuals by expectation-maximization: `steps` steps, beginning with `start`. `squares` are the
+// squared residuals |r|^2 of both components together [rad^2].
+RayNoise FitRayNoise(std::span<const double> squares, std::span<const double> separations,
+                     const RayNoise& start, int steps);
+
+// A start for FitRayNoise from medians, which 30 % of outliers do not spoil.
+RayNoise RobustRayNoise(std::span<const double> squares, std::span<const double> separations);
 
 // Positions in a local frame in metres: x grid east, y grid north, z up in the vertical datum of the points.
 struct ReturnPair {
@@ -44,5 +83,15 @@ inline double Median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+// The point at which the rays of a few seconds meet, without a start value.
+
+// The position at `time` and the velocity of a sensor in straight motion that is nearest to the lines of `rays`: the
+// solution of
+//     sum of w Q (X0 + V (t - time) - S) = 0,    Q = I - u u',
+// 6 linear equations, solved again eight times with w = 1 / (1 + (e / s)^2), e the distances from the lines and s their
+// median. None when the rays do not determine it. It puts the sensor too low where directions have errors: a lower one
+// is nearer to lines that scatter by angles. It is a start for angles.
+std::optional<KnotState> WhereRaysMeet(std::span<const AirRay> rays, double time);
 
 }  // namespace albtpu

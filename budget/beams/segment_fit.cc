@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "budget/beams/facing_slopes.h"
-#include "budget/beams/ray_windows.h"
+#include "budget/beams/displacement_fit.h"
 #include "budget/beams/return_pair.h"
 
 namespace albtpu {

@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "budget/beams/facing_slopes.h"
-#include "budget/beams/ray_windows.h"
+#include "budget/beams/displacement_fit.h"
 #include "budget/beams/return_pair.h"
 #include "sea/angle.h"
 

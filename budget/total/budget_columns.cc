@@ -4,8 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "budget/total/limits_met.h"
-#include "budget/total/radius_factors.h"
+#include "budget/total/error_ellipse.h"
 
 // The code below is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE

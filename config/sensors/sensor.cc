@@ -1,12 +1,44 @@
 #include "config/sensors/sensor.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "formats/text/text.h"
+#include "tables/default_tables.h"
 
 namespace albtpu::config {
+std::string PartsText(const ErrorSource& source) {
+  const auto append = [](std::string* to, std::string_view part) { to->append(part); };
+  return absl::StrCat("[", absl::StrJoin(source.parts, ", ", append), "]");
+}
+
+void ReadErrors(config::TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors) {
+  const ErrorSource& source = kErrorSources[i];
+  const std::span<double> numbers = source.In(errors.values);
+  if (numbers.size() == 1) {
+    const std::optional<double> number = keys.Number(key, 0, source.greatest, source.unit);
+    errors.stated[i] = number.has_value();
+    numbers[0] = number.value_or(0);
+  } else {
+    const std::optional<std::array<double, 3>> triple =
+        keys.Triple(key, 0, source.greatest, source.unit, PartsText(source));
+    errors.stated[i] = triple.has_value();
+    if (triple.has_value()) std::ranges::copy(*triple, numbers.begin());
+  }
+  if (!errors.stated[i] || source.unit != "degree") return;
+  const auto radians =
+      std::ranges::find_if(numbers, [](double number) { return number > 0 && number < kLeastAngle; });
+  if (radians == numbers.end()) return;
+  keys.Fail(key, absl::StrCat("is ", *radians, " degree (no instrument knows an angle better than ",
+                              kLeastAngle, " degree, which looks like radians); give it in degree"));
+}
+
 namespace {
 
 using namespace config;
@@ -102,6 +134,57 @@ std::vector<std::string> UnknownOf(const Sensor& sensor) {
     if (kErrorSources[i].of_sensor && !sensor.errors.stated[i]) unknown.emplace_back(kErrorSources[i].name);
   if (!sensor.divergence.has_value()) unknown.emplace_back("divergence");
   return unknown;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> InstalledNames() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(SensorsDirectory(), error))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path PathOf(const std::string& name) { return SensorsDirectory() / (name + ".toml"); }
+
+}  // namespace
+
+fs::path SensorsDirectory() {
+  if (const char* folder = std::getenv("ALBTPU_SENSORS"); folder != nullptr && *folder != '\0') return folder;
+  return InstalledDataDirectory() / "sensors";
+}
+
+absl::StatusOr<std::vector<Sensor>> ListSensors() {
+  std::vector<Sensor> sensors;
+  for (const std::string& name : InstalledNames()) {
+    absl::StatusOr<Sensor> sensor = ReadSensor(PathOf(name));
+    if (!sensor.ok()) return sensor.status();
+    sensors.push_back(*std::move(sensor));
+  }
+  return sensors;
+}
+
+bool IsSensorFile(std::string_view name) {
+  return name.ends_with(".toml") || name.find('/') != std::string_view::npos;
+}
+
+absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path) {
+  const std::string name(name_or_path);
+  if (IsSensorFile(name)) return ReadSensor(name);
+  const std::vector<std::string> names = InstalledNames();
+  if (std::ranges::find(names, name) != names.end()) return ReadSensor(PathOf(name));
+  const std::string problem = absl::StrCat("'", formats::OneLine(name), "' is no sensor");
+  if (names.empty()) {
+    return absl::NotFoundError(absl::StrCat(problem, " (there are none in ", SensorsDirectory().string(),
+                                            "); name the folder of sensors by ALBTPU_SENSORS, or give the "
+                                            "path of a file"));
+  }
+  return absl::NotFoundError(absl::StrCat(
+      problem, formats::Suggestion(name, names, absl::StrCat("there are ", absl::StrJoin(names, ", ")))));
 }
 
 }  // namespace albtpu::config

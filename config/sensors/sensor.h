@@ -16,6 +16,7 @@
 // some are a list of three; and the divergence. What nobody publishes is absent.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -24,9 +25,36 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "config/sensors/stated_errors.h"
+#include "budget/air/air_errors.h"
+#include "config/toml/toml_keys.h"
 
 namespace albtpu::config {
+
+// Standard deviations of the sources of error (budget/air/air_errors.h) as TOML states them: in a sensor file and under
+// [sigma] of a survey file.
+
+// Those of some sources; of the others, `values` says nothing.
+struct StatedErrors {
+  AirErrors values;
+  std::array<bool, kErrorSourceCount> stated = {};  // In the order of kErrorSources.
+
+  bool any() const { return std::ranges::find(stated, true) != stated.end(); }
+  template <typename Member>
+  bool Has(Member AirErrors::*source) const {
+    return stated[Index(source)];
+  }
+};
+
+// "[north, east, down]", of a source with three numbers.
+std::string PartsText(const ErrorSource& source);
+
+// Degree. The best of airborne systems know roll and pitch to 0.0025 degrees, which are 4.4e-5 rad. An angle between 0
+// and this was meant in radians.
+inline constexpr double kLeastAngle = 2e-4;
+
+// Reads what `key` has of source `i` of kErrorSources: its number or its three numbers, each from 0 to the greatest
+// plausible; 0 is none. Not stated if the key is missing or a problem.
+void ReadErrors(config::TomlKeys& keys, std::string_view key, std::size_t i, StatedErrors& errors);
 
 struct SourcedDivergence {
   double value = 0;                       // mrad, full angle
@@ -57,5 +85,20 @@ absl::StatusOr<Sensor> ReadSensor(const std::filesystem::path& path);
 
 // The keys of the numbers that no source gives.
 std::vector<std::string> UnknownOf(const Sensor& sensor);
+
+// The sensors that are installed, and those in files of the user.
+
+// The value of the environment variable `ALBTPU_SENSORS`. If it is empty or not set, PREFIX/share/albtpu/sensors for a
+// program that runs as PREFIX/bin/NAME. The folder need not exist.
+std::filesystem::path SensorsDirectory();
+
+// All installed sensors, by name. Empty if the folder does not exist; fails on a file that is wrong.
+absl::StatusOr<std::vector<Sensor>> ListSensors();
+
+// Whether a sensor is named by the path of its file: it ends in .toml or has a slash.
+bool IsSensorFile(std::string_view name);
+
+// The installed sensor of a name, or the sensor in a file. NotFound with the names that there are.
+absl::StatusOr<Sensor> FindSensor(std::string_view name_or_path);
 
 }  // namespace albtpu::config

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,9 +14,27 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "config/toml/toml_file.h"
+#include "absl/status/statusor.h"
 
 namespace albtpu::config {
+
+// A file of TOML as text and as a table, with one message for what is wrong with it.
+
+// How messages speak of a kind of file.
+struct TomlKind {
+  std::string_view name;      // "a survey file"
+  std::string_view subject;   // what it describes: "the survey"
+  std::string_view given_by;  // what names it: "the path of --survey"
+};
+
+// InvalidArgument "line 3: is not TOML ..." or "has 40000 bytes ...".
+absl::StatusOr<toml::table> ParseToml(std::string_view text, const TomlKind& kind);
+
+// The text of a file, or a little more than ParseToml takes.
+absl::StatusOr<std::string> ReadTomlText(const std::filesystem::path& path, const TomlKind& kind);
+
+// A problem of the text, with the path of its file before it.
+absl::Status InFile(const std::filesystem::path& path, const absl::Status& problem);
 
 // The first problem of a file, "line 3: 'sea.tail' is ...".
 class TomlProblem {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/crs/ellipsoid.h"
+#include "formats/crs/proj_crs.h"
 
 namespace albtpu::formats {
 

@@ -7,9 +7,9 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
-#include "formats/las/las_vlr.h"
+#include "formats/las/las_header.h"
 #include "formats/laz/coding/little_endian.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 
 namespace albtpu::formats {
 namespace {

@@ -1,12 +1,15 @@
 #include "formats/las/las_points.h"
 
+#include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 
 namespace albtpu::formats {
-
 void LasClassCounts::Merge(const LasClassCounts& other) {
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
 }
@@ -30,6 +33,67 @@ nlohmann::ordered_json LasClassCounts::Json() const {
     if (counts_[i] > 0) json[std::to_string(i)] = counts_[i];
   }
   return json;
+}
+
+absl::StatusOr<LasPointRuns> LasPointRuns::Open(const LasReader& reader, std::size_t before,
+                                                std::size_t after, laz::WantedFields wanted) {
+  LasPointRuns runs(reader, before, after);
+  if (reader.kind() == LasKind::kLas) return runs;
+  absl::StatusOr<std::unique_ptr<laz::LazPoints>> laz =
+      laz::LazPoints::Open(reader.bytes(), reader.extent(), 0, wanted);
+  if (!laz.ok()) return reader.Named(laz.status());
+  runs.laz_ = *std::move(laz);
+  return runs;
+}
+
+absl::StatusOr<bool> LasPointRuns::Next(std::uint64_t most, LasRun& run) {
+  const LasHeader& header = reader_.header();
+  const std::uint64_t left = header.point_count - next_;
+  if (left == 0) return false;
+  run.first = next_;
+  run.own = std::min(most, left);
+  run.before = std::min<std::uint64_t>(before_, next_);
+  const std::uint64_t begin = next_ - run.before;
+  const std::uint64_t end = next_ + run.own + std::min<std::uint64_t>(after_, left - run.own);
+  run.records.resize((end - begin) * header.record_length);
+  next_ += run.own;
+  const absl::Status status = laz_ != nullptr
+                                  ? ReadLaz(begin, end, run)
+                                  : reader_.ReadAt(header.offset_to_points + begin * header.record_length,
+                                                   std::span<char>(run.records));
+  if (!status.ok()) return status;
+  return true;
+}
+
+absl::Status LasPointRuns::ReadLaz(std::uint64_t begin, std::uint64_t end, LasRun& run) {
+  const std::size_t length = reader_.header().record_length;
+  // `last_` begins at `begin` and ends at the last decoded point.
+  std::memcpy(run.records.data(), last_.data(), last_.size());
+  const absl::Status status = laz_->Read(std::span<char>(run.records).subspan(last_.size()));
+  if (!status.ok()) return reader_.Named(status);
+  const std::uint64_t next_begin = next_ - std::min<std::uint64_t>(before_, next_);
+  last_.assign(run.records, (next_begin - begin) * length, (end - next_begin) * length);
+  return status;
+}
+
+std::uint64_t LasPointRuns::tail_begin() const {
+  return laz_ != nullptr ? laz_->end() : reader_.header().end_of_points();
+}
+
+std::uint64_t LasPointRuns::tail_end() const {
+  return laz_ != nullptr ? laz_->tail_end() : reader_.file_size();
+}
+
+absl::StatusOr<std::string> FirstRecord(const LasReader& reader) {
+  const LasHeader& header = reader.header();
+  if (reader.kind() == LasKind::kLas) return reader.ReadAt(header.offset_to_points, header.record_length);
+  const absl::StatusOr<std::unique_ptr<laz::LazPoints>> points =
+      laz::LazPoints::Open(reader.bytes(), reader.extent(), 1);
+  if (!points.ok()) return reader.Named(points.status());
+  std::string record(header.record_length, '\0');
+  if (absl::Status status = (*points)->Read(std::span<char>(record)); !status.ok())
+    return reader.Named(status);
+  return record;
 }
 
 }  // namespace albtpu::formats

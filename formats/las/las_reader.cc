@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/damage.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 
 namespace albtpu::formats {
-
 LasReader::LasReader(std::string name, std::FILE* file)
     : name_(std::move(name)), file_(std::make_unique<const File>(file)) {}
 

@@ -12,14 +12,21 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/files/file_stamp.h"
+#include "formats/files/output_file.h"
 #include "formats/las/las_header.h"
-#include "formats/las/las_kind.h"
-#include "formats/las/las_vlr.h"
-#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/laz_points.h"
 
 namespace albtpu::formats {
+
+// LAS, or LAZ: the same with compressed points.
+
+enum class LasKind { kLas, kLaz };
+
+constexpr std::string_view Name(LasKind kind) { return kind == LasKind::kLas ? "LAS" : "LAZ"; }
+
+// ".las"
+inline std::string Extension(LasKind kind) { return kind == LasKind::kLas ? ".las" : ".laz"; }
 
 class LasReader {
  public:

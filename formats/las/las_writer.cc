@@ -1,11 +1,160 @@
 #include "formats/las/las_writer.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
+#include <string_view>
 
+#include "absl/strings/str_cat.h"
 #include "formats/laz/coding/little_endian.h"
 
 namespace albtpu::formats {
+namespace {
+
+using laz::Store;
+
+// The user of all records of COPC (copc.io): the info VLR and the EVLR of the hierarchy.
+constexpr std::string_view kCopcUser = "copc";
+
+// The largest chunk of compressed points, for records so long that the common number of them is more.
+constexpr std::size_t kChunkBytes = 16 << 20;
+
+// The first field of a VLR of LAS 1.0; reserved later.
+constexpr std::uint16_t kFirstVlrSignature = 0xAABB;
+
+absl::Status Invalid(const LasReader& reader, const std::string& message) {
+  return reader.Named(absl::InvalidArgumentError(message));
+}
+
+// The record that describes the extra bytes; nullopt if the file has none.
+absl::StatusOr<std::optional<VlrEntry>> FindExtraBytesRecord(const LasReader& reader) {
+  for (const VlrEntry& evlr : reader.evlrs()) {
+    if (evlr.Is(kSpecUser, kExtraBytesRecord)) {
+      return Invalid(reader,
+                     "describes its extra bytes in an EVLR after the points; expected a VLR before them");
+    }
+  }
+  std::optional<VlrEntry> found;
+  for (const VlrEntry& vlr : reader.vlrs()) {
+    if (!vlr.Is(kSpecUser, kExtraBytesRecord)) continue;
+    if (found.has_value()) return Invalid(reader, "describes its extra bytes in two VLRs; expected one");
+    found = vlr;
+  }
+  return found;
+}
+
+std::string Vlr(const LasReader& reader, std::string_view user, std::uint16_t record_id,
+                std::string_view description, const std::string& data) {
+  std::string bytes = VlrHeader(user, record_id, static_cast<std::uint16_t>(data.size()), description);
+  if (reader.header().version_minor == 0) Store(kFirstVlrSignature, bytes.data());
+  return bytes + data;
+}
+
+// A field of the header. False, and no change, if the value does not fit it.
+template <typename Number>
+bool Set(std::size_t field, std::uint64_t value, std::string& head) {
+  if (value > std::numeric_limits<Number>::max()) return false;
+  Store(static_cast<Number>(value), head.data() + field);
+  return true;
+}
+
+// Bytes of the EVLRs that are not kept, before byte `end` of the input.
+std::uint64_t LeftOutBefore(const LasReader& reader, std::uint64_t end) {
+  std::uint64_t bytes = 0;
+  for (const VlrEntry& evlr : reader.evlrs()) {
+    if (!IsKept(reader, evlr) && evlr.offset < end) bytes += evlr.end() - evlr.offset;
+  }
+  return bytes;
+}
+
+std::uint64_t KeptEvlrs(const LasReader& reader) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(reader.evlrs(), [&](const VlrEntry& evlr) { return IsKept(reader, evlr); }));
+}
+
+}  // namespace
+
+bool IsKept(const LasReader& reader, const VlrEntry& entry) {
+  return reader.kind() == LasKind::kLas || (entry.user_id != kCopcUser && entry.user_id != laz::kLaszipUser);
+}
+
+bool HasCopcIndex(const LasReader& reader) {
+  const auto is_copc = [](const VlrEntry& entry) { return entry.user_id == kCopcUser; };
+  return reader.kind() == LasKind::kLaz &&
+         (std::ranges::any_of(reader.vlrs(), is_copc) || std::ranges::any_of(reader.evlrs(), is_copc));
+}
+
+absl::StatusOr<LasHead> AnnotatedHead(const LasReader& reader, const std::vector<AppendedFloat>& appended,
+                                      LasKind kind, bool replace) {
+  const LasHeader& header = reader.header();
+  const std::string_view input = reader.head();
+  const absl::StatusOr<std::optional<VlrEntry>> existing = FindExtraBytesRecord(reader);
+  if (!existing.ok()) return existing.status();
+  const std::string_view described =
+      existing->has_value() ? input.substr((*existing)->data_offset, (*existing)->data_size) : "";
+  const absl::StatusOr<AppendedDescription> description =
+      DescribeAppended(reader.name(), described, header.extra_bytes(), appended, replace);
+  if (!description.ok()) return description.status();
+  const std::string& data = description->record;
+  const std::size_t appended_bytes = (appended.size() - description->replaced.size()) * sizeof(float);
+  const std::size_t record_length = header.record_length + appended_bytes;
+  const auto no_room = [&] {
+    return Invalid(reader, absl::StrCat("has no room for ", appended_bytes, " more bytes in records of ",
+                                        header.record_length, "; remove some of its extra bytes"));
+  };
+  if (record_length > std::numeric_limits<std::uint16_t>::max()) return no_room();
+
+  LasHead head{.bytes = std::string(input.substr(0, header.header_size)),
+               .record = {},
+               .replaced = description->replaced};
+  std::uint64_t vlr_count = 0;
+  const auto add = [&](std::string_view vlr) {
+    head.bytes += vlr;
+    ++vlr_count;
+  };
+  for (const VlrEntry& vlr : reader.vlrs()) {
+    if (!IsKept(reader, vlr)) continue;
+    if (vlr.Is(kSpecUser, kExtraBytesRecord)) {
+      std::string extended(input.substr(vlr.offset, kVlrHeaderSize));
+      Store(static_cast<std::uint16_t>(data.size()), extended.data() + kVlrLengthField);
+      add(extended + data);
+    } else {
+      add(input.substr(vlr.offset, vlr.end() - vlr.offset));
+    }
+  }
+  if (!existing->has_value()) add(Vlr(reader, kSpecUser, kExtraBytesRecord, "Extra Bytes", data));
+  if (kind == LasKind::kLaz) {
+    const std::size_t points = std::clamp<std::size_t>(kChunkBytes / record_length, 1, laz::kCommonChunkSize);
+    head.record = laz::RecordFor(header.point_format, record_length, static_cast<std::uint32_t>(points));
+    add(Vlr(reader, laz::kLaszipUser, laz::kLaszipRecordId, "LASzip record",
+            laz::LaszipRecordData(*head.record)));
+  }
+  head.bytes += input.substr(reader.vlrs().empty() ? header.header_size : reader.vlrs().back().end());
+
+  const int mark = kind == LasKind::kLaz ? laz::kCompressedFlag : 0;
+  bool fits = Set<std::uint32_t>(las_field::kVlrCount, vlr_count, head.bytes) &&
+              Set<std::uint32_t>(las_field::kOffsetToPoints, head.bytes.size(), head.bytes) &&
+              Set<std::uint16_t>(las_field::kRecordLength, record_length, head.bytes) &&
+              Set<std::uint8_t>(las_field::kPointFormat,
+                                static_cast<std::uint64_t>(header.point_format | mark), head.bytes);
+  if (header.evlr_count > 0)
+    fits = fits && Set<std::uint32_t>(las_field::kEvlrCount, KeptEvlrs(reader), head.bytes);
+  if (!fits) return no_room();
+  return head;
+}
+
+void MoveTailStarts(const LasReader& reader, std::uint64_t from, std::uint64_t to, std::string& head) {
+  const LasHeader& header = reader.header();
+  const auto moved = [&](std::uint64_t start) { return start - from - LeftOutBefore(reader, start) + to; };
+  if (header.start_of_evlrs != 0) {
+    const std::uint64_t start = KeptEvlrs(reader) > 0 ? moved(header.start_of_evlrs) : 0;
+    Store(start, head.data() + las_field::kStartOfEvlrs);
+  }
+  if (header.start_of_waveform_packet != 0) {
+    Store(moved(header.start_of_waveform_packet), head.data() + las_field::kStartOfWaveformPacket);
+  }
+}
+
 namespace {
 
 constexpr std::size_t kCopySize = 1 << 20;

@@ -12,7 +12,6 @@
 
 #include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/arithmetic_encoder.h"
-#include "formats/laz/coding/damage.h"
 #include "formats/laz/coding/integer_coder.h"
 #include "formats/laz/coding/little_endian.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/items/laszip_record.h"
 
 namespace albtpu::laz {

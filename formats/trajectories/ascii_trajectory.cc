@@ -11,7 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "formats/files/mapped_file.h"
 #include "formats/trajectories/ascii_columns.h"
-#include "formats/trajectories/gps_time.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"
 
 namespace albtpu::formats {

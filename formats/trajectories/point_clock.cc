@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "formats/trajectories/gps_time.h"
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "absl/strings/str_format.h"
-#include "formats/trajectories/velocity_check.h"
+#include "formats/trajectories/ascii_motion.h"
 #include "sea/angle.h"
 
 namespace albtpu::formats {

@@ -10,8 +10,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "formats/csv/csv_reader.h"
-#include "formats/text/number_text.h"
-#include "formats/trajectories/gps_time.h"
+#include "formats/text/text.h"
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

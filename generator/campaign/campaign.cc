@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "formats/text/one_line.h"
+#include "formats/text/text.h"
 #include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/campaign_file.h"
 #include "generator/campaign/campaign_keys.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "generator/campaign/traced_sea.h"
+#include "generator/campaign/campaign_axes.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/beam.h"
 #include "sea/sea_state.h"

@@ -13,8 +13,8 @@
 
 #include "generator/campaign/campaign_file.h"
 #include "generator/surface/discretization.h"
-#include "sea/response/refraction.h"
-#include "sea/wave_state.h"
+#include "sea/response/closed_form.h"
+#include "sea/sea_state.h"
 
 namespace albtpu {
 

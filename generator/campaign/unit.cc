@@ -6,14 +6,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "generator/campaign/byte_stream.h"
 #include "generator/campaign/water_cases.h"
-#include "generator/math/instruction_set.h"
+#include "generator/math/random_stream.h"
 #include "tables/digest.h"
 #include "tables/version.h"
 
 namespace albtpu {
-
 // Each struct is unpacked by name, so that one with a new field does not compile until the field is added here.
 
 template <typename Stream, SameStruct<Estimate> Self>

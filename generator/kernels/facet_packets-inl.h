@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "generator/kernels/ray_bundle.h"
-#include "generator/surface/height_field.h"
+#include "generator/surface/ray_tracer.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace albtpu {

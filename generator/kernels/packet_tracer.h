@@ -7,9 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "generator/kernels/packet_sums.h"
 #include "generator/kernels/ray_bundle.h"
-#include "generator/surface/height_field.h"
 #include "generator/surface/ray_tracer.h"
 
 namespace albtpu {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace albtpu {
 
@@ -53,5 +54,11 @@ class UniformStream {
   std::array<std::uint32_t, 4> words_;
   std::size_t used_ = words_.size();
 };
+
+// The instruction set on which this machine runs FFTW, the C library and the kernels.
+
+// The microarchitecture level of the x86-64 psABI ("x86-64-v3"), or the name of another architecture. FFTW and the C
+// library choose their code by it, so the last bit of a result depends on it.
+std::string InstructionSet();
 
 }  // namespace albtpu

@@ -7,10 +7,9 @@
 #include "generator/kernels/fast_surface.h"
 #include "generator/kernels/packet_tracer.h"
 #include "generator/monte_carlo/beam_tracing.h"
-#include "generator/monte_carlo/height_slope_product.h"
+#include "generator/monte_carlo/slope_moments.h"
 #include "generator/surface/ray_tracer.h"
-#include "sea/response/refraction.h"
-#include "sea/response/unresolved_waves.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

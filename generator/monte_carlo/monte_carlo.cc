@@ -17,7 +17,7 @@ namespace albtpu {
 namespace {
 
 // The relative error of values below 0.01 degrees and 1 mm does not matter. These are a tenth less, because balancing
-// (generator/campaign/node_balance.h) raises some values by a few per cent.
+// (generator/campaign/table_maker.h) raises some values by a few per cent.
 const double kNegligibleAngle = RadiansOfDegrees(0.009);
 constexpr double kNegligibleLength = 0.9e-3;  // m
 

@@ -1,6 +1,7 @@
 // The ranks of one program started by `mpirun`, and messages between them. A build without MPI has one rank.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,5 +43,13 @@ class Ranks {
 
 // This process as the only rank.
 std::unique_ptr<Ranks> OneRank();
+
+// Detects from the environment whether a launcher started this process as one of several ranks of one program.
+
+// The number of ranks, or a lower bound where the launcher does not state it; nullopt where no launcher of ranks
+// started this process. Considers only the variables of mpirun, mpiexec and `srun --mpi`: the tasks of a Slurm array
+// are not ranks.
+std::optional<int> LaunchedRanks(const std::function<const char*(const char*)>& environment);
+std::optional<int> LaunchedRanks();  // by getenv
 
 }  // namespace albtpu

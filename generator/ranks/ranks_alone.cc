@@ -1,6 +1,5 @@
 // A build without MPI: one rank. Refuses to run as one of several.
 #include "absl/strings/str_cat.h"
-#include "generator/ranks/launcher.h"
 #include "generator/ranks/ranks.h"
 
 namespace albtpu {

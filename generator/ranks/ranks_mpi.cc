@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "absl/strings/str_cat.h"
-#include "generator/ranks/launcher.h"
 #include "generator/ranks/ranks.h"
 
 namespace albtpu {

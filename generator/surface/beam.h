@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sea/response/footprint.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 

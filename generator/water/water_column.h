@@ -10,7 +10,7 @@
 
 #include "generator/math/statistics.h"
 #include "generator/water/bottom_detector.h"
-#include "generator/water/phase_function.h"
+#include "generator/water/photon_walk.h"
 
 namespace albtpu {
 

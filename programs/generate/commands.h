@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "generator/campaign/traced_sea.h"
-#include "sea/wave_state.h"
+#include "generator/campaign/campaign_axes.h"
+#include "sea/sea_state.h"
 
 namespace albtpu::programs {
 

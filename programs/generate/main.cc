@@ -13,14 +13,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/text/usage_error.h"
-#include "programs/command_line/checks.h"
-#include "programs/command_line/help.h"
-#include "programs/command_line/standard_output.h"
-#include "programs/command_line/usage_error.h"
+#include "programs/command_line/command_line.h"
 #include "programs/generate/commands.h"
-#include "programs/generate/flags.h"
 #include "programs/generate/point_flags.h"
-#include "programs/generate/water_point_flags.h"
 #include "tables/version.h"
 
 namespace {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "absl/strings/str_split.h"
-#include "generator/campaign/traced_sea.h"
+#include "generator/campaign/campaign_axes.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "programs/generate/commands.h"
 #include "sea/angle.h"
+#include "sea/sea_state.h"
 #include "sea/table/sea_attributes.h"
-#include "sea/wave_state.h"
 
 namespace albtpu::programs {
 namespace {

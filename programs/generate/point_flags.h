@@ -6,6 +6,24 @@
 
 namespace albtpu::programs {
 
+// Flags of more than one command of albtpu-generate.
+
+// The heading of --help under which options of the computation stand.
+inline constexpr char kWork[] = "The computation";
+
+// A finite number in a range that includes both ends, or not `least` if `open_below`. CLI11 parses "nan" and "inf" as
+// numbers.
+CLI::Validator NumberIn(double least, double most, bool open_below = false);
+
+// A seed of random numbers.
+CLI::Validator Seed();
+
+void AddThreads(CLI::App& command, int& threads);
+
+// The flags of albtpu-generate water-point.
+
+void AddWaterPoint(CLI::App& point, WaterPointOptions& options, int& threads);
+
 void AddPoint(CLI::App& point, PointOptions& options, int& threads);
 
 }  // namespace albtpu::programs

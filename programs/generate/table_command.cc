@@ -1,19 +1,95 @@
+#include "programs/generate/table_command.h"
+
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "formats/text/text.h"
+#include "generator/campaign/provenance.h"
 #include "generator/campaign/table_maker.h"
 #include "generator/campaign/unit_work.h"
-#include "generator/campaign/work_folder.h"
+#include "generator/campaign/water_cases.h"
 #include "generator/ranks/ranks.h"
 #include "programs/generate/commands.h"
-#include "programs/generate/progress.h"
-#include "programs/generate/table_output.h"
+#include "tables/file/table_io.h"
 
 namespace albtpu::programs {
+absl::Status RunMerge(const MergeOptions& options) {
+  const absl::StatusOr<WorkFolder> work = WorkFolder::OpenExisting(options.work);
+  if (!work.ok()) return work.status();
+  const absl::StatusOr<Campaign> campaign = work->ReadCampaign();
+  if (!campaign.ok()) return campaign.status();
+  if (const absl::Status status = CheckOutput(options.output, options.overwrite); !status.ok()) return status;
+
+  const std::vector<UnitId> units = UnitsOf(*campaign);
+  const absl::StatusOr<std::vector<UnitId>> finished = work->Finished(units);
+  if (!finished.ok()) return finished.status();
+  if (finished->size() < units.size()) {
+    const auto missing = std::mismatch(units.begin(), units.end(), finished->begin(), finished->end()).first;
+    return absl::FailedPreconditionError(absl::StrCat(
+        options.work.string(), ": has ", finished->size(), " of ", units.size(), " units, ", Name(*missing),
+        " is the first that is missing; compute it with `table --work --resume`, or with its shard"));
+  }
+  TableBuilder builder(*campaign);
+  {
+    Progress progress(absl::StrCat("albtpu-generate: reading units of '", campaign->id, "'"), units.size());
+    std::size_t done = 0;
+    const absl::Status read = work->Read(units, [&](UnitId unit, const std::string& bytes) {
+      progress.Reach(++done);
+      return builder.Add(unit, bytes);
+    });
+    if (!read.ok()) return read;
+  }
+  const absl::StatusOr<Table> table = builder.Build();
+  if (!table.ok()) return table.status();
+  return Publish(*table, options.output, options.overwrite);
+}
+
+namespace {
+
+constexpr std::chrono::milliseconds kRedraw(100);
+constexpr std::chrono::seconds kPlainLine(10);
+constexpr std::size_t kBarWidth = 30;
+
+}  // namespace
+
+Progress::Progress(std::string label, std::size_t total)
+    : label_(std::move(label)),
+      total_(total),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_shown_(start_) {}
+
+Progress::~Progress() {
+  if (terminal_) std::fprintf(stderr, "\r\033[K");
+}
+
+void Progress::Reach(std::size_t done) {
+  const Clock::time_point now = Clock::now();
+  if (done == 0 || now - last_shown_ < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kPlainLine)))
+    return;
+  last_shown_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double left = elapsed * static_cast<double>(total_ - done) / static_cast<double>(done);
+  if (terminal_) {
+    const std::string bar(kBarWidth * done / total_, '#');
+    std::fprintf(stderr, "\r%s [%-*s] %zu of %zu, %.0f s left\033[K", label_.c_str(),
+                 static_cast<int>(kBarWidth), bar.c_str(), done, total_, left);
+  } else {
+    std::fprintf(stderr, "%s: %zu of %zu, %.0f s left\n", label_.c_str(), done, total_, left);
+  }
+}
+
 namespace {
 
 // The units that this shard computes; all without a shard.
@@ -125,6 +201,95 @@ absl::Status RunTable(const TableOptions& options) {
     ranks.EndAll();
   }
   return status;
+}
+
+namespace {
+
+// A table with a larger interpolation error (rms, relative) is coarse compared with the approximations of the model.
+constexpr double kCoarse = 0.02;
+constexpr double kMostWithin = 0.99;
+
+// The attribute interpolation_error_NAME: rms, 99th percentile, maximum, noise, number of pulses.
+void PrintInterpolationErrors(const Provenance& provenance) {
+  std::string coarse;
+  for (const Quantity quantity : kChecked) {
+    const std::string quantity_name(Describe(quantity).name);
+    const auto attribute = provenance.attributes.find("interpolation_error_" + quantity_name);
+    if (attribute == provenance.attributes.end()) continue;
+    const auto& numbers = std::get<std::vector<double>>(attribute->second);
+    const double rms = numbers[0], percentile_99 = numbers[1], pulses = numbers[4];
+    std::cout << attribute->first << ' ';
+    if (pulses == 0) {
+      std::cout << "not known (no checked pulse has at least 0.01 degrees or 5 mm)\n";
+      continue;
+    }
+    std::cout << formats::PercentText(rms) << " rms, " << formats::PercentText(percentile_99)
+              << " at the 99th percentile of " << pulses << " pulses\n";
+    if (rms > kCoarse)
+      absl::StrAppend(&coarse, coarse.empty() ? "" : ", ", quantity_name, " ", formats::PercentText(rms));
+  }
+  if (coarse.empty()) return;
+  std::cerr << "albtpu-generate: warning: the table is coarse (its values between nodes are off by more than "
+            << formats::PercentText(kCoarse) << " rms: " << coarse << "); give its axes more nodes\n";
+}
+
+// The same for the water column: rms, fraction within 3 mm or 4 %, maximum, noise, number of beams.
+void PrintErrorsOfWater(const Provenance& provenance) {
+  bool coarse = false;
+  for (std::size_t bias = 0; bias < kCheckedBiases; ++bias) {
+    const std::string name = "interpolation_error_" + std::string(kWaterColumn.quantities[bias].name);
+    const auto& numbers = std::get<std::vector<double>>(provenance.attributes.at(name));
+    std::cout << name << ' '
+              << absl::StrFormat("%.1f mm rms, %.1f mm greatest, %.1f %% of %.0f beams within 3 mm or 4 %%\n",
+                                 1000 * numbers[0], 1000 * numbers[2], 100 * numbers[1], numbers[4]);
+    coarse = coarse || numbers[1] < kMostWithin;
+  }
+  if (!coarse) return;
+  std::cerr << "albtpu-generate: warning: the table is coarse (its values between nodes are off by more than "
+               "3 mm and "
+               "4 % at more than one beam in a hundred); give its axes more nodes\n";
+}
+
+}  // namespace
+
+absl::Status CheckOutput(const std::filesystem::path& output, bool overwrite) {
+  const std::string name = output.string();
+  std::error_code error;
+  const std::filesystem::file_status there = std::filesystem::status(output, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    return absl::InvalidArgumentError(absl::StrCat(name, ": is not a regular file; name a file to write"));
+  }
+  if (std::filesystem::exists(there) && !overwrite) {
+    return absl::AlreadyExistsError(absl::StrCat(name, ": exists already; --overwrite replaces it"));
+  }
+  const std::filesystem::path folder =
+      output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, error)) {
+    return absl::NotFoundError(
+        absl::StrCat(name, ": there is no folder ", folder.string(), "; create it, or name another file"));
+  }
+  std::string probe = (folder / ".albtpu-probe-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0) {
+    return absl::PermissionDeniedError(
+        absl::StrCat(name, ": the folder ", folder.string(), " is not writable: ", std::strerror(errno)));
+  }
+  close(file);
+  unlink(probe.c_str());
+  return absl::OkStatus();
+}
+
+absl::Status Publish(const Table& table, const std::filesystem::path& output, bool overwrite) {
+  const absl::Status written = WriteTable(table, output, overwrite ? Existing::kReplace : Existing::kKeep);
+  if (!written.ok()) return written;
+  std::cout << "id " << table.provenance().id << "\nversion " << table.provenance().version << "\ndigest "
+            << table.digest() << '\n';
+  if (&table.schema() == &kWaterColumn) {
+    PrintErrorsOfWater(table.provenance());
+  } else {
+    PrintInterpolationErrors(table.provenance());
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace albtpu::programs

@@ -5,9 +5,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/totals/water_column.h"
-#include "programs/command_line/checks.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
 
 namespace albtpu::programs {

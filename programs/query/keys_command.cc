@@ -7,11 +7,15 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "config/key_reference.h"
-#include "programs/command_line/help.h"
-#include "programs/command_line/standard_output.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "annotate/run/file_progress.h"
+#include "config/sensors/sensor.h"
+#include "config/survey_settings.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
+#include "service/printable_text.h"
 
 namespace albtpu::programs {
 namespace {
@@ -85,6 +89,127 @@ void AddKeysCommand(CLI::App& program, Run& run) {
   command->add_flag("--json", *json, "Print one JSON object with an array `keys`")->group(group::kOutput);
   EndHelp(*command, "", "", "--json");
   command->callback([json, &run] { run = [json] { return RunKeys(*json); }; });
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct SensorsCommandOptions {
+  std::string name;
+  bool json = false;
+};
+
+std::string DivergenceText(const config::SourcedDivergence& divergence) {
+  std::string text = absl::StrCat(divergence.value);
+  if (divergence.least.has_value())
+    absl::StrAppend(&text, " (", *divergence.least, " to ", *divergence.greatest, ")");
+  return text;
+}
+
+std::string Row(const config::Sensor& sensor) {
+  const auto number = [&](double AirErrors::*source) {
+    return sensor.errors.Has(source) ? absl::StrCat(sensor.errors.values.*source) : "-";
+  };
+  return absl::StrFormat("%-26s%-42s%10s%14s%16s\n", PrintableText(sensor.name), PrintableText(sensor.title),
+                         number(&AirErrors::scan), number(&AirErrors::bottom_range),
+                         sensor.divergence.has_value() ? DivergenceText(*sensor.divergence) : "-");
+}
+
+std::string Rows(const std::vector<config::Sensor>& sensors) {
+  std::string text = absl::StrFormat("%-26s%-42s%10s%14s%16s\n%78s%14s%16s\n", "name", "title", "scan",
+                                     "bottom_range", "divergence", "degree", "m", "mrad");
+  for (const config::Sensor& sensor : sensors) absl::StrAppend(&text, Row(sensor));
+  return text;
+}
+
+std::string Text(const config::Sensor& sensor) {
+  std::string text = absl::StrCat(PrintableText(sensor.name), ": ", PrintableText(sensor.title), "\n");
+  const auto line = [&text](std::string_view key, const std::string& value, std::string_view unit,
+                            const std::string& source) {
+    absl::StrAppendFormat(&text, "  %-14s %s %s, %s\n", key, value, unit, PrintableText(source));
+  };
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    if (!sensor.errors.stated[i]) continue;
+    const ErrorSource& source = kErrorSources[i];
+    const std::string numbers = absl::StrJoin(source.In(sensor.errors.values), ", ");
+    line(source.name, source.size() > 1 ? absl::StrCat("[", numbers, "]") : numbers, source.unit,
+         sensor.origins[i]);
+  }
+  if (const auto& known = sensor.divergence)
+    line("divergence", DivergenceText(*known), "mrad", known->source);
+  std::vector<std::string> unknown = config::UnknownOf(sensor);
+  const bool no_divergence = std::erase(unknown, "divergence") > 0;
+  if (!unknown.empty()) {
+    absl::StrAppend(
+        &text, "  not known; give it in [sigma] of the survey file: ", absl::StrJoin(unknown, ", "), "\n");
+  }
+  if (no_divergence) absl::StrAppend(&text, "  not known; give it by --divergence: divergence\n");
+  return text;
+}
+
+ordered_json Json(const config::Sensor& sensor) {
+  ordered_json json = {{"name", sensor.name}, {"title", sensor.title}};
+  for (std::size_t i = 0; i < kErrorSourceCount; ++i) {
+    if (!sensor.errors.stated[i]) continue;
+    const ErrorSource& source = kErrorSources[i];
+    const std::span<const double> numbers = source.In(sensor.errors.values);
+    ordered_json value = numbers[0];
+    if (numbers.size() > 1) value = numbers;
+    json[std::string(source.name)] = {
+        {"value", value}, {"unit", std::string(source.unit)}, {"source", sensor.origins[i]}};
+  }
+  if (const auto& known = sensor.divergence) {
+    ordered_json& divergence = json["divergence"] = {{"value", known->value}};
+    if (known->least.has_value())
+      divergence["least"] = *known->least, divergence["greatest"] = *known->greatest;
+    divergence["unit"] = "mrad";
+    divergence["source"] = known->source;
+  }
+  json["unknown"] = config::UnknownOf(sensor);
+  return json;
+}
+
+absl::Status RunSensors(const SensorsCommandOptions& options) {
+  if (!options.name.empty()) {
+    const absl::StatusOr<config::Sensor> sensor = config::FindSensor(options.name);
+    if (!sensor.ok()) return sensor.status();
+    std::cout << (options.json ? Json(*sensor).dump(2) + "\n" : Text(*sensor));
+    return FlushStandardOutput();
+  }
+  const absl::StatusOr<std::vector<config::Sensor>> sensors = config::ListSensors();
+  if (!sensors.ok()) return sensors.status();
+  if (sensors->empty()) {
+    annotate::Note(absl::StrCat("there are no sensors in ", config::SensorsDirectory().string(),
+                                "; name their folder by the environment variable ALBTPU_SENSORS"));
+  }
+  if (options.json) {
+    ordered_json json = {{"sensors", ordered_json::array()}};
+    for (const config::Sensor& sensor : *sensors) json["sensors"].push_back(Json(sensor));
+    std::cout << json.dump(2) << "\n";
+  } else if (!sensors->empty()) {
+    std::cout << Rows(*sensors);
+  }
+  return FlushStandardOutput();
+}
+
+}  // namespace
+
+void AddSensorsCommand(CLI::App& program, Run& run) {
+  const auto options = std::make_shared<SensorsCommandOptions>();
+  CLI::App* command =
+      program.add_subcommand("sensors", "List the sensors that are known, or show one with its sources");
+  command->add_option("name", options->name, "A sensor, or the path of its file; without it, all are listed")
+      ->type_name("NAME")
+      ->check(NotEmpty("sensor"));
+  command->add_flag("--json", options->json, "Print one JSON object; of all sensors, with an array `sensors`")
+      ->group(group::kOutput);
+  EndHelp(*command,
+          "Numbers are standard deviations; the divergence is the full angle. What no source gives is not "
+          "known.\n"
+          "The environment variable ALBTPU_SENSORS names another folder of sensors.",
+          "riegl-vq-880-g", "my_sensor.toml --json");
+  command->callback([options, &run] { run = [options] { return RunSensors(*options); }; });
 }
 
 }  // namespace albtpu::programs

@@ -9,7 +9,7 @@
 #include "absl/strings/str_join.h"
 #include "annotate/las/las_annotation.h"
 #include "annotate/run/annotation_run.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
 #include "programs/query/commands.h"
 #include "programs/query/las_options.h"

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
-#include "config/sensors/installed_sensors.h"
+#include "config/sensors/sensor.h"
 #include "formats/las/las_points.h"
-#include "programs/command_line/help.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 

@@ -7,7 +7,7 @@
 #include "absl/status/statusor.h"
 #include "annotate/las/las_annotation.h"
 #include "annotate/run/file_jobs.h"
-#include "formats/las/las_kind.h"
+#include "formats/las/las_reader.h"
 #include "programs/command_line/cli_fwd.h"
 #include "programs/query/beam_options.h"
 #include "programs/query/source_options.h"

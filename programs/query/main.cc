@@ -7,10 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
-#include "annotate/run/exit_status.h"
-#include "programs/command_line/help.h"
-#include "programs/command_line/standard_output.h"
-#include "programs/command_line/usage_error.h"
+#include "annotate/run/file_progress.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/report_commands.h"
 #include "tables/version.h"

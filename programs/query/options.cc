@@ -7,8 +7,8 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "formats/text/number_text.h"
-#include "programs/command_line/checks.h"
+#include "formats/text/text.h"
+#include "programs/command_line/command_line.h"
 
 namespace albtpu::programs {
 namespace {

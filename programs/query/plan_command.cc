@@ -10,18 +10,14 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/run/exit_status.h"
 #include "annotate/run/file_progress.h"
 #include "annotate/totals/plan_total.h"
-#include "programs/command_line/checks.h"
-#include "programs/command_line/help.h"
-#include "programs/command_line/standard_output.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "programs/query/survey_flags.h"
 #include "quality/planning/survey_plan.h"
 #include "quality/report/report_folder.h"
-#include "quality/report/report_page.h"
 
 namespace albtpu::programs {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/answers/interpolation_error.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/seas/sea_facts.h"
 #include "sea/sea_time.h"
 #include "service/client/local_source.h"

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/run/exit_status.h"
-#include "config/key_reference.h"
-#include "config/survey_file.h"
-#include "programs/command_line/checks.h"
+#include "annotate/run/file_progress.h"
+#include "config/survey_settings.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/options.h"
 
 namespace albtpu::programs {

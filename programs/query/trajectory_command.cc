@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/run/exit_status.h"
-#include "programs/command_line/checks.h"
-#include "programs/command_line/help.h"
-#include "programs/command_line/standard_output.h"
+#include "annotate/run/file_progress.h"
+#include "programs/command_line/command_line.h"
 #include "programs/query/commands.h"
 #include "programs/query/options.h"
 #include "programs/query/trajectory_summary.h"

@@ -10,13 +10,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "formats/files/mapped_file.h"
+#include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/ascii_trajectory.h"
-#include "formats/trajectories/gps_time.h"
 #include "formats/trajectories/sbet_file.h"
-#include "formats/trajectories/smrmsg_file.h"
-#include "formats/trajectories/velocity_check.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "sea/angle.h"
 #include "service/printable_text.h"
 

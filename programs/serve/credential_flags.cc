@@ -3,8 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "absl/strings/str_cat.h"
-#include "programs/command_line/checks.h"
-#include "programs/command_line/help.h"
+#include "programs/command_line/command_line.h"
 
 namespace albtpu::programs {
 namespace {

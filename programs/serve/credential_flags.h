@@ -4,7 +4,7 @@
 #include "absl/status/status.h"
 #include "programs/command_line/cli_fwd.h"
 #include "service/server/access/credentials.h"
-#include "service/server/ground/listen_address.h"
+#include "service/server/ground/listening_sockets.h"
 
 namespace albtpu::programs {
 

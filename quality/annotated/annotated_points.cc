@@ -14,11 +14,9 @@
 #include "annotate/answers/batch.h"
 #include "annotate/beams/beam_plan.h"
 #include "annotate/run/file_jobs.h"
-#include "annotate/run/summary_file.h"
 #include "formats/crs/map_frame.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
-#include "formats/las/las_point_runs.h"
 #include "formats/las/las_points.h"
 #include "formats/laz/coding/little_endian.h"
 

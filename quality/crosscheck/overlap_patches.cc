@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 
 namespace albtpu::quality {
 namespace {
@@ -99,6 +102,111 @@ void OverlapPatches::Fill(std::span<const AnnotatedPoint> points) {
                             .incidence = point.incidence,
                             .line = static_cast<std::uint16_t>(point.line)});
   }
+}
+
+namespace {
+
+using Line = std::span<const PatchPoint>;
+
+struct Slope {
+  double x = 0, y = 0;            // m in a metre.
+  double xx = 0, yy = 0, xy = 0;  // Their covariance.
+};
+
+// The common slope of the lines: least squares of what is left of x, y and z without the means of each line.
+std::optional<Slope> FitSlope(const std::vector<Line>& lines) {
+  double sxx = 0, syy = 0, sxy = 0, sxz = 0, syz = 0, szz = 0;
+  std::size_t count = 0;
+  for (const Line& line : lines) {
+    const auto n = static_cast<double>(line.size());
+    double mx = 0, my = 0, mz = 0;
+    for (const PatchPoint& point : line) mx += point.x / n, my += point.y / n, mz += point.z / n;
+    for (const PatchPoint& point : line) {
+      const double x = point.x - mx, y = point.y - my, z = point.z - mz;
+      sxx += x * x, syy += y * y, sxy += x * y, sxz += x * z, syz += y * z, szz += z * z;
+    }
+    count += line.size();
+  }
+  const double determinant = sxx * syy - sxy * sxy;
+  const std::size_t unknowns = lines.size() + 2;
+  // Points nearly in one straight line do not determine the slope across it.
+  if (count <= unknowns || !(determinant > 1e-3 * sxx * syy)) return std::nullopt;
+  Slope slope;
+  slope.x = (syy * sxz - sxy * syz) / determinant;
+  slope.y = (sxx * syz - sxy * sxz) / determinant;
+  const double left =
+      std::max(szz - slope.x * sxz - slope.y * syz, 0.0) / static_cast<double>(count - unknowns);
+  slope.xx = left * syy / determinant;
+  slope.yy = left * sxx / determinant;
+  slope.xy = -left * sxy / determinant;
+  return slope;
+}
+
+struct HeightVariance {
+  double air = 0, sea = 0;  // m^2
+};
+
+// Of the height of a point above a plane of this slope: g' C g with g = (-slope_x, -slope_y, 1), because a point that
+// lies too far down the slope is too high above it.
+HeightVariance AboveSlope(const PatchPoint& point, const Slope& slope) {
+  const double added = slope.x * slope.x * point.xx + slope.y * slope.y * point.yy +
+                       2 * slope.x * slope.y * point.xy - 2 * (slope.x * point.xz + slope.y * point.yz);
+  const double level = point.variance_air + point.variance_sea;
+  if (added < 0) {
+    const double left = level > 0 ? std::max(1 + added / level, 0.0) : 0;
+    return {left * point.variance_air, left * point.variance_sea};
+  }
+  return {point.variance_air + (1 - point.sea_in_horizontal) * added,
+          point.variance_sea + point.sea_in_horizontal * added};
+}
+
+CrossPair NearestPair(const Patch& patch, const Line& a, const Line& b, const Slope& slope) {
+  const PatchPoint *nearest_a = &a[0], *nearest_b = &b[0];
+  float least = std::numeric_limits<float>::infinity();
+  for (const PatchPoint& of_a : a) {
+    for (const PatchPoint& of_b : b) {
+      const float dx = of_a.x - of_b.x, dy = of_a.y - of_b.y, squared = dx * dx + dy * dy;
+      if (squared >= least) continue;
+      least = squared;
+      nearest_a = &of_a;
+      nearest_b = &of_b;
+    }
+  }
+  const double dx = nearest_a->x - nearest_b->x, dy = nearest_a->y - nearest_b->y;
+  const HeightVariance of_a = AboveSlope(*nearest_a, slope), of_b = AboveSlope(*nearest_b, slope);
+  const double slope_error = slope.xx * dx * dx + slope.yy * dy * dy + 2 * slope.xy * dx * dy;
+  return {.line_a = nearest_a->line,
+          .line_b = nearest_b->line,
+          .x = patch.x,
+          .y = patch.y,
+          .difference = static_cast<float>(nearest_a->z - nearest_b->z - slope.x * dx - slope.y * dy),
+          .distance = std::sqrt(least),
+          .variance_air = static_cast<float>(of_a.air + of_b.air),
+          .variance_sea = static_cast<float>(of_a.sea + of_b.sea),
+          .variance_slope = static_cast<float>(slope_error),
+          .depth = (nearest_a->depth + nearest_b->depth) / 2,
+          .incidence = (nearest_a->incidence + nearest_b->incidence) / 2};
+}
+
+}  // namespace
+
+void AppendPairs(Patch& patch, std::vector<CrossPair>& pairs) {
+  std::ranges::stable_sort(patch.points, {}, &PatchPoint::line);
+  std::vector<Line> lines;
+  for (std::size_t begin = 0; begin < patch.points.size();) {
+    std::size_t end = begin + 1;
+    while (end < patch.points.size() && patch.points[end].line == patch.points[begin].line) ++end;
+    if (end - begin >= kMinPoints) lines.push_back(Line(patch.points).subspan(begin, end - begin));
+    begin = end;
+  }
+  if (lines.size() < 2) return;
+  const std::optional<Slope> slope = FitSlope(lines);
+  if (!slope.has_value()) return;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      CrossPair pair = NearestPair(patch, lines[i], lines[j], *slope);
+      if (pair.variance_air + pair.variance_sea > 0) pairs.push_back(pair);
+    }
 }
 
 }  // namespace albtpu::quality

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -42,5 +44,18 @@ class NewFolder {
 // The same for plan.json and plan.html of a planned survey.
 absl::Status WritePlan(const nlohmann::ordered_json& plan, bool with_page,
                        const std::filesystem::path& folder);
+
+// The page of a report or a plan, which the Python package draws: python3 -m albtpu.report FOLDER.
+
+// FailedPrecondition where Python or one of the packages that draw the page is missing, with what to install.
+absl::Status CheckPageCanBeDrawn();
+
+// Makes report.html in `folder` from report.json and grid.nc in it, or plan.html from plan.json.
+absl::Status DrawPage(const std::filesystem::path& folder);
+
+// The verdict of a report in some lines, for the terminal.
+
+// `report` is SurveyReport::json.
+std::string ReportText(const nlohmann::ordered_json& report);
 
 }  // namespace albtpu::quality

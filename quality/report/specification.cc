@@ -13,8 +13,7 @@
 #include "absl/strings/str_replace.h"
 #include "annotate/answers/batch.h"
 #include "config/toml/toml_keys.h"
-#include "formats/text/near_match.h"
-#include "formats/text/one_line.h"
+#include "formats/text/text.h"
 #include "tables/default_tables.h"
 
 namespace albtpu::quality {

@@ -13,9 +13,8 @@
 #include "absl/status/statusor.h"
 #include "annotate/answers/json_box.h"
 #include "quality/annotated/annotated_points.h"
-#include "quality/crosscheck/overlap_check.h"
+#include "quality/crosscheck/cross_check.h"
 #include "quality/report/grid_file.h"
-#include "quality/report/point_tally.h"
 #include "quality/report/specification.h"
 #include "quality/report/survey_grid.h"
 

@@ -8,9 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "sea/angle.h"
-#include "sea/files/ndbc_header.h"
 #include "sea/files/ndbc_spectra.h"
-#include "sea/files/sea_limits.h"
+#include "sea/files/ndbc_table.h"
+#include "sea/files/sea_csv.h"
 #include "sea/files/text_lines.h"
 #include "sea/spectra/equilibrium_wind.h"
 #include "sea/spectra/jonswap.h"

@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "sea/files/gzip.h"
 #include "sea/files/ndbc_bulk.h"
 #include "sea/files/ndbc_spectra.h"
 #include "sea/files/ndbc_table.h"
 #include "sea/files/sea_csv.h"
-#include "sea/files/sea_limits.h"
 #include "sea/files/swan_spectra.h"
 #include "sea/files/text_lines.h"
 #include "sea/files/ww3_points.h"

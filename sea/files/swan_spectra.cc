@@ -7,9 +7,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "sea/angle.h"
-#include "sea/files/sea_limits.h"
-#include "sea/files/spectral_grid.h"
-#include "sea/files/word_stream.h"
+#include "sea/files/sea_csv.h"
+#include "sea/files/text_lines.h"
+#include "sea/files/ww3_points.h"
 
 namespace albtpu {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 
 namespace albtpu {
@@ -63,5 +64,25 @@ std::optional<double> SecondsOfDigits(std::string_view date, std::string_view ti
 
 // A word of the file in quotes for messages, shortened and printable.
 std::string Quoted(std::string_view word);
+
+// The words of a text one after the other, where numbers may stand on any number of lines.
+
+class WordStream {
+ public:
+  explicit WordStream(std::string_view text) : lines_(text, TextLines::LastLine::kMayEndAtColumn) {}
+
+  // The next line that is not blank; nullopt at the end. Drops the rest of a line of which Numbers() took words.
+  std::optional<std::string_view> NextLine();
+
+  // The next `count` numbers, on any number of lines. `what` names one in messages: "a frequency".
+  absl::StatusOr<std::vector<double>> Numbers(std::size_t count, std::string_view what);
+
+  const TextLines& lines() const { return lines_; }
+
+ private:
+  TextLines lines_;
+  std::vector<std::string_view> words_;  // of the last line
+  std::size_t taken_ = 0;                // of these words
+};
 
 }  // namespace albtpu

@@ -1,18 +1,116 @@
 #include "sea/files/ww3_points.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "sea/angle.h"
-#include "sea/files/directional_bins.h"
-#include "sea/files/sea_limits.h"
-#include "sea/files/spectral_grid.h"
-#include "sea/files/word_stream.h"
+#include "sea/files/sea_csv.h"
+#include "sea/files/text_lines.h"
 
 namespace albtpu {
+namespace {
+
+// Of each direction, in the order given.
+std::vector<double> Widths(const std::vector<double>& directions) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const std::size_t n = directions.size();
+  const auto turned = [&](std::size_t i) {
+    const double angle = std::fmod(directions[i], kTurn);
+    return angle < 0 ? angle + kTurn : angle;
+  };
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return turned(a) < turned(b); });
+  std::vector<double> gaps(n);  // behind each, in order
+  for (std::size_t i = 0; i + 1 < n; ++i) gaps[i] = turned(order[i + 1]) - turned(order[i]);
+  gaps[n - 1] = turned(order[0]) + kTurn - turned(order[n - 1]);
+
+  const double equal = kTurn / static_cast<double>(n);
+  if (std::all_of(gaps.begin(), gaps.end(), [&](double gap) { return std::abs(gap - equal) < 0.1 * equal; }))
+    return std::vector<double>(n, equal);
+
+  std::vector<double> sorted = gaps;
+  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+  const double widest = 2 * sorted[n / 2];
+  std::vector<double> widths(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = gaps[(i + n - 1) % n], behind = gaps[i];
+    widths[order[i]] = 0.5 * ((before > widest ? behind : before) + (behind > widest ? before : behind));
+  }
+  return widths;
+}
+
+}  // namespace
+
+DirectionalBins::DirectionalBins(std::vector<double> directions)
+    : harmonics_(std::min(kSeaHarmonics, (directions.size() + 3) / 4 - 1)) {
+  assert(directions.size() >= kFewest);
+  std::array<double, kSeaHarmonics> ones;
+  ones.fill(1);
+  const std::vector<double> widths = Widths(directions);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    weights_.push_back(SymmetricEnergy(widths[i], ones, directions[i]));
+}
+
+DirectionalEnergy DirectionalBins::Sum(std::span<const double> densities) const {
+  assert(densities.size() == weights_.size());
+  DirectionalEnergy sum;
+  for (std::size_t i = 0; i < densities.size(); ++i)
+    if (densities[i] != 0) sum.Add(weights_[i], densities[i]);
+  return sum;
+}
+
+SpectralGrid::SpectralGrid(std::vector<double> frequencies, std::vector<double> directions)
+    : frequencies_(std::make_shared<const std::vector<double>>(std::move(frequencies))),
+      bins_(std::move(directions)) {}
+
+absl::StatusOr<SpectralGrid> SpectralGrid::Make(std::vector<double> frequencies,
+                                                std::vector<double> directions) {
+  if (frequencies.size() < 2 || directions.size() < DirectionalBins::kFewest)
+    return absl::InvalidArgumentError(absl::StrCat(
+        "the spectra have ", frequencies.size(), " frequencies and ", directions.size(),
+        " directions (expected at least 2 and ", DirectionalBins::kFewest, "); write them with more"));
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const bool increases = i == 0 || frequencies[i] > frequencies[i - 1];
+    if (!(increases && frequencies[i] >= kLowestFrequency && frequencies[i] <= kHighestFrequency))
+      return absl::InvalidArgumentError(
+          absl::StrCat("frequency ", i + 1, " is ", frequencies[i], " Hz (expected ", kLowestFrequency,
+                       " to ", kHighestFrequency, " Hz, increasing); get another copy of the file"));
+  }
+  return SpectralGrid(std::move(frequencies), std::move(directions));
+}
+
+absl::StatusOr<BinnedWaves> SpectralGrid::WavesOf(std::span<const double> densities, Order order) const {
+  assert(densities.size() == size());
+  const std::size_t f_count = frequencies_->size(), d_count = bins_.size();
+  std::vector<DirectionalEnergy> energies;
+  std::vector<double> at_f(d_count);
+  for (std::size_t f = 0; f < f_count; ++f) {
+    for (std::size_t d = 0; d < d_count; ++d) {
+      at_f[d] = densities[order == Order::kFrequencyFirst ? d * f_count + f : f * d_count + d];
+      if (!(at_f[d] >= 0 && at_f[d] <= kMaxDensity))
+        return absl::InvalidArgumentError(absl::StrCat("the spectrum that ends here has a density of ",
+                                                       at_f[d], " m2/Hz/rad (expected 0 to ", kMaxDensity,
+                                                       "); get another copy of the file"));
+    }
+    energies.push_back(bins_.Sum(at_f));
+  }
+  return std::make_shared<const BinnedSpectrum>(frequencies_, energies, bins_.harmonics(),
+                                                frequencies_->back());
+}
+
+BinnedWaves SpectralGrid::NoWaves() const {
+  return std::make_shared<const BinnedSpectrum>(
+      frequencies_, std::vector<DirectionalEnergy>(frequencies_->size()), 0, frequencies_->back());
+}
+
 namespace {
 
 constexpr double kLargestDirection = 2 * std::numbers::pi + 0.01;  // rad; they are rounded to 0.01

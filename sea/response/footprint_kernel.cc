@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sea/quadrature/gauss_quadrature.h"
+#include "sea/quadrature/hankel_lattice.h"
 
 namespace albtpu {
 namespace {

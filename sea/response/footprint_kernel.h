@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sea/quadrature/hankel_lattice.h"
-#include "sea/response/footprint.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 

@@ -4,9 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "sea/response/beam_spectrum.h"
 #include "sea/response/footprint_kernel.h"
-#include "sea/response/lag_covariances.h"
+#include "sea/response/slope_covariance.h"
 
 namespace albtpu {
 

@@ -4,14 +4,25 @@
 #include <cassert>
 #include <cmath>
 
-#include "sea/response/effective_gains.h"
+#include "sea/response/closed_form.h"
 #include "sea/response/footprint_shift.h"
-#include "sea/response/height_slope_covariance.h"
-#include "sea/response/lag_covariances.h"
-#include "sea/response/refraction.h"
 #include "sea/response/slope_covariance.h"
 
 namespace albtpu {
+// The tangent t of the deviation is normal with the mean b and the variance K. To third order atan t = t - t^3 / 3, and
+// the covariance of t and t^3 is 3 K^2 + 3 b^2 K: the variance of the angle is K (1 - 2 K - 2 b^2).
+// Rounding may leave a negative K across long-crested waves, as in THU and TVU.
+double BeamResponse::Refraction(int axis) const {
+  const double k = std::max(0.0, covariance_per_depth(axis, axis)), b = mean_per_depth[axis];
+  return 2 * std::sqrt(k) * (1 - k - b * b);
+}
+
+double BeamResponse::Thu(double depth) const {
+  return 2 * std::sqrt(std::max(0.0, Covariance(depth).topLeftCorner<2, 2>().trace()));
+}
+
+double BeamResponse::Tvu(double depth) const { return 2 * std::sqrt(std::max(0.0, Covariance(depth)(2, 2))); }
+
 namespace {
 
 // Of (tangent along, tangent across, secant) per depth.

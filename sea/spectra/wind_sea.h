@@ -23,7 +23,7 @@ class Cosine2sSpreading {
   double s_, normalization_;
 };
 
-// A spectrum model of the wind sea, before wind and fetch are known. kSpectrumModels of sea/wave_state.h lists all.
+// A spectrum model of the wind sea, before wind and fetch are known. kSpectrumModels of sea/sea_state.h lists all.
 struct SpectrumModel {
   std::string_view key;     // in campaign files and on the command line: "apel"
   std::string_view author;  // in reports: "Apel"

@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_join.h"
 #include "sea/angle.h"
-#include "sea/response/footprint.h"
+#include "sea/response/closed_form.h"
 #include "sea/spectra/spectrum_moments.h"
 
 namespace albtpu {

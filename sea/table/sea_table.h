@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "sea/response/footprint.h"
+#include "sea/response/closed_form.h"
 #include "sea/response/footprint_kernel.h"
-#include "sea/response/refraction.h"
 #include "sea/spectra/described_sea.h"
 #include "sea/table/beam_directions.h"
 #include "tables/uncertainty_table.h"

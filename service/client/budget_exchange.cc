@@ -14,8 +14,8 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
+#include "service/client/channel.h"
 #include "service/client/column_exchange.h"
-#include "service/client/server_error.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {

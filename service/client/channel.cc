@@ -1,12 +1,17 @@
 #include "service/client/channel.h"
 
+#include <grpcpp/client_context.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/support/channel_arguments.h>
 
+#include <chrono>
+
 #include "absl/status/status.h"
 #include "absl/strings/ascii.h"
+#include "absl/strings/cord.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "grpc/health/v1/health.grpc.pb.h"
 #include "service/text_file.h"
 
 namespace albtpu::client {
@@ -83,6 +88,64 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const std::string& ad
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kConnectMs);
   return grpc::CreateCustomChannel(address, *channel_credentials, arguments);
+}
+
+namespace {
+
+using grpc::health::v1::Health;
+using grpc::health::v1::HealthCheckResponse;
+
+// Monitoring systems do not wait longer for a health check.
+constexpr std::chrono::seconds kDeadline{4};
+
+}  // namespace
+
+absl::Status CheckHealth(const std::string& address, const Credentials& credentials) {
+  const auto channel = OpenChannel(address, credentials);
+  if (!channel.ok()) return channel.status();
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kDeadline);
+  HealthCheckResponse response;
+  const absl::Status status = FromGrpc(Health::NewStub(*channel)->Check(&context, {}, &response));
+  if (!status.ok()) return WithServerAddress(status, address);
+  if (response.status() == HealthCheckResponse::SERVING) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      absl::StrCat("server ", address, ": ", HealthCheckResponse::ServingStatus_Name(response.status()),
+                   " (it is about to stop); use another server, or start it again"));
+}
+
+namespace {
+
+absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+absl::Status FromGrpc(const grpc::Status& status) {
+  // gRPC and Abseil use the same numbers for the codes.
+  absl::Status same(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
+  if (!status.error_details().empty()) {
+    same.SetPayload(ToAbsl(kErrorDetails), absl::Cord(status.error_details()));
+  }
+  return same;
+}
+
+absl::Status WithMessage(const absl::Status& status, std::string_view message) {
+  absl::Status other(status.code(), ToAbsl(message));
+  status.ForEachPayload(
+      [&other](absl::string_view type, const absl::Cord& payload) { other.SetPayload(type, payload); });
+  return other;
+}
+
+absl::Status WithServerAddress(const absl::Status& status, const std::string& address) {
+  if (status.ok()) return status;
+  std::string message = absl::StrCat("server ", address, ": ", status.message());
+  if (absl::IsUnavailable(status)) {
+    absl::StrAppend(
+        &message,
+        "; start albtpu-serve there, check HOST:PORT, or check whether the server speaks TLS (--tls-ca)");
+  }
+  if (absl::IsUnauthenticated(status)) absl::StrAppend(&message, "; check the token (--token-file)");
+  return WithMessage(status, message);
 }
 
 }  // namespace albtpu::client

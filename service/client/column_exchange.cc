@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "service/client/answer_reader.h"
-#include "service/client/server_error.h"
+#include "service/client/channel.h"
 #include "service/client/wire.h"
 
 namespace albtpu::client {

@@ -5,8 +5,8 @@
 #include "sea/table/sea_table.h"
 #include "service/client/channel.h"
 #include "service/client/local_source.h"
-#include "service/client/sea_wire.h"
 #include "service/client/server_tables.h"
+#include "service/client/wire.h"
 
 namespace albtpu::client {
 namespace {

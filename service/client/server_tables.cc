@@ -12,8 +12,8 @@
 #include "albtpu/v1/uncertainty_service.grpc.pb.h"
 #include "budget/query/query_check.h"
 #include "service/client/budget_exchange.h"
+#include "service/client/channel.h"
 #include "service/client/column_exchange.h"
-#include "service/client/server_error.h"
 #include "service/client/wire.h"
 #include "service/seas/sea_pulses.h"
 

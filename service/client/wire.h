@@ -1,10 +1,13 @@
 // Writes queries as messages, and reads descriptions of tables from messages. answer_reader.h reads answers.
 #pragma once
 
+#include "albtpu/v1/sea.pb.h"
 #include "albtpu/v1/uncertainty_service.pb.h"
 #include "budget/query/budget_query.h"
 #include "service/client/uncertainty_source.h"
 #include "service/column_message.h"
+#include "service/seas/known_sea.h"
+#include "service/seas/sea_summary.h"
 
 namespace albtpu::client {
 
@@ -26,5 +29,12 @@ void ToWire(const BudgetOptions& options, const BudgetPulses& pulses, const Budg
 void AddPulses(const BudgetPulses& pulses, ColumnMessage& request);
 
 TableSummary FromWire(const albtpu::v1::Table& table);
+
+// Seas as messages, and their summaries from a server.
+
+// Every number of the sea, bit for bit. The server checks the limits of sea.proto.
+albtpu::v1::SeaState ToWire(const KnownSea& sea);
+
+SeaSummary FromWire(const albtpu::v1::SeaSummary& sea);
 
 }  // namespace albtpu::client

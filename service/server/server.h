@@ -9,15 +9,13 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "service/server/calls/admin_service.h"
 #include "service/server/calls/health_service.h"
 #include "service/server/calls/uncertainty_service.h"
 #include "service/server/connections/connection_gate.h"
-#include "service/server/connections/connection_watch.h"
 #include "service/server/ground/limits.h"
-#include "service/server/ground/listen_address.h"
-#include "service/server/observe/records.h"
-#include "service/server/tables/live_tables.h"
+#include "service/server/ground/listening_sockets.h"
+#include "service/server/observe/log.h"
+#include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {
 

@@ -7,10 +7,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "tables/file/dataset_storage.h"
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tables/format.h"
 
 namespace albtpu {

@@ -1,3 +1,5 @@
+#include "tables/file/table_encoder.h"
+
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include "absl/status/status.h"
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
 #include "tables/format.h"
 
 namespace albtpu {

@@ -10,7 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "tables/file/atomic_file.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 
 namespace albtpu {
 namespace {

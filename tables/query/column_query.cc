@@ -7,9 +7,7 @@
 #include <cassert>
 #include <thread>
 
-#include "tables/query/answer_writer.h"
 #include "tables/query/block_values.h"
-#include "tables/query/node_records.h"
 #include "tables/query/pulse_block.h"
 #include "tables/query/sorted_pulses.h"
 

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "config/key_reference.h"
-#include "config/survey_file.h"
+#include "config/survey_settings.h"
 
 namespace albtpu::config {
 namespace {

@@ -1,5 +1,3 @@
-#include "config/survey_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "config/survey_settings.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::config {

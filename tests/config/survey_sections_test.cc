@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "config/survey_file.h"
+#include "config/survey_settings.h"
 
 namespace albtpu::config {
 namespace {

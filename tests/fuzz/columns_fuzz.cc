@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/server/calls/message_handlers.h"
+#include "service/server/calls/query_rows.h"
 #include "service/server/ground/limits.h"
-#include "service/server/observe/records.h"
+#include "service/server/observe/log.h"
 #include "service/server/tables/wire_enums.h"
 #include "tables/file/table_io.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/strings/match.h"
-#include "annotate/answers/answer_cells.h"
+#include "annotate/answers/answer_counts.h"
 #include "annotate/csv/csv_annotation.h"
 #include "formats/csv/csv_reader.h"
 #include "service/client/local_source.h"

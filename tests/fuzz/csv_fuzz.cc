@@ -11,7 +11,7 @@
 #include "absl/strings/match.h"
 #include "annotate/csv/csv_pulses.h"
 #include "formats/csv/csv_reader.h"
-#include "formats/text/number_text.h"
+#include "formats/text/text.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

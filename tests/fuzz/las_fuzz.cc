@@ -5,14 +5,14 @@
 #include <string>
 #include <string_view>
 
-#include "annotate/beams/pair_rays.h"
+#include "annotate/beams/water_heights.h"
 #include "annotate/las/las_chunk.h"
 #include "annotate/las/las_prescan.h"
 #include "budget/beams/ray_track.h"
-#include "formats/las/annotated_head.h"
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_reader.h"
+#include "formats/las/las_writer.h"
 #include "formats/laz/coding/little_endian.h"
 #include "service/client/local_source.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -9,7 +9,6 @@
 #include "formats/las/las_crs.h"
 #include "formats/las/las_extra_bytes.h"
 #include "formats/las/las_header.h"
-#include "formats/las/las_vlr.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "formats/files/mapped_file.h"
+#include "formats/trajectories/ascii_motion.h"
 #include "formats/trajectories/sbet_file.h"
-#include "formats/trajectories/velocity_check.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/trajectory_promises.h"
 

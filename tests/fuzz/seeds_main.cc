@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "albtpu/v1/uncertainty_service.pb.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tables/water/water_schema.h"
 #include "tests/formats/las/las_builder.h"
 #include "tests/formats/trajectories/flight_text.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/trajectories/smrmsg_file.h"
+#include "formats/trajectories/sbet_file.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/trajectory_promises.h"
 

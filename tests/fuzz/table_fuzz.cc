@@ -11,7 +11,7 @@
 #include "absl/strings/string_view.h"
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tables/query/column_query.h"
 #include "tables/water/water_column_table.h"
 #include "tests/fuzz/fuzz_target.h"

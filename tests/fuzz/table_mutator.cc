@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tables/file/dataset_storage.h"
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tables/format.h"
 #include "tables/schema.h"
 #include "tests/fuzz/mutation.h"

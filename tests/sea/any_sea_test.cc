@@ -10,7 +10,7 @@
 
 #include "sea/angle.h"
 #include "sea/files/sea_file.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
 #include "sea/spectra/described_sea.h"
 #include "sea/spectra/jonswap.h"

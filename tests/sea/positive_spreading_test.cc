@@ -1,10 +1,10 @@
-#include "sea/positive_spreading.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "sea/sampled_spectrum.h"
 
 namespace albtpu {
 namespace {

@@ -6,8 +6,6 @@
 #include <memory>
 
 #include "sea/response/closed_form.h"
-#include "sea/response/footprint.h"
-#include "sea/response/refraction.h"
 #include "sea/sea_state.h"
 #include "sea/spectra/spectrum_moments.h"
 #include "tests/sea/response/seas.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sea/response/footprint.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

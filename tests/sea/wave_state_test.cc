@@ -1,5 +1,3 @@
-#include "sea/wave_state.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +5,6 @@
 #include <set>
 
 #include "sea/response/closed_form.h"
-#include "sea/response/refraction.h"
 #include "sea/sea_state.h"
 
 namespace albtpu {

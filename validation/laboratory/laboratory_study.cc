@@ -12,7 +12,6 @@
 #include "sea/sea_state.h"
 #include "validation/laboratory/laboratory_studies.h"
 #include "validation/laboratory/tank_frames.h"
-#include "validation/laboratory/tank_sensitivity.h"
 #include "validation/laboratory/virtual_tank.h"
 #include "validation/published/published_table.h"
 

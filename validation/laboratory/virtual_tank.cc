@@ -6,15 +6,94 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "generator/surface/height_field.h"
+#include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
 #include "sea/angle.h"
-#include "validation/laboratory/evolving_patch.h"
+#include "sea/response/closed_form.h"
+#include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {
+EvolvingPatch::EvolvingPatch(const SeaState& sea, double length, int size, const NormalStream& stream)
+    : transform_(size) {
+  assert(length > 0);
+  const int half = size / 2 + 1;
+  const double dk = 2 * std::numbers::pi / length;
+  modes_.assign(static_cast<std::size_t>(size) * half, {0, 0, 0});
+  std::vector<double> normals(4 * half);
+  for (int row = 0; row < size; ++row) {
+    const int i = SignedIndex(row, size);
+    if (i == size / 2) continue;
+    stream.Part(row).Fill(normals);
+    for (int j = 0; j < size / 2; ++j) {
+      if (i == 0 && j == 0) continue;
+      const double k = dk * std::hypot(i, j);
+      const double psi = std::atan2(j, i);
+      // Half of an amplitude whose real and imaginary parts each have the variance Psi dkx dky.
+      const double forward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi));
+      const double backward = 0.5 * dk * std::sqrt(sea.DirectionalPsi(k, psi + std::numbers::pi));
+      const double* normal = &normals[4 * j];
+      modes_[static_cast<std::size_t>(row) * half + j] = {
+          AngularFrequency(k), forward * std::complex<double>(normal[0], normal[1]),
+          backward * std::complex<double>(normal[2], normal[3])};
+    }
+  }
+  // Both halves of the column j = 0 are stored: each mode is the mirror of the one at -i.
+  for (int i = 1; i < size / 2; ++i) {
+    const Mode& upper = modes_[static_cast<std::size_t>(i) * half];
+    modes_[static_cast<std::size_t>(size - i) * half] = {upper.angular_frequency, std::conj(upper.backward),
+                                                         std::conj(upper.forward)};
+  }
+}
+
+std::vector<double> EvolvingPatch::HeightsAt(double time) const {
+  InverseFft::Modes amplitudes = transform_.Allocate();
+  for (std::size_t m = 0; m < modes_.size(); ++m) {
+    const std::complex<double> turn = std::polar(1.0, -modes_[m].angular_frequency * time);
+    amplitudes[m] = modes_[m].forward * turn + modes_[m].backward * std::conj(turn);
+  }
+  return transform_(std::move(amplitudes));
+}
+
+PhotodiodeArray::PhotodiodeArray(const PhotodiodeArrayOptions& options, const Eigen::Vector2d& centre)
+    : options_(options), corner_(centre.array() - 0.5 * (options.per_side - 1) * options.pitch) {
+  assert(options.per_side > 0 && options.pitch > 0);
+  assert(options.aperture > 0 && options.aperture <= options.pitch);
+}
+
+std::optional<Eigen::Vector2d> PhotodiodeArray::Centroid(const std::vector<Eigen::Vector2d>& spots) const {
+  const double radius = 0.5 * options_.aperture;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the centre of the photodiode of each hit
+  long hits = 0;
+  for (const Eigen::Vector2d& spot : spots) {
+    const Eigen::Array2d nearest = ((spot - corner_) / options_.pitch).array().round();
+    if ((nearest < 0).any() || (nearest >= options_.per_side).any()) continue;
+    const Eigen::Vector2d centre = corner_ + options_.pitch * nearest.matrix();
+    if ((spot - centre).squaredNorm() > radius * radius) continue;
+    sum += centre;
+    ++hits;
+  }
+  if (hits == 0) return std::nullopt;
+  return sum / static_cast<double>(hits);
+}
+
+std::vector<Eigen::Vector2d> SpotsAtDepth(const std::vector<Ray>& rays, const HeightField& water,
+                                          double refractive_index, double depth) {
+  std::vector<Eigen::Vector2d> spots;
+  spots.reserve(rays.size());
+  for (const Ray& ray : rays) {
+    const Hit hit = Intersect(water, ray);
+    const Eigen::Vector3d refracted =
+        Refract(ray.direction, NormalOfSlope(hit.facet.slope), refractive_index);
+    const Eigen::Vector2d tangent = refracted.head<2>() / -refracted.z();
+    spots.push_back(ray.at_zero + hit.height * ray.per_height() + (depth + hit.height) * tangent);
+  }
+  return spots;
+}
+
 namespace {
 
 // The readings of the detectors in one frame.

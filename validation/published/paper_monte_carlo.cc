@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "validation/published/published_model.h"
+#include "validation/published/published_tables.h"
 
 namespace albtpu {
 namespace {

@@ -9,7 +9,7 @@
 #include "generator/math/statistics.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "validation/published/published_angles.h"
-#include "validation/published/published_model.h"
+#include "validation/published/published_tables.h"
 
 namespace albtpu {
 

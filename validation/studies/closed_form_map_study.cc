@@ -8,8 +8,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
-#include "sea/response/refraction.h"
-#include "validation/studies/closed_form_ratio.h"
+#include "sea/response/closed_form.h"
+#include "validation/studies/corrected_waves_study.h"
 #include "validation/studies/studies.h"
 
 namespace albtpu {

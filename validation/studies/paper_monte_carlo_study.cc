@@ -7,7 +7,7 @@
 #include "absl/strings/str_format.h"
 #include "validation/published/paper_monte_carlo.h"
 #include "validation/published/published_angles.h"
-#include "validation/published/published_model.h"
+#include "validation/published/published_tables.h"
 #include "validation/published/refraction_grid.h"
 #include "validation/studies/studies.h"
 

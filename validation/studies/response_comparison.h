@@ -7,11 +7,30 @@
 #include <vector>
 
 #include "generator/monte_carlo/monte_carlo.h"
-#include "sea/response/beam_response.h"
+#include "sea/response/sea_response.h"
+#include "sea/sea_state.h"
+#include "sea/spectra/harmonic_spectrum.h"
 #include "validation/report/study.h"
-#include "validation/studies/response_seas.h"
 
 namespace albtpu {
+
+// The seas on which the response theory is compared with tracing.
+
+struct ResponseSea {
+  std::string name;
+  WaveState waves;            // as tracing draws them
+  HarmonicSpectrum spectrum;  // as the theory takes them
+};
+
+ResponseSea ResponseSeaOf(std::string name, const WindSea& waves);
+ResponseSea ResponseSeaOf(std::string name, const HarmonicSpectrum& spectrum);
+
+// Wind seas and described ones: young and old, with swell across the wind, in shallow water, isotropic, narrow and
+// without capillaries.
+std::vector<ResponseSea> ResponseSeas();
+
+// Some of them without waves much shorter than 0.2 m, so that a grid can hold all waves.
+std::vector<ResponseSea> ResolvedSeas();
 
 // One beam by the theory and by tracing, at the depths 0 and kComparedDepth.
 struct ComparedBeam {

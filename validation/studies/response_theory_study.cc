@@ -1,13 +1,182 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "sea/angle.h"
+#include "sea/response/closed_form.h"
+#include "tables/s44.h"
+#include "validation/published/angle_method.h"
+#include "validation/published/published_angles.h"
+#include "validation/published/published_table.h"
 #include "validation/studies/response_comparison.h"
 #include "validation/studies/studies.h"
 
 namespace albtpu {
+namespace {
+
+constexpr int kDraws = 10'000;  // the paper's
+
+// Half a unit of the second decimal printed, and as much again for the paper's draws, whose standard error is 1 /
+// sqrt(2 * 10,000) = 0.7 % of a value (0.0074 m for the largest).
+constexpr double kQuadratureTolerance = 0.010;  // m
+// The rounding, and three standard errors of the difference of our draws and the paper's at the largest value, 1.05 m,
+// rounded down.
+constexpr double kDrawsTolerance = 0.03;  // m
+// Half a unit of the second decimal, since a limit has no other error; 1e-9 for the rounding of binary fractions.
+constexpr double kLimitTolerance = 0.005 + 1e-9;  // m
+
+struct Table5 {
+  std::vector<double> depth, thu, thu_limit, tvu, tvu_limit;
+};
+
+absl::StatusOr<Table5> ReadTable5(const std::filesystem::path& folder) {
+  const absl::StatusOr<PublishedTable> table = PublishedTable::Read(folder / "table5_thu_tvu.csv");
+  if (!table.ok()) return table.status();
+  Table5 result;
+  for (const auto& [name, column] :
+       {std::pair{"depth_m", &result.depth}, std::pair{"thu_m", &result.thu},
+        std::pair{"iho_1b_thu_m", &result.thu_limit}, std::pair{"tvu_m", &result.tvu},
+        std::pair{"iho_1b_tvu_m", &result.tvu_limit}}) {
+    absl::StatusOr<std::vector<double>> numbers = table->Numbers(name);
+    if (!numbers.ok()) return numbers.status();
+    *column = *std::move(numbers);
+  }
+  return result;
+}
+
+Verdict Judge(double departure, double tolerance) {
+  return std::abs(departure) <= tolerance ? Verdict::kAgrees : Verdict::kDiffers;
+}
+
+void CompareByQuadrature(const Table5& paper, const AngleMethodUncertainty& ours, Study& study) {
+  const auto compare = [&](const char* name, double depth, double published, double per_depth) {
+    study.comparisons.push_back({.quantity = absl::StrFormat("%s at %g m, by quadrature", name, depth),
+                                 .unit = "m",
+                                 .published = published,
+                                 .ours = depth * per_depth,
+                                 .verdict = Judge(depth * per_depth - published, kQuadratureTolerance),
+                                 .basis = "within 0.010 m: half a unit of the second decimal printed, and as "
+                                          "much for the scatter of the paper's 10,000 draws"});
+  };
+  for (std::size_t i = 0; i < paper.depth.size(); ++i) {
+    compare("THU", paper.depth[i], paper.thu[i], ours.thu_per_depth);
+    compare("TVU", paper.depth[i], paper.tvu[i], ours.tvu_per_depth);
+  }
+}
+
+double LargestDeparture(const std::vector<double>& depth, const std::vector<double>& published,
+                        double per_depth) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    greatest = std::max(greatest, std::abs(depth[i] * per_depth - published[i]));
+  return greatest;
+}
+
+void CompareByDraws(const Table5& paper, const AngleMethodUncertainty& draws, Study& study) {
+  const double greatest = std::max(LargestDeparture(paper.depth, paper.thu, draws.thu_per_depth),
+                                   LargestDeparture(paper.depth, paper.tvu, draws.tvu_per_depth));
+  study.comparisons.push_back({.quantity = "Greatest departure of the 20 values with 10,000 draws",
+                               .unit = "m",
+                               .ours = greatest,
+                               .verdict = Judge(greatest, kDrawsTolerance),
+                               .basis = "within 0.03 m: the rounding, and three standard errors of our draws "
+                                        "and the paper's, 0.7 % each, at 1.05 m"});
+}
+
+void CompareLimits(const Table5& paper, Study& study) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < paper.depth.size(); ++i) {
+    greatest = std::max({greatest, std::abs(ThuLimitAsPrintedByBirkebak(paper.depth[i]) - paper.thu_limit[i]),
+                         std::abs(TvuLimit(S44Order::k1b, paper.depth[i]) - paper.tvu_limit[i])});
+  }
+  study.comparisons.push_back({.quantity = "Greatest departure of the 20 limits of order 1b by Eq. 22 and 23",
+                               .unit = "m",
+                               .ours = greatest,
+                               .verdict = Judge(greatest, kLimitTolerance),
+                               .basis = "within 0.005 m, the rounding of two decimals"});
+  const double depth = paper.depth.back();
+  const double limit = ThuLimit(S44Order::k1b, depth);
+  study.comparisons.push_back(
+      {.quantity = absl::StrFormat("THU limit of order 1b in S-44 itself at %g m", depth),
+       .unit = "m",
+       .published = paper.thu_limit.back(),
+       .ours = limit,
+       .verdict = Judge(limit - paper.thu_limit.back(), kLimitTolerance),
+       .basis = absl::StrCat("within 0.005 m of 5 m + 5 % of the depth (", std::string(kS44Edition),
+                             "); the paper prints 2 %")});
+}
+
+DataTable BesideTable5(const Table5& paper, const AngleMethodUncertainty& quadrature,
+                       const AngleMethodUncertainty& draws) {
+  DataTable table{
+      .name = "table_5",
+      .title =
+          "Table 5 as printed (columns of the paper), and by the angle method from the angles of Table 4",
+      .columns = {"depth_m", "paper_thu_m", "quadrature_thu_m", "draws_thu_m", "paper_tvu_m",
+                  "quadrature_tvu_m", "draws_tvu_m", "paper_1b_thu_limit_m", "eq_22_thu_limit_m",
+                  "s44_1b_thu_limit_m", "paper_1b_tvu_limit_m", "s44_1b_tvu_limit_m"},
+      .rows = {}};
+  for (std::size_t i = 0; i < paper.depth.size(); ++i) {
+    const double d = paper.depth[i];
+    table.rows.push_back({d, paper.thu[i], d * quadrature.thu_per_depth, d * draws.thu_per_depth,
+                          paper.tvu[i], d * quadrature.tvu_per_depth, d * draws.tvu_per_depth,
+                          paper.thu_limit[i], ThuLimitAsPrintedByBirkebak(d), ThuLimit(S44Order::k1b, d),
+                          paper.tvu_limit[i], TvuLimit(S44Order::k1b, d)});
+  }
+  return table;
+}
+
+}  // namespace
+
+absl::StatusOr<Study> AngleMethodStudy(const StudyOptions& options) {
+  const absl::StatusOr<PublishedAngles> measured = ReadTable4(options.published);
+  if (!measured.ok()) return measured.status();
+  const absl::StatusOr<Table5> paper = ReadTable5(options.published);
+  if (!paper.ok()) return paper.status();
+
+  // Table 5 is made from the last row and column of Table 4.
+  const PublishedAngles::Cell& cell = measured->cells.back();
+  const double wind_speed = measured->wind_speeds.back();
+  const double incidence = RadiansOfDegrees(measured->incidences.back());
+  const double angle = RadiansOfDegrees(std::hypot(cell.along, cell.cross));
+  const double refracted = StillWaterRefraction(incidence, kRefractiveIndex);
+  const AngleMethodUncertainty quadrature = AngleMethod(refracted, angle);
+  const AngleMethodUncertainty draws =
+      AngleMethodByDraws(refracted, angle, kDraws, NormalStream(options.seed, 0, 0));
+  const AngleMethodUncertainty in_air = AngleMethod(incidence, angle);
+
+  Study study;
+  study.id = "table_5";
+  study.title = "Table 5: THU and TVU from measured angles";
+  study.paragraphs = {
+      absl::StrFormat(
+          "Eq. 24-26 convert a refraction angle to THU and TVU. theta is the angle of the ray in still "
+          "water, %.2f degrees for the %g degrees in air of the table, and delta theta is normal with 2 "
+          "sigma = sqrt(along^2 + cross^2) = %.3f degrees from Table 4 at %g m/s. We evaluate them by "
+          "quadrature, which has no random error, and with one set of 10,000 draws as in the paper.",
+          DegreesOfRadians(refracted), measured->incidences.back(), DegreesOfRadians(angle), wind_speed),
+      absl::StrFormat(
+          "The paper does not say in which medium theta is measured. With the incidence in air the THU at 10 "
+          "m would be %.2f m and the TVU %.2f m, while the paper prints %.2f m and %.2f m.",
+          10 * in_air.thu_per_depth, 10 * in_air.tvu_per_depth, paper->thu.back(), paper->tvu.back()),
+      "The paper's limits for order 1b follow from its Eq. 22 and 23. Eq. 22 allows 5 m plus 2 % of the "
+      "depth, S-44 itself 5 m plus 5 %: the paper is stricter, and its conclusion stands. These THU and TVU "
+      "are 2 sigma values; the limits are for 95 %."};
+  CompareByQuadrature(*paper, quadrature, study);
+  CompareByDraws(*paper, draws, study);
+  CompareLimits(*paper, study);
+  study.tables = {BesideTable5(*paper, quadrature, draws)};
+  study.figures = {
+      {.name = "table_5_thu_tvu",
+       .caption = "THU and TVU over depth: Table 5 (points) and the angle method (lines), with the TVU limit "
+                  "of S-44 order 1b. The THU limit, above 5 m, is off the scale."}};
+  return study;
+}
+
 namespace {
 
 DataTable EachBeam(const std::vector<ComparedBeam>& beams, std::string name, std::string title) {

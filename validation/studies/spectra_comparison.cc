@@ -13,7 +13,6 @@
 #include "generator/monte_carlo/monte_carlo.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
-#include "sea/response/refraction.h"
 #include "sea/sea_state.h"
 
 namespace albtpu {

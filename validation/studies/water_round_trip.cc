@@ -7,7 +7,6 @@
 #include <random>
 
 namespace albtpu {
-
 std::vector<Echo> TraceRoundTrips(const PhaseFunction& phase, const RoundTrip& trip, double step,
                                   std::uint32_t pools, std::uint32_t photons, std::uint64_t seed) {
   const double sine = std::sin(trip.incidence) / trip.refractive_index;

@@ -13,10 +13,10 @@
 #include "generator/math/random_stream.h"
 #include "generator/surface/beam.h"
 #include "generator/surface/sea_surface.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "sea/sea_state.h"
 #include "tables/water/water_schema.h"
-#include "validation/studies/traveller.h"
+#include "validation/studies/water_round_trip.h"
 
 namespace albtpu {
 namespace {

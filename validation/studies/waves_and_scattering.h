@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "generator/water/bottom_detector.h"
-#include "generator/water/phase_function.h"
+#include "generator/water/photon_walk.h"
 #include "validation/studies/water_round_trip.h"
 
 namespace albtpu {

@@ -5,11 +5,77 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <string_view>
+#include <vector>
 
-#include "formats/laz/coding/byte_window.h"
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
 #include "formats/laz/coding/symbol_model.h"
 
 namespace albtpu::laz {
+
+// A source of compressed bytes: a file, or memory.
+
+// Any number of threads may read at a time.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  virtual std::uint64_t size() const = 0;
+  // Requires offset + bytes.size() <= size(). Fails when the file cannot be read.
+  virtual absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const = 0;
+};
+
+// Bytes that are in memory already, and stay there.
+class MemorySource : public ByteSource {
+ public:
+  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  absl::Status ReadAt(std::uint64_t offset, std::span<char> bytes) const override {
+    std::memcpy(bytes.data(), bytes_.data() + offset, bytes.size());
+    return absl::OkStatus();
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+// A run of bytes of a source, read front to back through a window of bounded size.
+
+// Zeros follow the last byte without end, and follow a failure to read. The reader keeps its place in the window.
+class ByteWindow {
+ public:
+  static constexpr std::size_t kPeekSize = 4;
+  static constexpr std::size_t kPieceSize = 1 << 18;  // Holds the layers of common chunks whole.
+
+  // A part of the bytes, in memory. At least kPeekSize bytes follow `next` as long as it is not behind `last`.
+  struct Piece {
+    const std::uint8_t *next = nullptr, *last = nullptr;
+  };
+
+  // The bytes from `begin` to `end`, which must lie in the source, at most `piece_size` at a time. `source` must
+  // outlive the reading.
+  Piece Begin(const ByteSource& source, std::uint64_t begin, std::uint64_t end, std::size_t piece_size);
+
+  // The bytes from `next` on, where `next` is at most kPeekSize bytes behind the last of the piece before.
+  Piece Continue(const std::uint8_t* next);
+
+  // The position of `next` in the source, even beyond its end.
+  std::uint64_t position(const std::uint8_t* next) const {
+    return piece_begin_ + static_cast<std::uint64_t>(next - bytes_.data());
+  }
+  std::uint64_t end() const { return end_; }
+  const absl::Status& status() const { return status_; }
+
+ private:
+  Piece PieceAt(std::uint64_t begin);
+
+  std::vector<std::uint8_t> bytes_;
+  const ByteSource* source_ = nullptr;
+  std::size_t piece_size_ = kPieceSize;
+  std::uint64_t piece_begin_ = 0, end_ = 0;
+  absl::Status status_;
+};
 
 // Invariant: value_ < length_ for any bytes, so that no bytes lead outside of a model.
 //
@@ -121,5 +187,15 @@ class ArithmeticDecoder {
   const std::uint8_t *next_ = nullptr, *last_ = nullptr;  // As in ByteWindow::Piece.
   ByteWindow* window_ = nullptr;
 };
+
+// Errors about bytes that contradict each other.
+
+inline constexpr char kGetAnotherCopy[] = "; get another copy of the file";
+
+// DataLoss; `problem` in pieces, as for StrCat().
+template <typename... Pieces>
+absl::Status Damaged(const Pieces&... problem) {
+  return absl::DataLossError(absl::StrCat(problem..., kGetAnotherCopy));
+}
 
 }  // namespace albtpu::laz

@@ -7,11 +7,10 @@
 #include <cstring>
 #include <utility>
 
-#include "formats/laz/items/item_place.h"
 #include "formats/laz/items/layers.h"
 #include "formats/laz/items/point_contexts.h"
+#include "formats/laz/items/pointwise_items.h"
 #include "formats/laz/items/record_run.h"
-#include "formats/laz/items/rgb_coder.h"
 
 namespace albtpu::laz {
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "formats/laz/items/item_place.h"
 #include "formats/laz/items/layers.h"
 #include "formats/laz/items/point_contexts.h"
 #include "formats/laz/items/record_run.h"

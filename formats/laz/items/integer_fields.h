@@ -5,12 +5,63 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "formats/laz/coding/integer_coder.h"
 #include "formats/laz/items/field_layers.h"
-#include "formats/laz/items/return_contexts.h"
+#include "formats/laz/items/gps_time_coder.h"
 
 namespace albtpu::laz {
+
+// The kinds of returns by which the layers of formats 6 to 10 choose contexts: a return is predicted from earlier ones
+// of its kind.
+
+// Both are from 0 to 15 and need not be plausible: files have return 0, or more returns than there are.
+struct Returns {
+  std::uint8_t number = 0;  // Of this return in its pulse.
+  std::uint8_t count = 0;   // Of all returns of the pulse.
+
+  static Returns From(std::uint8_t byte) {
+    return {static_cast<std::uint8_t>(byte & 15), static_cast<std::uint8_t>(byte >> 4)};
+  }
+  std::uint8_t byte() const { return static_cast<std::uint8_t>(count << 4 | number); }
+
+  // 1: the first of its pulse; 2: the last; 3: the only one; 0: between.
+  std::uint32_t place() const { return (number == 1 ? 1u : 0u) | (number >= count ? 2u : 0u); }
+  std::uint32_t is_alone() const { return count == 1 ? 1u : 0u; }
+};
+
+inline constexpr int kReturnKinds = 6;
+inline constexpr int kReturnLevels = 8;
+
+// The kind of a return, which correlates with the distance of the previous point: [count][number], prescribed by the
+// format.
+inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kReturnKind = {{
+    {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5},
+    {1, 0, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3},
+    {2, 1, 2, 4, 4, 4, 4, 4, 4, 4, 4, 3, 3, 3, 3, 3},
+    {3, 3, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+    {4, 3, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+    {5, 3, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+    {3, 3, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+    {4, 3, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4},
+    {4, 3, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4},
+    {5, 3, 4, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4},
+    {5, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4},
+    {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 4, 4, 4},
+    {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4, 4},
+    {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4},
+    {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5},
+    {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5},
+}};
+
+inline std::uint32_t ReturnKind(Returns returns) { return kReturnKind[returns.count][returns.number]; }
+
+// How many returns of the pulse follow, at most 7: returns of a level have similar heights.
+inline std::uint32_t ReturnLevel(Returns returns) {
+  const int level = std::abs(int{returns.count} - int{returns.number});
+  return static_cast<std::uint32_t>(level < kReturnLevels ? level : kReturnLevels - 1);
+}
 
 // Predicts each height from the last one of the same level of returns.
 template <typename Coder>
@@ -130,5 +181,40 @@ template <typename Coder>
 using AngleField = ChangingField<Coder, kAngleOffset, kAngleChanges, true>;
 template <typename Coder>
 using SourceField = ChangingField<Coder, kSourceOffset, kSourceChanges, false>;
+
+// The GPS times of points of formats 6 to 10.
+
+template <typename Coder>
+class TimeField : public PlainField<std::int64_t, kTimeOffset> {
+  using Times = GpsTimeCoder<Coder, false>;
+
+ public:
+  void Start(std::size_t channel, std::int64_t first) {
+    channels_[channel].Begin(first);
+    last_.fill(first);
+  }
+
+  class Pass {
+   public:
+    Pass(TimeField& field, const ChannelRun& run)
+        : times_(&field.channels_[run.models]), time_(field.last_[run.from]) {
+      if (run.Begins()) times_->Begin(time_);
+    }
+    [[gnu::always_inline]] std::int64_t Code(Coder& coder, const PointContexts& contexts, std::size_t i,
+                                             std::int64_t known) {
+      if (contexts.Changes(i, kTimeChanges)) time_ = times_->Code(coder, known);
+      return time_;
+    }
+    void End(TimeField& field, const ChannelRun& run) const { field.last_[run.to] = time_; }
+
+   private:
+    Times* times_;
+    std::int64_t time_;
+  };
+
+ private:
+  ChannelHistories<Times> channels_;
+  std::array<std::int64_t, kChannels> last_{};
+};
 
 }  // namespace albtpu::laz

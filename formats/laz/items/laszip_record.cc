@@ -14,7 +14,7 @@
 #include <cassert>
 
 #include "absl/strings/str_cat.h"
-#include "formats/laz/coding/damage.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
 
 namespace albtpu::laz {

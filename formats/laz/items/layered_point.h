@@ -19,7 +19,6 @@
 #include "formats/laz/items/record_run.h"
 #include "formats/laz/items/returns_layer.h"
 #include "formats/laz/items/symbol_fields.h"
-#include "formats/laz/items/time_field.h"
 #include "formats/laz/items/wave_packet_layer.h"
 
 namespace albtpu::laz {

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "formats/laz/coding/integer_coder.h"
+#include "formats/laz/items/integer_fields.h"
 #include "formats/laz/items/layers.h"
 #include "formats/laz/items/point14_fields.h"
 #include "formats/laz/items/point_contexts.h"
 #include "formats/laz/items/record_run.h"
-#include "formats/laz/items/return_contexts.h"
 #include "formats/laz/items/streaming_median.h"
 
 namespace albtpu::laz {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "formats/laz/items/item_place.h"
 #include "formats/laz/items/layers.h"
 #include "formats/laz/items/point_contexts.h"
 #include "formats/laz/items/record_run.h"

@@ -4,7 +4,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "service/server/calls/message_handlers.h"
+#include "service/server/calls/query_rows.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 

@@ -7,10 +7,9 @@
 #include <memory>
 #include <mutex>
 
-#include "service/server/calls/answer_sources.h"
-#include "service/server/ground/idle_watch.h"
-#include "service/server/ground/workers.h"
-#include "service/server/observe/records.h"
+#include "service/server/calls/sea_request.h"
+#include "service/server/ground/periodic_task.h"
+#include "service/server/observe/log.h"
 #include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "sea/files/sea_limits.h"
+#include "sea/files/sea_csv.h"
 #include "service/server/ground/errors.h"
 #include "service/server/ground/limits.h"
 
@@ -237,6 +237,21 @@ Sha256Digest KeyOf(const v1::SeaState& state) {
   Sha256 sha;
   sha.Update(known.SerializeAsString());
   return sha.Finish();
+}
+
+absl::StatusOr<const ServedTable*> AnswerSources::Find(std::string_view table) const {
+  return catalog_.Find(table);
+}
+
+absl::StatusOr<const ServedTable*> AnswerSources::Find(const v1::SeaState& sea) {
+  if (sea_table_ != nullptr) return sea_table_.get();
+  const Sha256Digest key = KeyOf(sea);
+  sea_table_ = seas_.Find(key);
+  if (sea_table_ != nullptr) return sea_table_.get();
+  absl::StatusOr<KnownSea> known = ReadSea(sea);
+  if (!known.ok()) return Within("sea", known.status());
+  wanted_ = WantedSea{key, *std::move(known)};
+  return absl::UnavailableError("the sea is not compiled yet");
 }
 
 }  // namespace albtpu::server

@@ -16,9 +16,9 @@
 #include "sea/table/sea_table.h"
 #include "service/seas/known_sea.h"
 #include "service/server/ground/limits.h"
-#include "service/server/observe/records.h"
+#include "service/server/observe/log.h"
 #include "service/server/observe/sea_metrics.h"
-#include "service/server/tables/served_table.h"
+#include "service/server/tables/wire_enums.h"
 #include "tables/digest.h"
 
 namespace albtpu::server {

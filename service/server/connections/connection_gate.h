@@ -4,16 +4,68 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <compare>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
-#include "service/server/connections/connection_calls.h"
 #include "service/server/ground/listening_sockets.h"
+#include "service/server/ground/periodic_task.h"
 #include "service/server/observe/metrics.h"
 
 namespace albtpu::server {
+
+// Counts the calls that each connection has in memory.
+
+// The remote end of a connection.
+struct Caller {
+  std::string address;  // 4 bytes for IPv4, also if mapped to IPv6; otherwise 16.
+  int port = 0;
+
+  auto operator<=>(const Caller&) const = default;
+};
+
+// As gRPC writes it: ipv4:127.0.0.1:4242, ipv6:%5B::1%5D:4242.
+std::string ToText(const Caller& caller);
+
+// The caller at the other end of a socket. Its address is empty if the descriptor is not a connection.
+Caller CallerOf(int descriptor);
+
+struct ConnectionCalls {
+  Caller caller;
+  long calls = 0;
+};
+
+// Calls of all connections to servers in this process, as gRPC counts them for channelz: from the first byte of their
+// header until they are freed, whether cancelled, answered or never sent completely. They take memory for that time.
+// Takes about 20 us for each connection.
+std::vector<ConnectionCalls> CountConnectionCalls();
+
+// Finds connections that have too many calls in memory.
+
+// The callers with more than kMaxCallsInMemory calls and, while all remaining connections together have more than
+// kMaxTotalCallsInMemory, those with the most.
+std::vector<Caller> CallersToDisconnect(std::vector<ConnectionCalls> connections);
+
+// Checks the memory of the process every kMemoryCheckInterval, and its connections whenever the memory has grown by
+// kMemoryGrowth. This costs a call nothing and also finds calls that never reach a method. gRPC 1.51 limits neither
+// calls that are cancelled at once nor calls of a connection that does not acknowledge its settings (HTTP/2, RFC 9113,
+// 6.5.3), and creates them faster than the methods could count them.
+class ConnectionWatch {
+ public:
+  // Calls `disconnect` with the result of CallersToDisconnect(), unless that is empty, from the thread of the watch.
+  explicit ConnectionWatch(std::function<void(const std::vector<Caller>&)> disconnect);
+
+ private:
+  void Check();
+
+  const std::function<void(const std::vector<Caller>&)> disconnect_;
+  double resident_bytes_;  // At the last check of the connections, or less if the memory has shrunk since.
+  PeriodicTask checking_;  // Last, so that it is destroyed first.
+};
 
 // Accepts connections and hands them to gRPC. At most kMaxConnections, plus a part of kOwnDescriptors that is not used
 // otherwise, are open at a time, and no more than the operating system allows. Further connections are closed at once;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -13,9 +15,26 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "service/server/ground/file_identity.h"
 
 namespace albtpu::server {
+
+// Detects whether a file on disk is still the one that was read.
+
+// Device, inode, size, and the times of the last change of the content and of the inode, each in s and ns.
+// No program can set the last of these times back. All zeros if there is no such file.
+using FileIdentity = std::array<long long, 7>;
+
+inline FileIdentity IdentityOf(const std::filesystem::path& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  return {static_cast<long long>(found.st_dev),
+          static_cast<long long>(found.st_ino),
+          found.st_size,
+          found.st_mtim.tv_sec,
+          found.st_mtim.tv_nsec,
+          found.st_ctim.tv_sec,
+          found.st_ctim.tv_nsec};
+}
 
 // If the files can no longer be read, or their content is invalid, the last good value stays in use and the log
 // says why. The read is then retried at most once a second, because the cause may have been temporary, such as too

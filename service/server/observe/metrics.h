@@ -2,6 +2,7 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/family.h>
 #include <prometheus/gauge.h>
@@ -14,14 +15,34 @@
 #include <cstddef>
 #include <ctime>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "service/server/observe/outcome_tally.h"
-#include "service/server/observe/process_metrics.h"
 #include "service/server/observe/sea_metrics.h"
-#include "service/server/tables/live_tables.h"
+#include "service/server/tables/table_catalog.h"
 
 namespace albtpu::server {
+
+// Metrics of the process, under the names that all Prometheus clients use.
+
+struct ProcessMemory {
+  double virtual_bytes, resident_bytes;
+};
+
+// The memory of this process now; none if /proc cannot be read.
+std::optional<ProcessMemory> ReadProcessMemory();
+
+// Read from /proc at every scrape; what cannot be read is left out. Construct it when the process starts, because the
+// start time is that of construction.
+class ProcessMetrics final : public prometheus::Collectable {
+ public:
+  std::vector<prometheus::MetricFamily> Collect() const override;
+
+ private:
+  const double start_time_ =  // s since 1970-01-01 UTC
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+};
 
 // The methods that appear in the log and the metrics. Those that take pulses come first.
 enum class Method {

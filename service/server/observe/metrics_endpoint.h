@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "service/server/ground/listen_address.h"
+#include "service/server/ground/listening_sockets.h"
 
 namespace albtpu::server {
 

@@ -1,5 +1,13 @@
 #include "service/server/observe/sea_metrics.h"
 
+#include <prometheus/metric_family.h>
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "albtpu/v1/uncertainty.pb.h"
+
 namespace albtpu::server {
 namespace {
 
@@ -49,6 +57,50 @@ void SeaMetrics::CountCompiled(std::chrono::duration<double> took) {
 void SeaMetrics::SetKept(std::size_t tables, std::size_t bytes) {
   tables_->Set(static_cast<double>(tables));
   bytes_->Set(static_cast<double>(bytes));
+}
+
+std::vector<prometheus::MetricFamily> TableMetrics::Collect() const {
+  const std::shared_ptr<const TableCatalog> catalog = tables_.current();
+  const absl::StatusOr<const TableCatalog::Entry*> default_entry = catalog->Find("");
+  prometheus::MetricFamily info;
+  info.name = "albtpu_table_info";
+  info.help = "1 for each table that answers; the digest is that of its content.";
+  info.type = prometheus::MetricType::Gauge;
+  for (const auto& entry : catalog->entries()) {
+    const Provenance& provenance = entry->table.provenance();
+    const bool is_default = default_entry.ok() && *default_entry == entry.get();
+    prometheus::ClientMetric metric;
+    metric.label = {{"name", entry->name},
+                    {"id", provenance.id},
+                    {"version", provenance.version},
+                    {"digest", entry->table.digest()},
+                    {"default", is_default ? "true" : "false"}};
+    metric.gauge.value = 1;
+    info.metric.push_back(std::move(metric));
+  }
+  return {std::move(info)};
+}
+
+std::size_t OutcomeTally::pulses() const {
+  const std::size_t out = std::accumulate(out_of_domain.begin(), out_of_domain.end(), std::size_t{0});
+  return std::accumulate(invalid.begin(), invalid.end(), interpolated + out + invalid_aircraft);
+}
+
+void OutcomeTally::Add(std::span<const std::uint8_t> outcomes, std::span<const std::uint8_t> outcome_axes) {
+  assert(outcomes.size() == outcome_axes.size());
+  const auto count = static_cast<std::size_t>(
+      std::count(outcomes.begin(), outcomes.end(), static_cast<std::uint8_t>(v1::OUTCOME_INTERPOLATED)));
+  interpolated += count;
+  if (count == outcomes.size()) return;  // The usual case.
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i] == v1::OUTCOME_INTERPOLATED) continue;
+    if (outcome_axes[i] == v1::AXIS_UNSPECIFIED) {
+      ++invalid_aircraft;
+      continue;
+    }
+    auto& by_axis = outcomes[i] == v1::OUTCOME_OUT_OF_DOMAIN ? out_of_domain : invalid;
+    ++by_axis[outcome_axes[i] - static_cast<std::size_t>(v1::AXIS_WIND_SPEED)];
+  }
 }
 
 }  // namespace albtpu::server

@@ -1,13 +1,21 @@
 // The metrics of the seas that requests carry. docs/monitoring/README.md lists them and explains their meaning.
 #pragma once
 
+#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "service/server/tables/table_catalog.h"
+#include "tables/schema.h"
 
 namespace albtpu::server {
 
@@ -35,6 +43,34 @@ class SeaMetrics {
   prometheus::Histogram* seconds_;
   prometheus::Gauge* tables_;
   prometheus::Gauge* bytes_;
+};
+
+// The metrics of the tables in use, taken from the current catalog at every scrape.
+
+class TableMetrics final : public prometheus::Collectable {
+ public:
+  // `tables` must outlive this object.
+  explicit TableMetrics(const LiveTables& tables) : tables_(tables) {}
+
+  std::vector<prometheus::MetricFamily> Collect() const override;
+
+ private:
+  const LiveTables& tables_;
+};
+
+// Counts the pulses of an answer by outcome.
+
+struct OutcomeTally {
+  std::size_t interpolated = 0;
+  // By the axis that caused the outcome.
+  std::array<std::size_t, kAxisCount> out_of_domain = {};
+  std::array<std::size_t, kAxisCount> invalid = {};
+  std::size_t invalid_aircraft = 0;  // Caused by a number of the aircraft.
+
+  std::size_t pulses() const;
+
+  // Adds pulses given by their columns on the wire: the numbers of `Outcome` and `Axis`.
+  void Add(std::span<const std::uint8_t> outcomes, std::span<const std::uint8_t> outcome_axes);
 };
 
 }  // namespace albtpu::server

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
 #include "albtpu/v1/budget.pb.h"
@@ -10,12 +12,37 @@
 #include "albtpu/v1/uncertainty.pb.h"
 #include "budget/air/air_errors.h"
 #include "budget/query/budget_query.h"
+#include "service/seas/sea_summary.h"
 #include "tables/coverage.h"
+#include "tables/query/column_query.h"
 #include "tables/query/interpolation.h"
 #include "tables/s44.h"
 #include "tables/schema.h"
+#include "tables/uncertainty_table.h"
 
 namespace albtpu::server {
+
+// A table that answers queries.
+
+struct ServedTable {
+  ServedTable(std::string table_name, UncertaintyTable contents)
+      : name(std::move(table_name)),
+        table(std::move(contents)),
+        interpolator(table),
+        sea(SummaryOfSea(table)) {}
+
+  std::string name;  // NAME or NAME/VERSION; empty for the table of a request's sea.
+  UncertaintyTable table;
+  ColumnInterpolator interpolator;  // Of the table.
+  std::optional<SeaSummary> sea;    // If it is the table of one sea.
+};
+
+// Tables as messages: their names, contents and provenance.
+
+v1::SeaSummary WriteSea(const SeaSummary& sea);
+v1::TableReference WriteReference(const ServedTable& served);
+v1::TableSummary WriteSummary(const ServedTable& served);
+v1::Table WriteTableMessage(const ServedTable& served);
 
 v1::Axis ToWire(AxisId axis);
 v1::Axis ToWire(std::optional<AxisId> axis);  // Unspecified if none.

@@ -1,11 +1,11 @@
-#include "annotate/answers/coordinate_spread.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "annotate/answers/uncertainty_summary.h"
 
 namespace albtpu::annotate {
 namespace {

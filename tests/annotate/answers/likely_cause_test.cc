@@ -1,11 +1,10 @@
-#include "annotate/answers/likely_cause.h"
-
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "annotate/answers/beam_coordinates.h"
-#include "annotate/answers/outcome_counts.h"
+#include "annotate/answers/answer_counts.h"
+#include "annotate/answers/batch.h"
+#include "annotate/answers/run_verdict.h"
 #include "annotate/answers/uncertainty_summary.h"
 #include "service/client/local_source.h"
 #include "tests/tables/synthetic_table.h"

@@ -1,11 +1,10 @@
-#include "annotate/beams/fitted_track.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "annotate/beams/file_track.h"
 #include "tests/budget/beams/ray_flight.h"
 
 namespace albtpu::annotate {

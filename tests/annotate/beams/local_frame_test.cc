@@ -1,6 +1,6 @@
-#include "annotate/beams/local_frame.h"
-
 #include <gtest/gtest.h>
+
+#include "annotate/beams/file_track.h"
 
 namespace albtpu::annotate {
 namespace {

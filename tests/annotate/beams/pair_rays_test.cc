@@ -1,8 +1,8 @@
-#include "annotate/beams/pair_rays.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
+
+#include "annotate/beams/water_heights.h"
 
 namespace albtpu::annotate {
 namespace {

@@ -1,11 +1,11 @@
-#include "annotate/beams/pair_sample.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
+
+#include "annotate/beams/pulse_sample.h"
 
 namespace albtpu::annotate {
 namespace {

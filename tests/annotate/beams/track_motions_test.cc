@@ -1,10 +1,9 @@
-#include "annotate/beams/track_motions.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "annotate/beams/beam_plan.h"
 #include "tests/formats/trajectories/flight_text.h"
 #include "tests/formats/trajectories/sbet_flight.h"
 #include "tests/temporary_folder.h"

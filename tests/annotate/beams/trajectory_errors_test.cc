@@ -1,9 +1,8 @@
-#include "annotate/beams/trajectory_errors.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "annotate/beams/beam_plan.h"
 #include "tests/formats/trajectories/flight_text.h"
 #include "tests/formats/trajectories/sbet_flight.h"
 #include "tests/temporary_folder.h"

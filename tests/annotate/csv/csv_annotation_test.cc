@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "absl/strings/str_cat.h"
-#include "annotate/answers/beam_coordinates.h"
-#include "annotate/run/exit_status.h"
-#include "formats/text/number_text.h"
+#include "annotate/answers/batch.h"
+#include "annotate/run/file_progress.h"
+#include "formats/text/text.h"
 #include "service/client/local_source.h"
 #include "tests/annotate/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"

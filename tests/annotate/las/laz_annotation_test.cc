@@ -8,7 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "annotate/las/las_annotation.h"
-#include "formats/las/las_point_runs.h"
+#include "formats/las/las_points.h"
 #include "formats/laz/chunk_table.h"
 #include "formats/laz/coding/little_endian.h"
 #include "service/client/local_source.h"

@@ -1,10 +1,9 @@
-#include "annotate/run/exit_status.h"
-
 #include <gtest/gtest.h>
 
+#include "annotate/run/file_progress.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "service/client/server_error.h"
+#include "service/client/channel.h"
 
 namespace albtpu::annotate {
 namespace {

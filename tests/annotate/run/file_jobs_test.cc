@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {

@@ -1,10 +1,9 @@
-#include "annotate/run/summary_file.h"
-
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "annotate/run/file_jobs.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::annotate {

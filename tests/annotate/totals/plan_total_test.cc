@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "annotate/run/exit_status.h"
-#include "config/survey_file.h"
+#include "annotate/run/file_progress.h"
+#include "config/survey_settings.h"
 
 namespace albtpu::annotate {
 namespace {

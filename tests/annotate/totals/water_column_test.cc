@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "annotate/answers/outcome_counts.h"
-#include "annotate/run/exit_status.h"
+#include "annotate/answers/answer_counts.h"
+#include "annotate/run/file_progress.h"
 #include "annotate/totals/pulse_totals.h"
 #include "annotate/totals/total_summary.h"
-#include "config/survey_file.h"
+#include "config/survey_settings.h"
 
 namespace albtpu::annotate {
 namespace {

@@ -15,7 +15,7 @@
 #include "budget/beams/beam_columns.h"
 #include "budget/beams/refracted_path.h"
 #include "budget/beams/water_surface.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu::bench {
 namespace {

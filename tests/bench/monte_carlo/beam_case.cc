@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu::bench {
 namespace {

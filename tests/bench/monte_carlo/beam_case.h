@@ -10,7 +10,6 @@
 #include "generator/kernels/ray_bundle.h"
 #include "generator/math/random_stream.h"
 #include "generator/surface/beam.h"
-#include "generator/surface/height_field.h"
 #include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
 #include "sea/sea_state.h"

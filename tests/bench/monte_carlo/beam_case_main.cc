@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "generator/math/fft.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/bench/monte_carlo/beam_case.h"
 
 namespace {

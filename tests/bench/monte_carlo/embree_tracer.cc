@@ -198,7 +198,7 @@ BeamMeans EmbreeTracer::Trace(const FloatRays& rays, double refractive_index) {
         TraceBlock<kBlock>(rays, first, count, hits);
         break;
     }
-    // RefractAtSlope of sea/response/refraction.h, vectorized.
+    // RefractAtSlope of sea/response/closed_form.h, vectorized.
     float found = 0, height = 0, tx = 0, ty = 0, secants = 0, htx = 0, hty = 0, hs = 0;
 #pragma omp simd reduction(+ : found, height, tx, ty, secants, htx, hty, hs)
     for (int i = 0; i < count; ++i) {

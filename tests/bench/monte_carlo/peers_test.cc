@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/kernels/fast_patch.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/bench/monte_carlo/beam_case.h"
 #include "tests/bench/monte_carlo/plain_realization.h"
 #ifdef ALBTPU_EMBREE

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/bench/monte_carlo/beam_case.h"
 #ifdef ALBTPU_EMBREE
 #include "tests/bench/monte_carlo/embree_tracer.h"

@@ -3,10 +3,10 @@
 // For all beams of a table: sea_table_bench.
 #include <benchmark/benchmark.h>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
+#include "sea/sea_state.h"
 #include "sea/spectra/harmonic_spectrum.h"
-#include "sea/wave_state.h"
 
 namespace albtpu::bench {
 namespace {

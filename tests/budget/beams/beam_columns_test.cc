@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "budget/beams/refracted_path.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/instruction_sets.h"
 
 namespace albtpu {

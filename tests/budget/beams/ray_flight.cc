@@ -9,7 +9,7 @@
 
 #include "budget/beams/refracted_path.h"
 #include "sea/angle.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu::testing {
 namespace {

@@ -1,5 +1,3 @@
-#include "budget/beams/ray_noise.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -7,8 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "budget/beams/facing_slopes.h"
-#include "sea/response/refraction.h"
+#include "budget/beams/displacement_fit.h"
+#include "budget/beams/return_pair.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

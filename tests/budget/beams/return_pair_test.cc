@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

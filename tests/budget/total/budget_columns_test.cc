@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "budget/air/air_sources.h"
-#include "budget/total/horizontal_ellipse.h"
-#include "budget/total/limits_met.h"
+#include "budget/total/error_ellipse.h"
 
 namespace albtpu {
 namespace {

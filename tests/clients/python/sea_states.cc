@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sea/files/sea_file.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/seas/known_sea.h"
 
 int main(int argc, char** argv) {

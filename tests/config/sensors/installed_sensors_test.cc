@@ -1,5 +1,3 @@
-#include "config/sensors/installed_sensors.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "config/sensors/sensor.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::config {

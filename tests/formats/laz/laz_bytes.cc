@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
 #include "formats/laz/laz_points.h"
 #include "tests/formats/laz/laz_builder.h"

@@ -1,6 +1,6 @@
-#include "formats/text/near_match.h"
-
 #include <gtest/gtest.h>
+
+#include "formats/text/text.h"
 
 namespace albtpu::formats {
 namespace {

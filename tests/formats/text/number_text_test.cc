@@ -1,11 +1,11 @@
-#include "formats/text/number_text.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+
+#include "formats/text/text.h"
 
 namespace albtpu::formats {
 namespace {

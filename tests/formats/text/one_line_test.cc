@@ -1,6 +1,6 @@
-#include "formats/text/one_line.h"
-
 #include <gtest/gtest.h>
+
+#include "formats/text/text.h"
 
 namespace albtpu::formats {
 namespace {

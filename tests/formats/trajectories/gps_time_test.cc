@@ -1,8 +1,8 @@
-#include "formats/trajectories/gps_time.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "formats/trajectories/trajectory_time.h"
 
 namespace albtpu::formats {
 namespace {

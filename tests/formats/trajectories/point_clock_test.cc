@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "formats/trajectories/gps_time.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "sea/sea_time.h"
 
 namespace albtpu::formats {

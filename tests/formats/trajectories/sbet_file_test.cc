@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "formats/trajectories/velocity_check.h"
+#include "formats/trajectories/ascii_motion.h"
 #include "tests/formats/trajectories/sbet_flight.h"
 #include "tests/temporary_folder.h"
 

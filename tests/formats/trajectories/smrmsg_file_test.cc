@@ -1,11 +1,10 @@
-#include "formats/trajectories/smrmsg_file.h"
-
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <numbers>
 #include <string>
 
+#include "formats/trajectories/sbet_file.h"
 #include "tests/formats/trajectories/flight_text.h"
 #include "tests/temporary_folder.h"
 

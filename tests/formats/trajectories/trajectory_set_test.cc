@@ -1,9 +1,8 @@
-#include "formats/trajectories/trajectory_set.h"
-
 #include <gmock/gmock.h>
 
 #include "formats/trajectories/ascii_trajectory.h"
 #include "formats/trajectories/sbet_file.h"
+#include "formats/trajectories/trajectory_timeline.h"
 #include "tests/formats/trajectories/sbet_flight.h"
 #include "tests/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "formats/trajectories/gps_time.h"
+#include "formats/trajectories/trajectory_time.h"
 #include "tests/temporary_folder.h"
 
 namespace albtpu::formats {

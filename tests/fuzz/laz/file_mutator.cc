@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "formats/laz/chunk_table.h"
-#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/items/laszip_record.h"
 #include "tests/fuzz/mutation.h"
 

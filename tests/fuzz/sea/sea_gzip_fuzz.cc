@@ -1,7 +1,7 @@
 // Arbitrary bytes as gzip's are rejected with a message, or inflate to no more than the limit.
 #include <string_view>
 
-#include "sea/files/gzip.h"
+#include "sea/files/sea_csv.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace albtpu;

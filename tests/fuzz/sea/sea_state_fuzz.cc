@@ -5,7 +5,7 @@
 
 #include "albtpu/v1/sea.pb.h"
 #include "sea/table/sea_table.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/seas/sea_summary.h"
 #include "service/server/calls/sea_request.h"
 #include "tests/fuzz/fuzz_target.h"

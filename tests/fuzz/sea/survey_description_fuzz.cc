@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "config/survey_file.h"
+#include "config/survey_settings.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

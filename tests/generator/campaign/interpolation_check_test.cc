@@ -1,13 +1,12 @@
-#include "generator/campaign/interpolation_check.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "generator/campaign/provenance.h"
 #include "generator/campaign/table_maker.h"
-#include "generator/math/rounding.h"
+#include "generator/math/statistics.h"
 #include "tests/generator/campaign/two_seas.h"
 
 namespace albtpu {

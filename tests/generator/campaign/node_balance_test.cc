@@ -1,9 +1,9 @@
-#include "generator/campaign/node_balance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
+
+#include "generator/campaign/table_maker.h"
 
 namespace albtpu {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "generator/math/rounding.h"
+#include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "tables/query/interpolation.h"
 #include "tests/generator/campaign/two_seas.h"

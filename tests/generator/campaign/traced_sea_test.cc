@@ -1,5 +1,3 @@
-#include "generator/campaign/traced_sea.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "absl/strings/str_cat.h"
+#include "generator/campaign/campaign_axes.h"
 #include "generator/campaign/table_maker.h"
 #include "generator/monte_carlo/monte_carlo.h"
 #include "sea/angle.h"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 
-#include "generator/campaign/byte_stream.h"
 #include "tests/generator/campaign/two_seas.h"
 
 namespace albtpu {

@@ -1,7 +1,6 @@
-#include "generator/campaign/work_folder.h"
-
 #include <gmock/gmock.h>
 
+#include "generator/campaign/unit_work.h"
 #include "tests/generator/campaign/two_seas.h"
 #include "tests/temporary_folder.h"
 

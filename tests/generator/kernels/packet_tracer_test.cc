@@ -10,7 +10,7 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/surface/sea_surface.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/instruction_sets.h"
 
 namespace albtpu {

@@ -1,8 +1,8 @@
-#include "generator/math/rounding.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "generator/math/statistics.h"
 
 namespace albtpu {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

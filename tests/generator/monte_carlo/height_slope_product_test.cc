@@ -1,5 +1,3 @@
-#include "generator/monte_carlo/height_slope_product.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -13,7 +13,7 @@
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
 #include "generator/surface/sea_surface.h"
-#include "sea/response/unresolved_waves.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -1,9 +1,9 @@
-#include "generator/ranks/launcher.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
 #include <string>
+
+#include "generator/ranks/ranks.h"
 
 namespace albtpu {
 namespace {

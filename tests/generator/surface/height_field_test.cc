@@ -1,5 +1,3 @@
-#include "generator/surface/height_field.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "generator/math/random_stream.h"
+#include "generator/surface/ray_tracer.h"
 
 namespace albtpu {
 namespace {

@@ -1,10 +1,10 @@
-#include "generator/surface/long_waves.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <limits>
+
+#include "generator/surface/sea_surface.h"
 
 namespace albtpu {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -1,11 +1,10 @@
-#include "generator/water/phase_function.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "generator/math/random_stream.h"
+#include "generator/water/photon_walk.h"
 
 namespace albtpu {
 namespace {

@@ -1,8 +1,8 @@
-#include "programs/command_line/checks.h"
-
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+
+#include "programs/command_line/command_line.h"
 
 namespace albtpu::programs {
 namespace {

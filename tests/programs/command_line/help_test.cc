@@ -1,9 +1,9 @@
-#include "programs/command_line/help.h"
-
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
 #include <string>
+
+#include "programs/command_line/command_line.h"
 
 namespace albtpu::programs {
 namespace {

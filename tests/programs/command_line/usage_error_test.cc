@@ -1,5 +1,3 @@
-#include "programs/command_line/usage_error.h"
-
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
@@ -7,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "programs/command_line/checks.h"
-#include "programs/command_line/help.h"
+#include "programs/command_line/command_line.h"
 
 namespace albtpu::programs {
 namespace {

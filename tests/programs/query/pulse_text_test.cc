@@ -1,12 +1,11 @@
-#include "programs/query/pulse_text.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "annotate/answers/interpolation_error.h"
-#include "formats/text/number_text.h"
+#include "annotate/answers/uncertainty_summary.h"
+#include "formats/text/text.h"
+#include "programs/query/pulse_command.h"
 #include "service/client/local_source.h"
 #include "tests/annotate/answers/test_sources.h"
 #include "tests/tables/synthetic_table.h"

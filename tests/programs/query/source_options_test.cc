@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "annotate/run/exit_status.h"
+#include "annotate/run/file_progress.h"
 #include "tables/file/table_io.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"

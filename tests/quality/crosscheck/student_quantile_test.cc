@@ -1,9 +1,9 @@
-#include "quality/crosscheck/student_quantile.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "quality/crosscheck/variance_fit.h"
 
 namespace albtpu::quality {
 namespace {

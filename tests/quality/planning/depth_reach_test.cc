@@ -1,5 +1,3 @@
-#include "quality/planning/depth_reach.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

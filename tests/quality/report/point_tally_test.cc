@@ -1,10 +1,9 @@
-#include "quality/report/point_tally.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "quality/report/survey_grid.h"
 #include "tables/coverage.h"
 
 namespace albtpu::quality {

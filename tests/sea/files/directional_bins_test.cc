@@ -1,10 +1,9 @@
-#include "sea/files/directional_bins.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "sea/files/ww3_points.h"
 #include "sea/spectra/wave_spreading.h"
 
 namespace albtpu {

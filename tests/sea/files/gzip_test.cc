@@ -1,9 +1,9 @@
-#include "sea/files/gzip.h"
-
 #include <gmock/gmock.h>
 #include <zlib.h>
 
 #include <string>
+
+#include "sea/files/sea_csv.h"
 
 namespace albtpu {
 namespace {

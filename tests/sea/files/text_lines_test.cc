@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "sea/files/word_stream.h"
-
 namespace albtpu {
 namespace {
 

@@ -1,8 +1,8 @@
-#include "sea/quadrature/gauss_quadrature.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sea/quadrature/hankel_lattice.h"
 
 namespace albtpu {
 namespace {

@@ -1,10 +1,9 @@
-#include "sea/response/beam_response.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sea/quadrature/gauss_quadrature.h"
+#include "sea/quadrature/hankel_lattice.h"
+#include "sea/response/sea_response.h"
 
 namespace albtpu {
 namespace {

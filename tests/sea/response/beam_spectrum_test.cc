@@ -1,7 +1,6 @@
-#include "sea/response/beam_spectrum.h"
-
 #include <gtest/gtest.h>
 
+#include "sea/response/slope_covariance.h"
 #include "sea/sea_state.h"
 #include "tests/sea/response/seas.h"
 

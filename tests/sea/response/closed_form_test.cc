@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sea/response/refraction.h"
-
 namespace albtpu {
 namespace {
 

@@ -1,11 +1,9 @@
-#include "sea/response/effective_gains.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

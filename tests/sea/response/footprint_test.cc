@@ -1,9 +1,9 @@
-#include "sea/response/footprint.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

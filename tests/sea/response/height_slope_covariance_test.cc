@@ -1,7 +1,6 @@
-#include "sea/response/height_slope_covariance.h"
-
 #include <gtest/gtest.h>
 
+#include "sea/response/slope_covariance.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {

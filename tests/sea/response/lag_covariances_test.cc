@@ -1,11 +1,10 @@
-#include "sea/response/lag_covariances.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "sea/response/footprint_kernel.h"
+#include "sea/response/slope_covariance.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {

@@ -1,8 +1,8 @@
-#include "sea/response/refraction.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "sea/quadrature/gauss_quadrature.h"
+#include "sea/quadrature/hankel_lattice.h"
 #include "sea/response/closed_form.h"
-#include "sea/response/effective_gains.h"
-#include "sea/response/refraction.h"
 #include "tests/sea/response/seas.h"
 
 namespace albtpu {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "sea/sea_state.h"
 #include "sea/spectra/harmonic_spectrum.h"
-#include "sea/wave_state.h"
 
 namespace albtpu {
 

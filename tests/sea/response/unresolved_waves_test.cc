@@ -1,13 +1,11 @@
-#include "sea/response/unresolved_waves.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "sea/quadrature/gauss_quadrature.h"
-#include "sea/response/refraction.h"
+#include "sea/quadrature/hankel_lattice.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tests/sea/table/table_seas.h"
 
 namespace albtpu {

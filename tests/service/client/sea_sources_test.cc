@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "sea/table/sea_table.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/server/calls/sea_request.h"
 #include "tests/service/client/column_memory.h"
 #include "tests/service/client/running_server.h"

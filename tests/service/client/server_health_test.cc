@@ -1,7 +1,6 @@
-#include "service/client/server_health.h"
-
 #include <gmock/gmock.h>
 
+#include "service/client/channel.h"
 #include "tests/service/client/running_server.h"
 
 namespace albtpu::client {

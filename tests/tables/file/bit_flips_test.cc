@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tests/tables/synthetic_table.h"
 
 namespace albtpu {

@@ -8,7 +8,7 @@
 
 #include "tables/file/hdf5.h"
 #include "tables/file/seal.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tests/tables/synthetic_table.h"
 #include "tests/temporary_folder.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "tables/query/block.h"
 #include "tables/query/column_query.h"
+#include "tables/query/pulse_block.h"
 #include "tables/query/sorted_pulses.h"
 #include "tests/instruction_sets.h"
 #include "tests/tables/query/asked_columns.h"

@@ -1,11 +1,10 @@
-#include "validation/laboratory/dispersion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "sea/spectra/wave_spectrum.h"
+#include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {
 namespace {

@@ -1,5 +1,3 @@
-#include "validation/laboratory/evolving_patch.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,8 @@
 #include <vector>
 
 #include "sea/sea_state.h"
-#include "validation/laboratory/dispersion.h"
+#include "validation/laboratory/virtual_tank.h"
+#include "validation/laboratory/wave_staff.h"
 
 namespace albtpu {
 namespace {

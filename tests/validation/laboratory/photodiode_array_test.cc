@@ -1,5 +1,3 @@
-#include "validation/laboratory/photodiode_array.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,8 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/surface/ray_tracer.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
+#include "validation/laboratory/virtual_tank.h"
 
 namespace albtpu {
 namespace {

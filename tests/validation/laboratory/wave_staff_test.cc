@@ -10,7 +10,6 @@
 
 #include "generator/math/random_stream.h"
 #include "generator/math/statistics.h"
-#include "validation/laboratory/dispersion.h"
 
 namespace albtpu {
 namespace {

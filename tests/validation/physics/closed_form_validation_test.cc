@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sea/angle.h"
-#include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/corrected_waves_study.h"
 
 namespace albtpu {
 namespace {

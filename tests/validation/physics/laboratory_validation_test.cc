@@ -10,7 +10,6 @@
 #include "generator/math/statistics.h"
 #include "sea/angle.h"
 #include "sea/response/closed_form.h"
-#include "validation/laboratory/dispersion.h"
 #include "validation/laboratory/virtual_tank.h"
 #include "validation/laboratory/wave_staff.h"
 

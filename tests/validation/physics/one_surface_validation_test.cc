@@ -13,7 +13,7 @@
 #include "generator/monte_carlo/monte_carlo.h"
 #include "generator/surface/ray_tracer.h"
 #include "generator/surface/wave_patch.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 
 namespace albtpu {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "validation/published/angle_method.h"
 #include "validation/published/published_angles.h"
 #include "validation/published/published_table.h"

@@ -10,7 +10,7 @@
 
 #include "absl/strings/str_format.h"
 #include "sea/angle.h"
-#include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/corrected_waves_study.h"
 
 namespace albtpu {
 namespace {

@@ -22,7 +22,7 @@
 #include "generator/monte_carlo/slope_moments.h"
 #include "generator/surface/discretization.h"
 #include "sea/angle.h"
-#include "sea/response/unresolved_waves.h"
+#include "sea/response/closed_form.h"
 #include "sea/sea_state.h"
 #include "tests/budget/air/air_forward.h"
 

@@ -3,7 +3,7 @@
 // It tries every fifth sea of a table, with all winds and fetches, or all of them, which takes twice as long:
 // ALBTPU_EVERY_SEA=1 survey_table_validation_test
 //
-// The nodes of the tables are balanced (generator/campaign/node_balance.h), which mixes the values of neighbours and
+// The nodes of the tables are balanced (generator/campaign/table_maker.h), which mixes the values of neighbours and
 // amplifies their random errors. The balance is inverted first.
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "generator/campaign/node_balance.h"
+#include "generator/campaign/table_maker.h"
 #include "sea/angle.h"
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "sea/response/sea_response.h"
-#include "sea/wave_state.h"
+#include "sea/sea_state.h"
 #include "tables/file/table_io.h"
-#include "validation/studies/closed_form_ratio.h"
+#include "validation/studies/corrected_waves_study.h"
 
 namespace albtpu {
 namespace {

@@ -1,11 +1,10 @@
-#include "validation/published/published_model.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "validation/published/published_angles.h"
+#include "validation/published/published_tables.h"
 
 namespace albtpu {
 namespace {

@@ -4,11 +4,10 @@
 
 #include <cmath>
 
-#include "sea/response/refraction.h"
+#include "sea/response/closed_form.h"
 #include "tables/file/table_io.h"
 #include "tables/query/interpolation.h"
 #include "validation/published/angle_method.h"
-#include "validation/published/published_model.h"
 
 namespace albtpu {
 namespace {

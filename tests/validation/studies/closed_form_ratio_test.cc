@@ -1,8 +1,8 @@
-#include "validation/studies/closed_form_ratio.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "validation/studies/corrected_waves_study.h"
 
 namespace albtpu {
 namespace {

@@ -1,11 +1,10 @@
-#include "validation/studies/observed_seas.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sea/spectra/wave_spectrum.h"
 #include "sea/spectra/wind_sea.h"
+#include "validation/studies/real_sea_study.h"
 
 namespace albtpu {
 namespace {

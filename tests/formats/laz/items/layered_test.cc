@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "formats/laz/chunk_table.h"
-#include "formats/laz/coding/byte_source.h"
+#include "formats/laz/coding/arithmetic_decoder.h"
 #include "formats/laz/coding/little_endian.h"
-#include "formats/laz/items/layered_decoder.h"
-#include "formats/laz/items/layered_encoder.h"
+#include "formats/laz/items/chunk_decoder.h"
 #include "formats/laz/items/point14_fields.h"
+#include "formats/laz/items/point_encoders.h"
 #include "tests/formats/laz/busy_points.h"
 #include "tests/formats/laz/laz_bytes.h"
 #include "tests/formats/laz/laz_sample.h"

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "formats/laz/coding/little_endian.h"
-#include "formats/laz/items/pointwise_decoder.h"
-#include "formats/laz/items/pointwise_encoder.h"
+#include "formats/laz/items/chunk_decoder.h"
+#include "formats/laz/items/point_encoders.h"
 #include "tests/formats/laz/busy_points.h"
 #include "tests/formats/laz/laz_bytes.h"
 #include "tests/formats/laz/laz_sample.h"

@@ -1,6 +1,6 @@
-#include "service/server/access/tokens.h"
-
 #include <gmock/gmock.h>
+
+#include "service/server/access/credentials.h"
 
 namespace albtpu::server {
 namespace {

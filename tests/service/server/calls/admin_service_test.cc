@@ -1,9 +1,8 @@
-#include "service/server/calls/admin_service.h"
-
 #include <gmock/gmock.h>
 
 #include <fstream>
 
+#include "service/server/calls/health_service.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

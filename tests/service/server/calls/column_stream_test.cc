@@ -4,7 +4,7 @@
 #include <chrono>
 #include <future>
 
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/server/ground/limits.h"
 #include "tests/service/known_seas.h"
 #include "tests/service/server/served_tables.h"

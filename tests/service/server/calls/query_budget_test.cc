@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "sea/table/sea_table.h"
-#include "service/client/sea_wire.h"
 #include "service/client/wire.h"
 #include "service/server/ground/limits.h"
 #include "tests/budget/query/budget_memory.h"

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "sea/table/sea_table.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/seas/sea_pulses.h"
-#include "tables/file/table_encoding.h"
+#include "tables/file/table_encoder.h"
 #include "tests/service/known_seas.h"
 #include "tests/service/server/served_tables.h"
 

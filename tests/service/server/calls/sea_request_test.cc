@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "google/rpc/error_details.pb.h"
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/server/ground/limits.h"
 #include "tests/service/known_seas.h"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "service/client/sea_wire.h"
+#include "service/client/wire.h"
 #include "service/server/calls/sea_request.h"
 #include "tests/service/known_seas.h"
 

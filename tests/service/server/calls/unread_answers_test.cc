@@ -1,9 +1,8 @@
-#include "service/server/calls/unread_answers.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
 
+#include "service/server/calls/uncertainty_service.h"
 #include "service/server/ground/limits.h"
 #include "service/server/observe/metrics.h"
 

@@ -1,11 +1,10 @@
-#include "service/server/connections/connection_calls.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <thread>
 
+#include "service/server/connections/connection_gate.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

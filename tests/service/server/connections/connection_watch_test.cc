@@ -1,5 +1,3 @@
-#include "service/server/connections/connection_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "service/server/connections/connection_gate.h"
 #include "service/server/ground/limits.h"
 #include "tests/service/server/served_tables.h"
 

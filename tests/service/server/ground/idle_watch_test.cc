@@ -1,9 +1,9 @@
-#include "service/server/ground/idle_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <future>
 #include <optional>
+
+#include "service/server/ground/periodic_task.h"
 
 namespace albtpu::server {
 namespace {

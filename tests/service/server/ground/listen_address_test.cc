@@ -1,6 +1,6 @@
-#include "service/server/ground/listen_address.h"
-
 #include <gmock/gmock.h>
+
+#include "service/server/ground/listening_sockets.h"
 
 namespace albtpu::server {
 namespace {

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "service/server/ground/limits.h"
-#include "service/server/observe/records.h"
 
 namespace albtpu::server {
 namespace {

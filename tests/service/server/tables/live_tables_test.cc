@@ -1,10 +1,9 @@
-#include "service/server/tables/live_tables.h"
-
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <future>
 
+#include "service/server/tables/table_catalog.h"
 #include "tests/service/server/served_tables.h"
 
 namespace albtpu::server {

@@ -1,0 +1,41 @@
+// The compressed bytes of a chunk of points of formats 0 to 5.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "formats/laz/coding/arithmetic_encoder.h"
+#include "formats/laz/items/chunk_encoder.h"
+#include "formats/laz/items/laszip_record.h"
+#include "formats/laz/items/layered_point.h"
+#include "formats/laz/items/pointwise_items.h"
+
+namespace albtpu::laz {
+
+class PointwiseEncoder : public ChunkEncoder {
+ public:
+  explicit PointwiseEncoder(const LaszipRecord& record)
+      : record_length_(record.record_length()), items_(record) {}
+
+  void Encode(std::string_view records, std::string& chunk) override;
+
+ private:
+  std::size_t record_length_;
+  PointwiseItems<ArithmeticEncoder> items_;
+  ArithmeticEncoder encoder_;
+};
+
+// Encodes the chunks of compressor 3; layered_decoder.h describes their parts.
+
+class LayeredEncoder : public ChunkEncoder {
+ public:
+  explicit LayeredEncoder(const LaszipRecord& record);
+  void Encode(std::string_view records, std::string& chunk) override;
+
+ private:
+  LayeredPoint<ArithmeticEncoder> point_;
+  std::size_t record_length_;
+};
+
+}  // namespace albtpu::laz
